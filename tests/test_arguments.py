@@ -49,7 +49,7 @@ def test_the_first_wrong_triangle_and_index_are_named(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", CALLS)
-def test_faces_that_count_from_one_are_told_so(name: str) -> None:
+def test_faces_that_count_from_one_are_reported_so(name: str) -> None:
     with pytest.raises(fairing.MeshError, match=r"INDEX_RANGE.*subtract 1 from those of an OBJ file"):
         CALLS[name](PATCH.triangles + 1)
 

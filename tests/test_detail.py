@@ -167,12 +167,14 @@ def test_a_collapsed_patch_has_no_detail(cap: Patch) -> None:
     old = cap.vertices.copy()
     old[cap.free] = 0
     result = fair(cap, old, detail=1.0)
-    assert ("REFERENCE_UNUSABLE", {"old_skin": 1.0}) in [(told.code, told.figures) for told in result.warnings]
+    assert ("REFERENCE_UNUSABLE", {"old_skin": 1.0}) in [
+        (reported.code, reported.figures) for reported in result.warnings
+    ]
     assert np.array_equal(result.base, result.vertices)
     assert result.converged
 
 
-def test_detail_without_room_is_told() -> None:
+def test_detail_without_room_is_reported() -> None:
     """Deep folds of a wide skin, on a base of half its size."""
     patch = shapes.plane(2000)
     old = rough(patch, 0.9)

@@ -56,7 +56,7 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     assert not result.polished
     assert result.provenance == "low_passed"
     assert (result.vertices[cap.fixed] == cap.vertices[cap.fixed]).all()
-    (warning,) = (told for told in result.warnings if told.code == "NO_SOLUTION")
+    (warning,) = (reported for reported in result.warnings if reported.code == "NO_SOLUTION")
     assert result.equation == "harmonic"
     edge = 2 * np.pi / len(cap.fixed)
     assert 0.25 * edge < warning.figures["distance"] < 1.5 * edge  # in diameters

@@ -133,7 +133,7 @@ def test_a_patch_without_area_is_blended_without_its_detail(clean: RoughSphere) 
     old[clean.free] = 0
     case = RoughSphere(clean.exact, clean.exact, old, clean.inside, clean.outside, clean.outline)
     result = case.fair(feather=WIDTH, detail=1.0)
-    assert "REFERENCE_UNUSABLE" in {told.code for told in result.warnings}
+    assert "REFERENCE_UNUSABLE" in {reported.code for reported in result.warnings}
     assert np.abs(case.heights(result.vertices, case.free)).max() < 3e-3
 
 
@@ -149,7 +149,7 @@ def test_the_mesh_border_stays(sphere: RoughSphere) -> None:
 def test_warnings_name_the_callers_triangles() -> None:
     sphere = rough_sphere(2000, noise=0.9, seed=3)
     result = sphere.fair(feather=WIDTH, detail=1.0)
-    named = [told.elements for told in result.warnings if told.kind == "triangle"]
+    named = [reported.elements for reported in result.warnings if reported.kind == "triangle"]
     assert sum(map(len, named))
     assert np.concatenate(named).max() < len(sphere.inside)
 

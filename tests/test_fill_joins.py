@@ -105,10 +105,12 @@ def test_a_rough_outline_keeps_the_tangent_join_and_says_so() -> None:
 
 
 def test_equations_without_such_a_join_are_refused_at_once() -> None:
-    told: list[str] = []
+    reported: list[str] = []
     with pytest.raises(ValueError, match="continuity: 'G2' is not accepted with equation 'least_variation'"):
-        filled("torus", 20, continuity="G2", equation="least_variation", progress=lambda _, stage: told.append(stage))
-    assert not told
+        filled(
+            "torus", 20, continuity="G2", equation="least_variation", progress=lambda _, stage: reported.append(stage)
+        )
+    assert not reported
 
 
 def test_two_outlines_without_faces_around_have_no_curvature_to_continue() -> None:

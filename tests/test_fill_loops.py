@@ -98,12 +98,12 @@ def test_the_outside_of_a_sheet_is_left_open_and_named() -> None:
 
 def test_a_mesh_without_holes_is_refused_at_once() -> None:
     vertices, triangles = holes.sheet(wavy, (30, 30), lambda u, v: np.zeros(u.shape, dtype=bool))
-    told: list[str] = []
+    reported: list[str] = []
     with pytest.raises(fairing.MeshError, match="around the outside of a sheet") as caught:
-        fairing.fill(vertices, triangles, progress=lambda _, stage: told.append(stage))
+        fairing.fill(vertices, triangles, progress=lambda _, stage: reported.append(stage))
     assert caught.value.code == "NOT_A_HOLE"
     assert {*caught.value.elements} == {*fairing.boundary_loops(triangles)[0]}
-    assert not told
+    assert not reported
 
 
 def refused(code: str, elements: set[int], turned: bool, vertices: FloatArray, loops: Any, normals: FloatArray) -> str:

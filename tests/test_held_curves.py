@@ -29,7 +29,7 @@ def test_both_sides_of_a_crease_come_back(make: object, seed: int) -> None:
     assert result.converged
     assert result.equation == "least_variation"
     assert patch.error(result.vertices) < 1e-9
-    assert not {"SHARP_BOUNDARY", "PIN_NORMAL_IGNORED", "NO_SOLUTION"} & {told.code for told in result.warnings}
+    assert not {"SHARP_BOUNDARY", "PIN_NORMAL_IGNORED", "NO_SOLUTION"} & {reported.code for reported in result.warnings}
     assert (result.boundary_angle[np.isin(result.fixed, patch.curve)] == 0).all()
 
 
@@ -104,9 +104,9 @@ def test_slopes_have_to_be_those_of_fixed_vertices() -> None:
         fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.free[:1])
     with pytest.raises(ValueError, match="is named by creases and by smooth_curves"):
         fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.curve[1:2], smooth_curves=patch.curve[1:2])
-    with pytest.raises(fairing.MeshError, match="smooth_curves names vertex 999999") as told:
+    with pytest.raises(fairing.MeshError, match="smooth_curves names vertex 999999") as reported:
         fairing.fair(patch.vertices, patch.triangles, **given, smooth_curves=[999999])
-    assert told.value.code == "INDEX_RANGE"
+    assert reported.value.code == "INDEX_RANGE"
     with pytest.raises(ValueError, match="creases: not accepted by method 'paper'"):
         fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.curve, method="paper")
 
@@ -165,7 +165,7 @@ def within(patch: Creased, near: np.ndarray) -> dict[str, np.ndarray]:  # type: 
     }  # fmt: skip
 
 
-def test_a_mended_outline_does_not_follow_creases_outside() -> None:
+def test_a_fitted_boundary_does_not_follow_creases_outside() -> None:
     """Refused where a crease runs into the outline, beyond which triangles stand; the rim of a lid is whole inside."""
     box = creased.box_edge(8)
     middle = within(box, np.abs(box.vertices[box.triangles].mean(axis=1)[:, 1] - 0.5) < 0.3)
@@ -173,8 +173,8 @@ def test_a_mended_outline_does_not_follow_creases_outside() -> None:
         fairing.fair(box.noisy(0.1), outline="mended", **middle)
     lid = creased.lid(6)
     upper = within(lid, lid.vertices[lid.triangles].mean(axis=1)[:, 2] > -0.45)
-    given, mended = (fairing.fair(lid.noisy(0.04), outline=how, **upper) for how in ("given", "mended"))
+    given, fitted = (fairing.fair(lid.noisy(0.04), outline=how, **upper) for how in ("given", "mended"))
     assert given.converged
-    assert mended.converged
-    assert len(mended.moved) > 0
-    assert lid.error(mended.vertices) < 0.9 * lid.error(given.vertices)
+    assert fitted.converged
+    assert len(fitted.moved) > 0
+    assert lid.error(fitted.vertices) < 0.9 * lid.error(given.vertices)

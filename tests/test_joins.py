@@ -57,7 +57,7 @@ def with_curvature(patch: Patch, curvatures: FloatArray, **options: Any) -> fair
     return fair_patch(patch, tolerance=1e-6, continuity="G2", fixed_curvatures=curvatures, **options)
 
 
-def told(result: fairing.FairResult) -> set[str]:
+def reported(result: fairing.FairResult) -> set[str]:
     """The figures of the one warning, G2_NOT_MET."""
     (warning,) = result.warnings
     assert warning.code == "G2_NOT_MET"
@@ -157,14 +157,14 @@ def test_tangent_join_where_no_surface_has_the_curvature() -> None:
     patch, tangent, _ = joined("cubic", 1000)
     curved = with_curvature(patch, np.full(len(patch.fixed), -300.0))
     assert curved.continuity == "G1"
-    assert told(curved) == {"not_found", "vertices", "outline_vertices"}
+    assert reported(curved) == {"not_found", "vertices", "outline_vertices"}
     np.testing.assert_array_equal(curved.vertices, tangent.vertices)
 
 
 def test_unknown_curvature_is_left_to_the_surface() -> None:
     patch, tangent, _ = joined("cubic", 1000)
     nothing = with_curvature(patch, np.full(len(patch.fixed), np.nan))
-    assert told(nothing) == {"vertices", "outline_vertices"}
+    assert reported(nothing) == {"vertices", "outline_vertices"}
     np.testing.assert_array_equal(nothing.vertices, tangent.vertices)
     part = patch.mean_curvature[patch.fixed].copy()
     order = np.argsort(patch.vertices[patch.fixed] @ [0.0, 0.0, 1.0])
@@ -183,7 +183,7 @@ def test_noise_is_not_followed() -> None:
     patch, tangent, _ = joined("torus", 1000)
     noise = np.random.default_rng(4).normal(0.0, 0.5, len(patch.fixed))
     rough = with_curvature(patch, patch.mean_curvature[patch.fixed] + noise)
-    assert told(rough) == {"smooth_share", "vertices", "outline_vertices"}
+    assert reported(rough) == {"smooth_share", "vertices", "outline_vertices"}
     assert rough.warnings[0].figures["smooth_share"] < 1 / 3
     assert f"all {len(patch.fixed)} boundary vertices" in str(rough.warnings[0])
     np.testing.assert_array_equal(rough.vertices, tangent.vertices)

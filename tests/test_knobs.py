@@ -1,4 +1,4 @@
-"""Knobs are told from what a surface must do: by Gauss and Bonnet a round bump of slope θ turns by 2π (1 − cos θ)."""
+"""Knobs against what a surface must do: by Gauss and Bonnet a round bump of slope θ turns by 2π (1 − cos θ)."""
 
 from __future__ import annotations
 

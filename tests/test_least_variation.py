@@ -147,7 +147,7 @@ def test_the_published_method_does_not_have_it() -> None:
         tubes.pipe(3.0).faired(method="paper")
 
 
-def test_an_outline_that_makes_no_sense_is_told_not_refused() -> None:
+def test_an_outline_that_makes_no_sense_is_reported_not_refused() -> None:
     """Normals that point to and fro on a flat tube of seven columns: the energy of coarse meshes is NaN there."""
     tube = tubes.pipe(2.0, seed=3, around=7)
     flat = np.array([1.0, 0.05, 1.0])

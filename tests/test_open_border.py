@@ -25,7 +25,7 @@ def test_a_noisy_window_comes_back(kind: Kind, around: int) -> None:
     assert result.equation == "least_variation"
     assert window.off_surface(result.vertices).max() < 1e-6
     assert window.off_border(result.vertices) < 0.55 * window.off_border(start)
-    assert "OPEN_BORDER_IN_SELECTION" not in {told.code for told in result.warnings}
+    assert "OPEN_BORDER_IN_SELECTION" not in {reported.code for reported in result.warnings}
     assert np.isin(window.border, result.fixed).sum() == 0
     assert np.array_equal(result.vertices[window.outline], start[window.outline])
 
@@ -45,7 +45,7 @@ def test_a_held_border_stays() -> None:
     start = window.noisy(0.25, 4)
     result = fair(window, start)
     assert np.array_equal(result.vertices[window.border], start[window.border])
-    assert "OPEN_BORDER_IN_SELECTION" in {told.code for told in result.warnings}
+    assert "OPEN_BORDER_IN_SELECTION" in {reported.code for reported in result.warnings}
 
 
 def test_a_border_between_held_ends_meets_them() -> None:

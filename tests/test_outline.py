@@ -82,25 +82,25 @@ def test_normals_of_noisy_surroundings(noise: float) -> None:
     assert 0.4 < np.median(np.concatenate(angles) / np.concatenate(errors)) < 1.6
 
 
-def test_a_clean_outline_is_not_mended() -> None:
+def test_a_clean_outline_is_not_fitted() -> None:
     case = ball(0.0)
-    mended = fairing.mend_outline(case.exact, case.outside, case.outline)
-    assert len(mended.moved) == len(mended.held) == 0
-    assert np.array_equal(mended.vertices, case.exact)
+    fitted = fairing.mend_outline(case.exact, case.outside, case.outline)
+    assert len(fitted.moved) == len(fitted.held) == 0
+    assert np.array_equal(fitted.vertices, case.exact)
 
 
 def test_mending_keeps_all_beyond_two_rings() -> None:
     case = ball(0.1)
-    mended = fairing.mend_outline(case.noisy, case.outside, case.outline)
+    fitted = fairing.mend_outline(case.noisy, case.outside, case.outline)
     reached = case.outline
     for _ in range(2):
         reached = np.union1d(reached, case.outside[np.isin(case.outside, reached).any(axis=1)])
-    assert np.isin(case.outline, mended.moved).all()
-    assert np.isin(mended.moved, reached).all()
-    rest = np.setdiff1d(np.arange(len(case.noisy)), mended.moved)
-    assert np.array_equal(mended.vertices[rest], case.noisy[rest])
+    assert np.isin(case.outline, fitted.moved).all()
+    assert np.isin(fitted.moved, reached).all()
+    rest = np.setdiff1d(np.arange(len(case.noisy)), fitted.moved)
+    assert np.array_equal(fitted.vertices[rest], case.noisy[rest])
     before = np.linalg.norm(case.noisy[case.outline], axis=1) - 1
-    after = np.linalg.norm(mended.vertices[case.outline], axis=1) - 1
+    after = np.linalg.norm(fitted.vertices[case.outline], axis=1) - 1
     assert np.sqrt((after**2).mean()) < 0.6 * np.sqrt((before**2).mean())
 
 
@@ -109,26 +109,26 @@ def options_of(case: Ball) -> dict[str, Any]:
     return {"fixed": case.outline, "fixed_normals": found.normals, "outside": case.outside}
 
 
-def test_a_mended_rim_is_smooth() -> None:
+def test_a_fitted_rim_is_smooth() -> None:
     """Means are 8.5° and 3.6°."""
     before, after = [], []
     for seed in range(4):
         case = ball(0.1, seed)
         given = fairing.fair(case.noisy, case.inside, **options_of(case))
-        mended = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
-        assert mended.converged and len(given.moved) == 0
-        rest = np.setdiff1d(case.outside, mended.moved)
-        assert np.array_equal(mended.vertices[rest], case.noisy[rest])
+        fitted = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
+        assert fitted.converged and len(given.moved) == 0
+        rest = np.setdiff1d(case.outside, fitted.moved)
+        assert np.array_equal(fitted.vertices[rest], case.noisy[rest])
         before.append(rim_error(case, given.vertices))
-        after.append(rim_error(case, mended.vertices))
+        after.append(rim_error(case, fitted.vertices))
     assert np.mean(after) < 0.5 * np.mean(before)
 
 
-def test_a_clean_outline_gives_the_same_bits_mended() -> None:
+def test_a_clean_outline_gives_the_same_bits_fitted() -> None:
     case = ball(0.0)
     given = fairing.fair(case.noisy, case.inside, **options_of(case))
-    mended = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
-    assert np.array_equal(given.vertices, mended.vertices)
+    fitted = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
+    assert np.array_equal(given.vertices, fitted.vertices)
 
 
 def test_mending_without_an_outside_is_refused() -> None:
@@ -139,22 +139,22 @@ def test_mending_without_an_outside_is_refused() -> None:
         fairing.fair(case.noisy, case.inside, outline="smoothed")
 
 
-def answers(case: Ball, mended_folds: int, given_folds: int) -> tuple[dict[str, Any], list[_mending.Boundary]]:
+def answers(case: Ball, fitted_folds: int, given_folds: int) -> tuple[dict[str, Any], list[_mending.Boundary]]:
     """What comes of mending when the solves have these numbers of folded triangles; and the boundaries asked for."""
     asked: list[_mending.Boundary] = []
 
     def call(boundary: _mending.Boundary) -> dict[str, Any]:
         asked.append(boundary)
-        count = given_folds if boundary.vertices is case.noisy else mended_folds
+        count = given_folds if boundary.vertices is case.noisy else fitted_folds
         folds = fairing.Diagnostic("FLIPPED_TRIANGLES", "", np.arange(count, dtype=np.int32), "triangle")
         return {"converged": True, "warnings": (folds,) if count else (), "vertices": case.exact}  # joins without kinks
 
     given = _mending.Boundary(case.noisy, None, None)
     around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
-    return _mending.solve_mended(call, given, case.inside, around), asked
+    return _mending.solve_fitted(call, given, case.inside, around), asked
 
 
-def test_a_mended_outline_that_folds_the_patch_is_given_up() -> None:
+def test_a_fitted_boundary_that_folds_the_patch_is_given_up() -> None:
     case = ball(0.1)
     answer, asked = answers(case, 2, 0)
     assert "moved" not in answer and len(asked) == 2

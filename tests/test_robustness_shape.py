@@ -130,7 +130,7 @@ def test_needles_in_the_reference(ratio: float, method: str, kind: str) -> None:
 
 
 @in_all_ways
-def test_a_creased_outline_is_told(method: str, kind: str) -> None:
+def test_a_creased_outline_is_reported(method: str, kind: str) -> None:
     """Normals that jump by 140° where the outline crosses a crease: which vertices, and how well they were met."""
     result = hard_inputs.creased(shapes.plane(150)).fair(method=method, inner_fairness=kind)
     (warning,) = (w for w in result.warnings if w.code == "SHARP_BOUNDARY")

@@ -1,4 +1,4 @@
-"""Hard edges that a smoothed outline rounds are told from noise."""
+"""Hard edges that a smoothed outline rounds are distinguished from noise."""
 
 from __future__ import annotations
 

@@ -256,7 +256,7 @@ def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:
         fold.vertices, fold.triangles, np.linalg.norm(fold.vertices[:, :2] - [0.0, 0.5], axis=1) < 0.33, ()
     )
     result = filled(hole)
-    (warning,) = [told for told in result.warnings if told.code == "EDGES_LEFT_ALONE"]
+    (warning,) = [reported for reported in result.warnings if reported.code == "EDGES_LEFT_ALONE"]
     assert warning.figures == {"ends": 1.0, "lonely": 1.0}
     assert np.abs(hole.vertices[warning.elements, 0]).max() < 1e-9
     assert str(warning).endswith("no other one goes on from there")

@@ -114,7 +114,7 @@ def test_the_pin_acts_on_its_own_side_of_a_slit() -> None:
     fixed = np.append(held, pin)
     result = fairing.fair(vertices, triangles, fixed=fixed, fixed_normals=np.tile([0.0, 0.0, 1.0], (len(fixed), 1)))
     assert result.converged
-    assert "PINS_NOT_SPREAD" not in {told.code for told in result.warnings}
+    assert "PINS_NOT_SPREAD" not in {reported.code for reported in result.warnings}
     beyond = (s < 0.5 - 1e-9) & (t > 0.4)
     assert np.abs(result.vertices[beyond, 2]).max() < 0.01 * 0.02
 
@@ -127,7 +127,7 @@ def test_the_surface_of_least_variation_needs_no_radius() -> None:
         patch.vertices, patch.triangles, fixed=np.concatenate([patch.fixed, pins]),
         fixed_normals=np.vstack([patch.fixed_normals, np.zeros((len(pins), 3))]), equation="least_variation",
     )  # fmt: skip
-    assert "PINS_NOT_SPREAD" not in {told.code for told in result.warnings}
+    assert "PINS_NOT_SPREAD" not in {reported.code for reported in result.warnings}
     assert patch.error(result.vertices) < 1e-9
 
 
@@ -155,7 +155,7 @@ def test_a_pin_pulled_sideways_has_a_radius_too(pull: float) -> None:
     for n_free in (500, 1000):
         result, patch, apex = pulled_sideways(n_free, pull)
         assert result.converged
-        assert not {told.code for told in result.warnings}
+        assert not {reported.code for reported in result.warnings}
         assert len(fairing.flipped_triangles(result.vertices, patch.triangles)) == 0
         peaks.append(float(result.mean_curvature[apex]) * size(patch))
     assert peaks[0] == pytest.approx(peaks[1], rel=0.03)
@@ -188,18 +188,18 @@ def test_pins_far_from_their_surface_are_led_there() -> None:
 
 def test_a_far_pin_lifts_a_hill_not_a_needle() -> None:
     """0.3 D: beside the surface there is a needle, on one ring of triangles, which converges as well."""
-    told = []
+    reported = []
     for n_free in (400, 1600):
         patch = shapes.plane(n_free)
         pin = near(patch, [(0.0, 0.0)])
         result, _ = lifted(patch, pin, [0.3])
         assert result.converged
         assert not result.warnings
-        told.append(float(result.mean_curvature[pin[0]]) * size(patch))
-    assert told[0] == pytest.approx(told[1], rel=0.05)
+        reported.append(float(result.mean_curvature[pin[0]]) * size(patch))
+    assert reported[0] == pytest.approx(reported[1], rel=0.05)
 
 
-def test_the_tip_of_a_needle_is_told() -> None:
+def test_the_tip_of_a_needle_is_reported() -> None:
     """As far as the patch is wide, with or without a radius, and in least variation; not on a low hill."""
     patch = shapes.plane(100)
     pin = near(patch, [(0.0, 0.0)])
@@ -207,7 +207,7 @@ def test_the_tip_of_a_needle_is_told() -> None:
         for how in ({}, {"pin_radius": 0.0}, {"equation": "least_variation"}):
             result, _ = lifted(patch, pin, [lift], **how)  # type: ignore[arg-type]
             assert result.converged or sharp  # at a tip the variation is infinite: its descent may stall
-            named = [list(told.elements) for told in result.warnings if "tips" in told.figures]
+            named = [list(reported.elements) for reported in result.warnings if "tips" in reported.figures]
             assert named == ([[pin[0]]] if sharp else [])
 
 
@@ -224,7 +224,7 @@ def test_pins_keep_to_points_where_the_curvature_is_joined() -> None:
         )  # fmt: skip
         assert result.converged
         assert result.continuity == "G2"
-        codes.append([(told.code, list(told.elements)) for told in result.warnings])
+        codes.append([(reported.code, list(reported.elements)) for reported in result.warnings])
     assert codes[0] == [("PINS_NOT_SPREAD", [pins[0]])]
     assert codes[1] == []
 
@@ -234,7 +234,7 @@ def test_pins_that_are_too_much_say_so() -> None:
     patch = shapes.plane(600)
     pins = near(patch, [(-0.04, 0.0), (0.04, 0.0)])
     result, _ = lifted(patch, pins, [1.0, -1.0], otherwise="stop")
-    named = [set(told.elements) for told in result.warnings if told.code == "PINS_NOT_SPREAD"]
+    named = [set(reported.elements) for reported in result.warnings if reported.code == "PINS_NOT_SPREAD"]
     assert named == [set(pins), set(pins)]  # tips of needles, and in points
 
 

@@ -29,7 +29,7 @@ def ribbon(degrees: float, across: int = 8, per_turn: int = 100) -> tuple[FloatA
     return vertices, np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
 
 
-def test_a_surface_through_itself_is_told() -> None:
+def test_a_surface_through_itself_is_reported() -> None:
     """Crossings lie on the middle line of the doubled part, and nowhere else."""
     vertices, triangles = ribbon(430.0)
     result = fairing.fair(vertices, triangles)
@@ -81,7 +81,7 @@ def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() ->
 
 
 @pytest.mark.parametrize("kind", ["conformal", "inverse_distance", "shape_preserving"])
-def test_a_reference_that_carries_no_texture_is_told_and_left_out(kind: str) -> None:
+def test_a_reference_that_carries_no_texture_is_reported_and_left_out(kind: str) -> None:
     """A crumpled or a collapsed M0: the answer is the uniform one, bit for bit."""
     uniform = fair_patch(CAP)
     collapsed = CAP.vertices.copy()
@@ -114,7 +114,7 @@ def test_weights_that_turn_triangles_over_give_way_to_uniform_ones() -> None:
     assert np.abs(result.vertices - uniform.vertices).max() < 1e-8
 
 
-def test_coordinates_too_far_from_the_origin_are_told() -> None:
+def test_coordinates_too_far_from_the_origin_are_reported() -> None:
     """Doubles near 1e12 are 1e-4 apart; edges of the patch are 0.06 long."""
     near = fairing.fair(CAP.vertices + 1e6, CAP.triangles, fixed=CAP.fixed, fixed_normals=CAP.fixed_normals)
     assert "PRECISION" not in codes(near)

@@ -136,18 +136,18 @@ def bad_outline(problem: Problem) -> Ints:
 
 
 @dataclass(frozen=True)
-class Mended:
+class FittedBoundary:
     """A boundary moved onto the fit of its surroundings."""
 
     vertices: Ints  # (k,) of the mesh that move
     points: Floats  # (k, 3) where to, in world space
 
 
-def mended_outline(problem: Problem) -> Mended:
+def fitted_boundary(problem: Problem) -> FittedBoundary:
     """Return where the boundary and the two rings around it go, as far as it is noisy."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
-    mended = fairing.mend_outline(problem.points, problem.outside, rim)
-    return Mended(problem.vertices[mended.moved], mended.vertices[mended.moved])
+    fitted = fairing.mend_outline(problem.points, problem.outside, rim)
+    return FittedBoundary(problem.vertices[fitted.moved], fitted.vertices[fitted.moved])
 
 
 def islands(patch: Patch) -> int:

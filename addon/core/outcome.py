@@ -39,7 +39,7 @@ class Fairing:
     curvature: tuple[float, float]  # largest |H| inside and on the boundary, in 1/length
     join: Join
     verdict: Verdict
-    free_count: int  # of the patch; `vertices` beyond it belong to a mended boundary or a band
+    free_count: int  # of the patch; `vertices` beyond it belong to a fitted boundary or a band
 
 
 def outcome(

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Ints, Mask
-from ..core.engine import REFUSALS, bad_outline, mended_outline
+from ..core.engine import REFUSALS, bad_outline, fitted_boundary
 from ..core.options import FairOptions
 from ..core.region import MeshArrays, to_local
 from ..core.selection import grown_until_smooth, left_out_faces, problem_of
@@ -114,9 +114,9 @@ class MESH_OT_fair_add_left_out(_Tool, bpy.types.Operator):
 
 
 def _smooth(obj: bpy.types.Object, task: job.Task) -> int:
-    mended = mended_outline(problem_of(task.mesh, task.matrix))
-    mesh_io.write_edit_mesh(obj.data, mended.vertices, to_local(mended.points, task.matrix))
-    return len(mended.vertices)
+    fitted = fitted_boundary(problem_of(task.mesh, task.matrix))
+    mesh_io.write_edit_mesh(obj.data, fitted.vertices, to_local(fitted.points, task.matrix))
+    return len(fitted.vertices)
 
 
 class MESH_OT_fair_smooth_outline(_Tool, bpy.types.Operator):

@@ -174,10 +174,10 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
         const KeptEdges staying = edges_among(patch, pairs);
         const TargetSurface surface(patch, old.points, old.normals, staying);
         const VectorX lengths = old.lengths(wanted, staying);
-        EvenMesh even(patch, old.points, surface, lengths, staying);
+        EqualEdgeMesh even(patch, old.points, surface, lengths, staying);
         even.make_even();
         if (!wanted.flat) even.mend_angles();
-        const EvenMesh::Result made = even.result();
+        const EqualEdgeMesh::Result made = even.result();
         assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
         for (const SurfacePoint& where : made.where) {
             result.triangle.push_back(patch.input_triangle[where.triangle]);

@@ -2,13 +2,13 @@
 #include "base/parallel.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
+#include "boundary/bad_boundary.h"
+#include "boundary/boundary_fit.h"
+#include "boundary/chain_end.h"
+#include "boundary/feather.h"
+#include "boundary/fitted_boundary.h"
+#include "boundary/least_variation_curve.h"
 #include "geometry/hard_edges.h"
-#include "outline/bad_outline.h"
-#include "outline/chain_end.h"
-#include "outline/boundary_fit.h"
-#include "outline/feather.h"
-#include "outline/least_variation_curve.h"
-#include "outline/mended_outline.h"
 
 namespace fairing::bindings {
 
@@ -91,8 +91,8 @@ std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, co
     return {from_points(result.base), from_points(result.soft)};
 }
 
-py::dict mended_outline_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
-    const MendedOutline result = mend_outline(to_points(vertices), to_triangles(triangles), to_indices(outline));
+py::dict fitted_boundary_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
+    const FittedBoundary result = fitted_boundary(to_points(vertices), to_triangles(triangles), to_indices(outline));
     py::dict dict = to_dict(result.normals);
     dict["vertices"] = from_points(result.vertices);
     dict["moved"] = from_indices(result.moved);
@@ -125,7 +125,7 @@ void bind_outline(py::module_& module) {
     module.def("boundary_normals", &boundary_normal_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("at"), py::arg("creases"), py::arg("all_inside"));
     module.def("bad_outline", &bad_outline_array, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
-    module.def("mend_outline", &mended_outline_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
+    module.def("mend_outline", &fitted_boundary_arrays, py::arg("vertices"), py::arg("outside"), py::arg("outline"));
     module.def("feather_weights", &feather_weight_array, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("width"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),

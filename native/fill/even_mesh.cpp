@@ -28,8 +28,8 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 
 }  // namespace
 
-EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
-                   KeptEdges kept)
+EqualEdgeMesh::EqualEdgeMesh(const Patch& patch, const Points& points, const TargetSurface& surface,
+                             const VectorX& lengths, KeptEdges kept)
     : patch_(&patch),
       points_(&points),
       surface_(&surface),
@@ -54,19 +54,19 @@ EvenMesh::EvenMesh(const Patch& patch, const Points& points, const TargetSurface
     }
 }
 
-double EvenMesh::relative_length(Edge e) const {
+double EqualEdgeMesh::relative_length(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     const double wanted = wanted_[mesh_.from_vertex_handle(h).idx()] + wanted_[mesh_.to_vertex_handle(h).idx()];
     return 2.0 * mesh_.calc_edge_length(e) / wanted;
 }
 
-bool EvenMesh::is_chord(Edge e) const {
+bool EqualEdgeMesh::is_chord(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     return !stays(e) && fixed(mesh_.from_vertex_handle(h)) && fixed(mesh_.to_vertex_handle(h));
 }
 
 // A corner that is sharper stays one triangle: halved, its angle would be too small.
-bool EvenMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
+bool EqualEdgeMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
     for (const unsigned side : {0U, 1U}) {
         const Halfedge h = mesh_.halfedge_handle(e, side);
         const Halfedge next = mesh_.next_halfedge_handle(h);
@@ -83,7 +83,7 @@ bool EvenMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
 }
 
 // The place on the surface that a walk from `triangle` finds.
-void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
+void EqualEdgeMesh::put(Vertex v, const Vector3& position, int triangle) {
     const SurfacePoint where = surface_->project(position, triangle);
     where_[v.idx()] = where;
     mesh_.set_point(v, surface_->position(where));
@@ -92,7 +92,7 @@ void EvenMesh::put(Vertex v, const Vector3& position, int triangle) {
 
 // A triangle of the surface on this side of all kept edges. Only an edge that was always there has none but fixed
 // vertices around.
-int EvenMesh::triangle_beside(Edge e) const {
+int EqualEdgeMesh::triangle_beside(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     for (const Vertex v :
          {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h), apex(mesh_.halfedge_handle(e, 1))}) {
@@ -101,7 +101,7 @@ int EvenMesh::triangle_beside(Edge e) const {
     return patch_->edge_triangles[e.idx()][0];
 }
 
-EvenMesh::Vertex EvenMesh::split(Edge e) {
+EqualEdgeMesh::Vertex EqualEdgeMesh::split(Edge e) {
     const int beside = triangle_beside(e);
     const Vector3 middle = mesh_.calc_edge_midpoint(e);
     const Vertex v = mesh_.add_vertex(middle);
@@ -115,7 +115,7 @@ EvenMesh::Vertex EvenMesh::split(Edge e) {
     return v;
 }
 
-int EvenMesh::split_chords(const Points& normals) {
+int EqualEdgeMesh::split_chords(const Points& normals) {
     int splits = 0;
     const auto count = mesh_.n_edges();
     for (unsigned k = 0; k < count; ++k) {
@@ -128,7 +128,7 @@ int EvenMesh::split_chords(const Points& normals) {
 }
 
 // Longest first.
-int EvenMesh::split_long() {
+int EqualEdgeMesh::split_long() {
     std::vector<QueuedEdge> long_edges;
     for (const Edge e : mesh_.edges()) {
         if (stays(e)) continue;
@@ -144,7 +144,7 @@ int EvenMesh::split_long() {
 }
 
 // Whether the edges that a collapse of h makes are longer than any should be.
-bool EvenMesh::makes_long_edges(Halfedge h) const {
+bool EqualEdgeMesh::makes_long_edges(Halfedge h) const {
     const Vertex kept = mesh_.to_vertex_handle(h);
     const Vector3 place = point(kept);
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
@@ -155,7 +155,7 @@ bool EvenMesh::makes_long_edges(Halfedge h) const {
 }
 
 // Whether the vertex at the start of h may move into its end. What stops most is asked first.
-bool EvenMesh::may_collapse(Halfedge h) {
+bool EqualEdgeMesh::may_collapse(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || makes_long_edges(h)) return false;
@@ -174,7 +174,7 @@ bool EvenMesh::may_collapse(Halfedge h) {
 }
 
 // Shortest first.
-int EvenMesh::collapse_short() {
+int EqualEdgeMesh::collapse_short() {
     ShortestFirst queue;
     const auto push = [&](Edge e) {
         const double length = relative_length(e);
@@ -200,7 +200,7 @@ int EvenMesh::collapse_short() {
     return collapses;
 }
 
-bool EvenMesh::may_flip(Edge e) const {
+bool EqualEdgeMesh::may_flip(Edge e) const {
     if (stays(e) || !mesh_.is_flip_ok(e)) return false;
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     const Vertex above = apex(h);
@@ -209,14 +209,14 @@ bool EvenMesh::may_flip(Edge e) const {
     return diagonal(e).flips_without_fold();
 }
 
-Diagonal EvenMesh::diagonal(Edge e) const {
+Diagonal EqualEdgeMesh::diagonal(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     return {point(mesh_.from_vertex_handle(h)), point(mesh_.to_vertex_handle(h)), point(apex(h)),
             point(apex(mesh_.halfedge_handle(e, 1)))};
 }
 
 // An edge is looked at again where a flip has changed a triangle beside it, or where it may not flip yet.
-int EvenMesh::flip_edges() {
+int EqualEdgeMesh::flip_edges() {
     std::vector<char> pending(mesh_.n_edges(), 1);
     int flips = 0;
     for (int round = 0; round < most_rounds; ++round) {
@@ -238,7 +238,7 @@ int EvenMesh::flip_edges() {
 }
 
 // Of the two triangles beside it.
-std::array<EvenMesh::Edge, 4> EvenMesh::sides_around(Edge e) const {
+std::array<EqualEdgeMesh::Edge, 4> EqualEdgeMesh::sides_around(Edge e) const {
     std::array<Edge, 4> sides;
     std::size_t count = 0;
     for (const unsigned k : {0U, 1U}) {
@@ -251,7 +251,7 @@ std::array<EvenMesh::Edge, 4> EvenMesh::sides_around(Edge e) const {
 
 // Each free vertex to the centroid of its star, where large triangles count more: those around come to one size, in
 // units of the wanted length.
-void EvenMesh::smooth(int sweeps) {
+void EqualEdgeMesh::smooth(int sweeps) {
     const int count = static_cast<int>(mesh_.n_vertices());
     std::vector<SurfacePoint> moved(count);
     for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -284,7 +284,7 @@ void EvenMesh::smooth(int sweeps) {
     }
 }
 
-void EvenMesh::make_even() {
+void EqualEdgeMesh::make_even() {
     constexpr int most_sweeps = 20;
     constexpr int large = 10'000;
     int settled = 0;

@@ -14,11 +14,11 @@ namespace fairing {
 
 // Begins as the triangles of the surface's own patch, whose fixed vertices, border edges and kept edges stay. The other
 // vertices come, go and slide on the surface until the edges are as long as wanted. Deterministic.
-class EvenMesh {
+class EqualEdgeMesh {
 public:
     // Needs one free vertex. `lengths`: wanted at the vertices of `patch`. Keeps references.
-    EvenMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
-             KeptEdges kept = {});
+    EqualEdgeMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
+                  KeptEdges kept = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void make_even();
     // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: then once more, so that
@@ -88,7 +88,7 @@ private:
     [[nodiscard]] bool may_close(Halfedge h);
     void centre(std::span<const Vertex> vertices);
     int turn_edge(Edge e);
-    [[nodiscard]] std::vector<std::function<int(EvenMesh&)>> remedies(Face f);
+    [[nodiscard]] std::vector<std::function<int(EqualEdgeMesh&)>> remedies(Face f);
     [[nodiscard]] std::vector<Face> bad_faces() const;
     bool mend(Face f);
     void mend_bad_faces();
@@ -102,7 +102,7 @@ private:
     std::vector<SurfacePoint> where_;
     std::vector<double> wanted_;
     int free_count_;
-    bool worst_counts_ = false;  // among angles that can't all be mended; otherwise their sum does
+    bool worst_counts_ = false;  // among angles that can't all be repaired; otherwise their sum does
 };
 
 }  // namespace fairing

@@ -3,9 +3,11 @@
 
 namespace fairing {
 
-bool EvenMesh::fixed_in_patch(Vertex v) const { return v.idx() < patch_->vertex_count() && !patch_->is_free(v.idx()); }
+bool EqualEdgeMesh::fixed_in_patch(Vertex v) const {
+    return v.idx() < patch_->vertex_count() && !patch_->is_free(v.idx());
+}
 
-EvenMesh::Result EvenMesh::result() const {
+EqualEdgeMesh::Result EqualEdgeMesh::result() const {
     Result result;
     Indices number(mesh_.n_vertices(), none);
     for (const Vertex v : mesh_.vertices()) {

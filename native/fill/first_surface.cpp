@@ -96,8 +96,8 @@ struct Meshed {
     Points points;
 };
 
-Meshed meshed(const EvenMesh& mesh, const Points& outline) {
-    EvenMesh::Result made = mesh.result();
+Meshed meshed(const EqualEdgeMesh& mesh, const Points& outline) {
+    EqualEdgeMesh::Result made = mesh.result();
     Points points(3, made.points.cols() + outline.cols());
     points << made.points, outline;
     const int free_count = static_cast<int>(made.points.cols());
@@ -112,7 +112,7 @@ Meshed first_mesh(const OpenOutline& outline, Equation equation) {
     const Points flat = Points::Zero(3, snapshot.points.cols());
     const TargetSurface surface(snapshot.patch, snapshot.points, flat);
     const VectorX lengths = VectorX::Ones(snapshot.points.cols());
-    EvenMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
+    EqualEdgeMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
     chordless.split_chords(outline.normals);
     return meshed(chordless, outline.points);
 }
@@ -155,7 +155,7 @@ Meshed even_mesh(const OpenOutline& outline, const Patch& patch, const Points& p
     const SurfaceState state = measured_surface(problem_on(outline, patch, options), points);
     const TargetSurface surface(patch, points, state.normals);
     const VectorX lengths = even_lengths(patch, points);
-    EvenMesh mesh(patch, points, surface, lengths);
+    EqualEdgeMesh mesh(patch, points, surface, lengths);
     mesh.make_even();
     return meshed(mesh, outline.points);
 }
@@ -168,8 +168,8 @@ std::optional<FirstSurface> near(const OpenOutline& outline, Meshed& even, const
     return FirstSurface{std::move(even.patch), std::move(*solution)};
 }
 
-FirstSurface on_even_mesh(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
-                          const Progress& progress) {
+FirstSurface on_equal_edges(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
+                            const Progress& progress) {
     Meshed even = even_mesh(outline, last.patch, last.solution.points, options);
     std::optional<FirstSurface> found = near(outline, even, options, progress.range(0.0, 0.3));
     if (found) return std::move(*found);
@@ -241,7 +241,7 @@ FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, co
         if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
         if (converged && stands_in(result.solution.provenance)) break;  // solved on a mesh of its own
         const double begin = 0.4 + 0.15 * round;
-        FirstSurface next = on_even_mesh(outline, result, options, progress.range(begin, begin + 0.15));
+        FirstSurface next = on_equal_edges(outline, result, options, progress.range(begin, begin + 0.15));
         if (converged && next.solution.termination != Termination::converged) break;
         result = std::move(next);
     }

@@ -20,14 +20,14 @@ constexpr std::size_t most_copied = 600'000;  // vertices in all attempts; each 
 
 }  // namespace
 
-std::array<EvenMesh::Halfedge, 3> EvenMesh::sides(Face f) const {
+std::array<EqualEdgeMesh::Halfedge, 3> EqualEdgeMesh::sides(Face f) const {
     const Halfedge h = mesh_.halfedge_handle(f);
     const Halfedge next = mesh_.next_halfedge_handle(h);
     return {h, next, mesh_.next_halfedge_handle(next)};
 }
 
 // The vertices within two edges of a triangle, ascending.
-Indices EvenMesh::region(Face f) const {
+Indices EqualEdgeMesh::region(Face f) const {
     Indices found;
     for (const Halfedge h : sides(f)) found.push_back(mesh_.to_vertex_handle(h).idx());
     for (int ring = 0; ring < 2; ++ring) {
@@ -41,7 +41,7 @@ Indices EvenMesh::region(Face f) const {
 }
 
 // Whether an edge between these two would cut off a sharp corner between two edges that stay, a neighbour of both.
-bool EvenMesh::closes_sharp_corner(Vertex a, Vertex b) const {
+bool EqualEdgeMesh::closes_sharp_corner(Vertex a, Vertex b) const {
     for (const Halfedge h : mesh_.voh_range(a)) {
         const Vertex corner = mesh_.to_vertex_handle(h);
         const Halfedge on = mesh_.find_halfedge(corner, b);
@@ -51,10 +51,10 @@ bool EvenMesh::closes_sharp_corner(Vertex a, Vertex b) const {
     return false;
 }
 
-bool EvenMesh::may_join(Vertex a, Vertex b) const { return !fixed(a) || !fixed(b) || closes_sharp_corner(a, b); }
+bool EqualEdgeMesh::may_join(Vertex a, Vertex b) const { return !fixed(a) || !fixed(b) || closes_sharp_corner(a, b); }
 
 // Whether the ends of h may become one, whatever shape the triangles have then.
-bool EvenMesh::may_close(Halfedge h) {
+bool EqualEdgeMesh::may_close(Halfedge h) {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
     if (fixed(gone) || free_count_ < 2 || !mesh_.is_collapse_ok(h)) return false;
@@ -65,7 +65,7 @@ bool EvenMesh::may_close(Halfedge h) {
 }
 
 // Each free vertex among these to the middle of its neighbours.
-void EvenMesh::centre(std::span<const Vertex> vertices) {
+void EqualEdgeMesh::centre(std::span<const Vertex> vertices) {
     for (const Vertex v : vertices) {
         if (fixed(v)) continue;
         Vector3 sum = Vector3::Zero();
@@ -74,7 +74,7 @@ void EvenMesh::centre(std::span<const Vertex> vertices) {
     }
 }
 
-int EvenMesh::turn_edge(Edge e) {
+int EqualEdgeMesh::turn_edge(Edge e) {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     const std::array ends{mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h)};
     mesh_.flip(e);
@@ -84,22 +84,22 @@ int EvenMesh::turn_edge(Edge e) {
 
 // What may be done about a triangle: each returns the vertex that is new, or none. Turned edges and collapses may fold
 // the mesh: `settle` unfolds it, or the penalty is high.
-std::vector<std::function<int(EvenMesh&)>> EvenMesh::remedies(Face f) {
-    std::vector<std::function<int(EvenMesh&)>> result;
+std::vector<std::function<int(EqualEdgeMesh&)>> EqualEdgeMesh::remedies(Face f) {
+    std::vector<std::function<int(EqualEdgeMesh&)>> result;
     for (const Halfedge side : sides(f)) {
         const Edge e = mesh_.edge_handle(side);
         const Vertex corner = mesh_.from_vertex_handle(side);
         if (!stays(e)) {
             const Vertex above = apex(side);
             const Vertex below = apex(mesh_.opposite_halfedge_handle(side));
-            result.emplace_back([e](EvenMesh& mesh) { return mesh.split(e).idx(); });
+            result.emplace_back([e](EqualEdgeMesh& mesh) { return mesh.split(e).idx(); });
             if (mesh_.is_flip_ok(e) && may_join(above, below))
-                result.emplace_back([e](EvenMesh& mesh) { return mesh.turn_edge(e); });
+                result.emplace_back([e](EqualEdgeMesh& mesh) { return mesh.turn_edge(e); });
         }
         if (fixed(corner)) continue;
         for (const Halfedge h : mesh_.voh_range(corner)) {
             if (!may_close(h)) continue;
-            result.emplace_back([h](EvenMesh& mesh) {
+            result.emplace_back([h](EqualEdgeMesh& mesh) {
                 mesh.mesh_.collapse(h);
                 --mesh.free_count_;
                 return none;
@@ -109,12 +109,12 @@ std::vector<std::function<int(EvenMesh&)>> EvenMesh::remedies(Face f) {
     return result;
 }
 
-bool EvenMesh::mend(Face f) {
+bool EqualEdgeMesh::mend(Face f) {
     const Indices vertices = region(f);
     double least = worth_it * penalty(vertices);
-    std::optional<EvenMesh> best;
+    std::optional<EqualEdgeMesh> best;
     for (const auto& remedy : remedies(f)) {
-        EvenMesh tried(*this);
+        EqualEdgeMesh tried(*this);
         Indices known = vertices;
         const int added = remedy(tried);
         if (added != none) known.push_back(added);  // the highest number
@@ -130,7 +130,7 @@ bool EvenMesh::mend(Face f) {
 }
 
 // The worst first.
-std::vector<EvenMesh::Face> EvenMesh::bad_faces() const {
+std::vector<EqualEdgeMesh::Face> EqualEdgeMesh::bad_faces() const {
     std::vector<std::pair<double, int>> bad;
     for (const Face f : mesh_.faces()) {
         const double angle = free_angle(f);
@@ -143,26 +143,26 @@ std::vector<EvenMesh::Face> EvenMesh::bad_faces() const {
     return result;
 }
 
-void EvenMesh::mend_angles() {
+void EqualEdgeMesh::mend_angles() {
     for (const bool worst_counts : {false, true}) {
         worst_counts_ = worst_counts;
         mend_bad_faces();
     }
 }
 
-void EvenMesh::mend_bad_faces() {
+void EqualEdgeMesh::mend_bad_faces() {
     const std::size_t most = std::min(most_attempts, most_copied / mesh_.n_vertices() + 1);
     std::size_t attempts = 0;
     for (int round = 0; round < most_rounds; ++round) {
         const std::vector<Face> bad = bad_faces();
         if (static_cast<double>(bad.size()) > most_bad * static_cast<double>(mesh_.n_faces())) return;
-        int mended = 0;
+        int repaired = 0;
         for (const Face f : bad) {
             if (mesh_.status(f).deleted() || free_angle(f) >= bad_angle) continue;
             if (++attempts > most) return;
-            mended += mend(f) ? 1 : 0;
+            repaired += mend(f) ? 1 : 0;
         }
-        if (mended == 0) return;
+        if (repaired == 0) return;
     }
 }
 

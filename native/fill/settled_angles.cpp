@@ -32,7 +32,7 @@ double cosine_at(const Vector3& corner, const Vector3& a, const Vector3& b) {
 
 }  // namespace
 
-double EvenMesh::Side::free_angle(const Vector3& place) const {
+double EqualEdgeMesh::Side::free_angle(const Vector3& place) const {
     double sharpest = -1.0;
     if (!forced[0]) sharpest = std::max(sharpest, cosine_at(place, b, c));
     if (!forced[1]) sharpest = std::max(sharpest, cosine_at(b, c, place));
@@ -41,7 +41,7 @@ double EvenMesh::Side::free_angle(const Vector3& place) const {
     return (b - place).cross(c - place).dot(normal) > 0.0 ? angle : -angle;
 }
 
-EvenMesh::Side EvenMesh::side_of(Halfedge h) const {
+EqualEdgeMesh::Side EqualEdgeMesh::side_of(Halfedge h) const {
     const std::array around{h, mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)};
     Side side;
     side.normal.setZero();
@@ -55,13 +55,13 @@ EvenMesh::Side EvenMesh::side_of(Halfedge h) const {
     return side;
 }
 
-double EvenMesh::free_angle(Face f) const {
+double EqualEdgeMesh::free_angle(Face f) const {
     const Halfedge h = mesh_.halfedge_handle(f);
     return side_of(h).free_angle(point(mesh_.from_vertex_handle(h)));
 }
 
 // How bad the triangles at these vertices are.
-double EvenMesh::penalty(const Indices& vertices) const {
+double EqualEdgeMesh::penalty(const Indices& vertices) const {
     double sum = 0.0;
     for (const int v : vertices) {
         if (mesh_.status(Vertex(v)).deleted()) continue;
@@ -76,14 +76,14 @@ double EvenMesh::penalty(const Indices& vertices) const {
 }
 
 // The triangles around a free vertex.
-std::vector<EvenMesh::Side> EvenMesh::star(Vertex v) const {
+std::vector<EqualEdgeMesh::Side> EqualEdgeMesh::star(Vertex v) const {
     std::vector<Side> result;
     for (const Halfedge spoke : mesh_.voh_range(v)) result.push_back(side_of(spoke));
     return result;
 }
 
 // A pattern search in six directions of the surface. Returns the number of moves.
-int EvenMesh::settle_place(Vertex v) {
+int EqualEdgeMesh::settle_place(Vertex v) {
     constexpr int most_halvings = 6;
     const std::vector<Side> around = star(v);
     const auto penalty_at = [&](const Vector3& place) {
@@ -114,7 +114,7 @@ int EvenMesh::settle_place(Vertex v) {
 }
 
 // Where the least angle beside the edge grows.
-bool EvenMesh::improve_flip(Edge e) {
+bool EqualEdgeMesh::improve_flip(Edge e) {
     const auto [a, b, c, d] = diagonal(e);
     const double before = powered_lack(std::min(least_angle(a, b, c), least_angle(b, a, d)), worst_counts_);
     const double after = powered_lack(std::min(least_angle(c, d, b), least_angle(d, c, a)), worst_counts_);
@@ -124,7 +124,7 @@ bool EvenMesh::improve_flip(Edge e) {
 }
 
 // Flips the edges from v to vertices of higher number that lie among these. Returns how many.
-int EvenMesh::settle_edges(Vertex v, const Indices& vertices) {
+int EqualEdgeMesh::settle_edges(Vertex v, const Indices& vertices) {
     const auto is_inside = [&](Vertex u) { return std::binary_search(vertices.begin(), vertices.end(), u.idx()); };
     std::vector<Halfedge> spokes;
     for (const Halfedge h : mesh_.voh_range(v)) spokes.push_back(h);
@@ -140,7 +140,7 @@ int EvenMesh::settle_edges(Vertex v, const Indices& vertices) {
 }
 
 // Flips and moves among these vertices alone.
-void EvenMesh::settle(const Indices& vertices) {
+void EqualEdgeMesh::settle(const Indices& vertices) {
     for (int round = 0; round < most_rounds; ++round) {
         checkpoint();
         int changes = 0;
@@ -155,7 +155,7 @@ void EvenMesh::settle(const Indices& vertices) {
 }
 
 // The corners of triangles with small angles and their neighbours, ascending.
-Indices EvenMesh::around_small_angles() const {
+Indices EqualEdgeMesh::around_small_angles() const {
     Indices found;
     for (const Face f : mesh_.faces()) {
         if (free_angle(f) >= wanted_angle) continue;
@@ -170,7 +170,7 @@ Indices EvenMesh::around_small_angles() const {
 }
 
 // What flips and moves can do about small angles.
-void EvenMesh::improve() {
+void EqualEdgeMesh::improve() {
     for (int round = 0; round < most_rounds; ++round) {
         const Indices vertices = around_small_angles();
         if (vertices.empty()) return;

@@ -36,7 +36,7 @@ Indices sorted(int first, int count, const Passes& passes, const Key& key) {
 
 // The vertices on one triangle of the surface follow each other, and edges follow their vertices. What the patch has
 // keeps its numbers.
-void EvenMesh::sort() {
+void EqualEdgeMesh::sort() {
     const Indices vertices = sorted(
         patch_->vertex_count(), static_cast<int>(mesh_.n_vertices()),
         [&](int v) { return !mesh_.status(Vertex(v)).deleted(); }, [&](int v) { return where_[v].triangle; });

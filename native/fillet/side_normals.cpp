@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include "boundary/creased.h"
+#include "boundary/surrounding_fit.h"
 #include "geometry/angle.h"
 #include "mesh/edges.h"
-#include "outline/creased.h"
-#include "outline/surrounding_fit.h"
 
 namespace fairing {
 

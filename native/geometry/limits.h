@@ -13,6 +13,6 @@ inline constexpr double cos_of_widest_turn = 0.5;
 inline constexpr double least_error = 1e-10;
 // Of the edges around. Fixed vertices stay as near to each other as they were given, down to 3e-5 of an edge on voxel
 // meshes and beside booleans, and a normal's error is divided by that distance.
-inline constexpr double least_told = 0.05;
+inline constexpr double least_reported = 0.05;
 
 }  // namespace fairing

@@ -32,7 +32,7 @@ constexpr double narrow = std::numbers::pi / 2.0;
 double least_squared(const Vector3& centre, std::span<const Vector3> around) {
     double most = 0.0;
     for (const Vector3& p : around) most = std::max(most, (p - centre).squaredNorm());
-    return least_told * least_told * most;
+    return least_reported * least_reported * most;
 }
 
 // The angle that the patch fills around a vertex of its outline, in the tangent plane there. A constant of the problem

@@ -45,7 +45,8 @@ std::size_t tolerated_folds(const Problem& problem) {
 double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
 
 // No coarse mesh can show short waves of an outline: taken from every second vertex of a jagged one they would be noise
-// as large and twice as long. Coarse levels have the eased outline; only the finest one meets the outline as it is.
+// as large and twice as long. Coarse levels have the low-passed boundary; only the finest one meets the outline as it
+// is.
 Levels levels_of(const Problem& problem, const Traits& traits, int coarsest) {
     if (!traits.is_jagged) return {problem, Outlines::thinned, coarsest};
     return {problem, traits.low_passed(), Outlines::thinned, coarsest};

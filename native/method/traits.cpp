@@ -1,7 +1,7 @@
 #include "method/traits.h"
 
 #include "accept/accept.h"
-#include "outline/eased_outline.h"
+#include "boundary/low_passed_boundary.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
 #include "start/several_outlines.h"
@@ -13,8 +13,8 @@ namespace {
 // Half of these waves of the loops is left. Eight vertices left regions of an ear and a cheek with turned triangles,
 // 32 moved more.
 constexpr double wave = 16.0;  // vertices
-// Variation along the boundary (outline/eased_outline). Least variation was found over loops of pipes up to 6e3, never
-// from 4e4 on; regions of scans with noise of a quarter edge have 4e6 to 2e9.
+// Variation along the boundary (boundary/low_passed_boundary). Least variation was found over loops of pipes up to 6e3,
+// never from 4e4 on; regions of scans with noise of a quarter edge have 4e6 to 2e9.
 constexpr double smallest_jagged = 3e4;
 // Of 60 regions of scans with 10,000 to 100,000 vertices surfaces met boundaries of up to 1.7e9, a rim of 2,048 edges
 // around half a sphere was met at 8e9; the 14 regions from here to 2.5e10 had none.
@@ -47,7 +47,7 @@ Traits::Traits(const Problem& problem)
 }
 
 Problem low_passed(const Problem& problem) {
-    const OutlineData outline = eased_outline(problem.patch, boundary_of(problem), wave);
+    const OutlineData outline = low_passed_boundary(problem.patch, boundary_of(problem), wave);
     Problem result = problem;
     result.fixed_points = outline.points;
     result.fixed_normals = outline.normals;

@@ -41,7 +41,7 @@ private:
     Deferred<Problem> low_passed_;
 };
 
-// The problem between loops without their short waves (outline/eased_outline).
+// The problem between loops without their short waves (boundary/low_passed_boundary).
 Problem low_passed(const Problem& problem);
 
 // How far the loops lie beside those at most, units of D.

@@ -151,7 +151,7 @@ Points MultigridStep::displacement(const Points& points, const TangentPlanes& pl
     return solve_across(across, std::move(singles), effort);
 }
 
-Points MultigridStep::displacement(TurningPlanes&& gone, Effort effort) const {
+Points MultigridStep::displacement(TurningPlanes&& temporary, Effort effort) const {
     TurningPlanes planes = std::move(gone);
     Points across = pull(planes.points);
     planes.points.resize(3, 0);

@@ -45,7 +45,7 @@ public:
     [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
                                       Effort effort = {}) const override;
-    [[nodiscard]] Points displacement(TurningPlanes&& gone, Effort effort) const override;
+    [[nodiscard]] Points displacement(TurningPlanes&& temporary, Effort effort) const override;
     [[nodiscard]] double scale() const override { return laplacian_.largest; }
     void cycle(SingleField& r, SingleField& x) const override;
 

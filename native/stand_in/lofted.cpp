@@ -18,7 +18,7 @@ namespace {
 
 constexpr double largest_growth = 2.0;  // of the area, by the bulge: beyond, it is a balloon or a horn
 
-// Of 60 random patches between several loops 58 have a loft that is accepted; with 0.6 alone, and none mended, 50.
+// Of 60 random patches between several loops 58 have a loft that is accepted; with 0.6 alone, and none repaired, 50.
 constexpr std::array roundnesses{0.6, 1.5, 4.0};
 
 // A share of the bulge; nothing where it is a balloon.
@@ -75,7 +75,7 @@ Solution solution_at(const Problem& problem, const Candidate& candidate) {
 bool is_accepted(const Solution& solution) { return end_of(solution) == Termination::converged; }
 
 // Where few triangles fold or cross, what lies around them is filled anew.
-std::optional<Solution> mended(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
+std::optional<Solution> repaired(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
     constexpr std::array rings{2, 3, 4};
     if (flawed.bad_triangles.empty() || flawed.bad_triangles.size() > few_folds) return std::nullopt;
     Candidate trial = candidate;
@@ -87,7 +87,7 @@ std::optional<Solution> mended(const Problem& problem, const Candidate& candidat
     return std::nullopt;
 }
 
-// The least bent one that is accepted, mended where none is.
+// The least bent one that is accepted, repaired where none is.
 std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> candidates) {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
@@ -98,7 +98,7 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
         flawed.emplace_back(std::move(candidate), std::move(solution));
     }
     for (const auto& [candidate, solution] : flawed) {
-        if (auto better = mended(problem, candidate, solution)) return better;
+        if (auto better = repaired(problem, candidate, solution)) return better;
     }
     return std::nullopt;
 }

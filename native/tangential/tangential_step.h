@@ -17,7 +17,7 @@ struct TangentPlanes {
     // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions): most surfaces are known by their normals
     TangentPlanes(const Points& unit_normals) : normals(unit_normals) {}
     TangentPlanes(const Points& unit_normals, const ShapeOperators& known) : normals(unit_normals), shapes(&known) {}
-    TangentPlanes(const Points& unit_normals, ShapeOperators&& gone) = delete;
+    TangentPlanes(const Points& unit_normals, ShapeOperators&& temporary) = delete;
 };
 
 // Vertices with turning tangent planes, moved into a step and released there, to save memory on large patches.
@@ -63,8 +63,8 @@ public:
                                               Effort effort = {}) const = 0;
 
     // The same, for planes that are not needed any more.
-    [[nodiscard]] virtual Points displacement(TurningPlanes&& gone, Effort effort) const {
-        return displacement(gone.points, {gone.normals, gone.shapes}, effort);
+    [[nodiscard]] virtual Points displacement(TurningPlanes&& temporary, Effort effort) const {
+        return displacement(temporary.points, {temporary.normals, temporary.shapes}, effort);
     }
 };
 

@@ -72,8 +72,8 @@ def test_a_symmetric_mesh_gets_a_symmetric_answer() -> None:
     assert all((-x, y, z) in where for x, y, z in where)
     lopsided = mesh.in_patch.copy()
     lopsided[np.flatnonzero(lopsided)[0]] = False
-    told = fair(replace(mesh, in_patch=lopsided)).warnings
-    assert any("not symmetric" in text for text in told)
+    reported = fair(replace(mesh, in_patch=lopsided)).warnings
+    assert any("not symmetric" in text for text in reported)
 
 
 def test_a_bulge_lifts_a_flat_disc_by_a_quarter_of_its_radius() -> None:
@@ -168,21 +168,21 @@ def rough_surroundings(noise: float) -> MeshArrays:
     return replace(mesh, positions=mesh.positions + shift)
 
 
-def test_a_mended_outline_moves_with_what_is_around_it_and_nothing_else() -> None:
+def test_a_fitted_boundary_moves_with_what_is_around_it_and_nothing_else() -> None:
     mesh = rough_surroundings(0.015)
     patch = pose(mesh, EYE, FairOptions())[0].patch
-    given, mended = fair(mesh), fair(mesh, outline="MENDED")
+    given, fitted = fair(mesh), fair(mesh, outline="MENDED")
     assert np.array_equal(given.vertices, patch.vertices[patch.free])
-    more = np.setdiff1d(mended.vertices, given.vertices)
+    more = np.setdiff1d(fitted.vertices, given.vertices)
     assert set(more) & set(patch.vertices[patch.outline])
     assert set(more) - set(patch.vertices)
-    assert mended.free_count == given.free_count == len(given.vertices)
-    assert (np.diff(mended.vertices) > 0).all()
-    moved = np.linalg.norm(mended.positions - mesh.positions[mended.vertices], axis=1)
-    assert 0.0 < moved[np.isin(mended.vertices, more)].max() < 0.25 * 2.0 / 16.0
+    assert fitted.free_count == given.free_count == len(given.vertices)
+    assert (np.diff(fitted.vertices) > 0).all()
+    moved = np.linalg.norm(fitted.positions - mesh.positions[fitted.vertices], axis=1)
+    assert 0.0 < moved[np.isin(fitted.vertices, more)].max() < 0.25 * 2.0 / 16.0
     # What is moved comes nearer to the sphere that it was before the noise.
-    off = [np.abs(np.linalg.norm(p, axis=1) - 1.0) for p in (mended.positions, mesh.positions[mended.vertices])]
-    assert np.median(off[0][np.isin(mended.vertices, more)]) < 0.7 * np.median(off[1][np.isin(mended.vertices, more)])
+    off = [np.abs(np.linalg.norm(p, axis=1) - 1.0) for p in (fitted.positions, mesh.positions[fitted.vertices])]
+    assert np.median(off[0][np.isin(fitted.vertices, more)]) < 0.7 * np.median(off[1][np.isin(fitted.vertices, more)])
 
 
 def cube_corner(size: int = 13, radius: float = 0.5) -> MeshArrays:
@@ -196,14 +196,14 @@ def cube_corner(size: int = 13, radius: float = 0.5) -> MeshArrays:
     return polygon_mesh(positions, faces.tolist(), near)
 
 
-def test_a_hard_edge_that_a_smoothed_outline_rounds_is_told() -> None:
+def test_a_hard_edge_that_a_smoothed_outline_rounds_is_reported() -> None:
     mesh = cube_corner()
-    given, mended = fair(mesh).verdict, fair(mesh, outline="MENDED").verdict
+    given, fitted = fair(mesh).verdict, fair(mesh, outline="MENDED").verdict
     assert (given.grade, AS_SELECTED in given.remedies) == (LOOK, False)
     assert given.reason.startswith("A hard edge runs on outside")
-    assert (mended.grade, AS_SELECTED in mended.remedies) == (LOOK, True)
-    assert mended.reason.startswith("Boundary: Smooth has rounded")
-    assert (np.sort(mesh.positions[mended.spots], axis=1)[:, 1:] == 1.0).all()  # on the cube's edges
+    assert (fitted.grade, AS_SELECTED in fitted.remedies) == (LOOK, True)
+    assert fitted.reason.startswith("Boundary: Smooth has rounded")
+    assert (np.sort(mesh.positions[fitted.spots], axis=1)[:, 1:] == 1.0).all()  # on the cube's edges
 
 
 def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -24,9 +24,9 @@ def test_normals_of_the_surroundings_are_the_spheres_however_the_patch_lies() ->
     patch = make_patch(mesh)
     spoilt = mesh.positions.copy()
     spoilt[patch.vertices[patch.free]] *= 3.0
-    normals, told = normals_of(replace(mesh, positions=spoilt), patch, "SURROUNDING")
+    normals, reported = normals_of(replace(mesh, positions=spoilt), patch, "SURROUNDING")
     rim = mesh.positions[patch.vertices[patch.fixed]]
-    assert told == ()
+    assert reported == ()
     np.testing.assert_allclose(normals, rim, atol=1e-9)  # spheres are met exactly
 
 
@@ -43,23 +43,23 @@ def test_custom_normals_are_the_mean_of_the_corners() -> None:
     mesh = grid(6, 0.67)
     patch = make_patch(mesh)
     tilted = np.tile([0.6, 0.0, 0.8], (len(mesh.corner_vertices), 1))
-    normals, told = normals_of(replace(mesh, corner_normals=tilted), patch, "CUSTOM")
-    assert told == ()
+    normals, reported = normals_of(replace(mesh, corner_normals=tilted), patch, "CUSTOM")
+    assert reported == ()
     np.testing.assert_allclose(normals, np.tile([0.6, 0.0, 0.8], (len(patch.fixed), 1)))
     with pytest.raises(ValueError, match="without its corner normals"):
         normals_of(mesh, patch, "CUSTOM")
 
 
-def test_a_border_without_faces_outside_is_told_and_takes_the_patch_average() -> None:
+def test_a_border_without_faces_outside_is_reported_and_takes_the_patch_average() -> None:
     mesh = grid(4, 2.0)  # all of it
     patch = make_patch(mesh)
-    normals, told = normals_of(mesh, patch, "SURROUNDING")
-    assert told == ("16 border vertices have no faces outside: their normals come from the patch",)
+    normals, reported = normals_of(mesh, patch, "SURROUNDING")
+    assert reported == ("16 border vertices have no faces outside: their normals come from the patch",)
     assert np.allclose(normals, [0.0, 0.0, 1.0])
     pinned = np.zeros(25, dtype=bool)
     pinned[12] = True
     inner = replace(mesh, pinned=pinned)
-    assert normals_of(inner, make_patch(inner), "SURROUNDING")[1] == told  # a pin is none of them
+    assert normals_of(inner, make_patch(inner), "SURROUNDING")[1] == reported  # a pin is none of them
 
 
 def test_what_is_not_finite_outside_is_left_out() -> None:
@@ -126,8 +126,8 @@ def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
         "14 boundary vertices lie on hard edges: the surface takes the slope of the selected faces there",
     )
     assert np.array_equal(known.inward(patch), patch.vertices[patch.fixed[sides]])
-    outer, told = normals_of(mesh, patch, "SURROUNDING")
-    assert told == ()
+    outer, reported = normals_of(mesh, patch, "SURROUNDING")
+    assert reported == ()
     assert np.abs(outer[sides, 0]).min() > 0.8
     flat = boundary(table(16, 0.0), patch, "INSIDE", outside_triangles(mesh, patch))
     assert flat.from_inside.all()

@@ -52,7 +52,7 @@ def test_one_vertex_stands_for_its_whole_loop() -> None:
     assert loop.tolist() == [vertex(*place) for place in around]
 
 
-def test_loops_that_touch_are_told_apart() -> None:
+def test_loops_that_touch_are_kept_apart() -> None:
     """Two holes share a corner, which alone stands for both, beside another vertex for that one's."""
     mesh = holed((2, 2), (4, 4))
     corner = vertex(3, 3)
@@ -89,7 +89,7 @@ def test_borders_without_a_shape_are_left(value: float | None, text: str) -> Non
 
 
 def test_a_face_that_hangs_by_a_corner_makes_its_hole_no_other() -> None:
-    """The hole's boundary passes that corner twice; new triangles at its two passes are told apart."""
+    """The hole's boundary passes that corner twice; new triangles at its two passes are kept apart."""
     whole = holed((4, 4), half=2)
     hanging = [vertex(2, 4), vertex(3, 5), vertex(3, 4)]
     quads = [*whole.corner_vertices.reshape(-1, 4).tolist(), hanging]
@@ -187,7 +187,7 @@ def two_tubes(*, turned_over: bool = False) -> MeshArrays:
     return polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
 
 
-def test_a_tube_turned_over_is_told_and_four_outlines_are_too_many() -> None:
+def test_a_tube_turned_over_is_reported_and_four_outlines_are_too_many() -> None:
     with pytest.raises(MeshRefusal, match=r"faces around the boundary through vertex .* are turned over") as error:
         filled(two_tubes(turned_over=True), 48, 72, bridge=True)
     assert set(error.value.elements.tolist()) == set(range(72, 96))
@@ -234,10 +234,10 @@ def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) 
 
 def test_what_has_not_converged_is_unusable() -> None:
     points, _, rim = disc(3)
-    told = judged(points, Join(nothing(), np.empty(0)), converged=False, termination="stalled")
-    assert told.grade == UNUSABLE
-    assert told.reason == f"No fair surface was found for a boundary of {rim} edges"
-    assert set(told.spots.tolist()) == set(range(rim))
+    reported = judged(points, Join(nothing(), np.empty(0)), converged=False, termination="stalled")
+    assert reported.grade == UNUSABLE
+    assert reported.reason == f"No fair surface was found for a boundary of {rim} edges"
+    assert set(reported.spots.tolist()) == set(range(rim))
 
 
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:

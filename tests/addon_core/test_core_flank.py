@@ -59,12 +59,12 @@ def found(mesh: MeshArrays) -> Flank | None:
 
 @pytest.mark.parametrize("ground", [plane, on_sphere, pipe])
 @pytest.mark.parametrize("height", [0.2, -0.2])
-def test_a_tight_selection_is_told_with_the_way_over_it(ground: Ground, height: float) -> None:
+def test_a_tight_selection_is_reported_with_the_way_over_it(ground: Ground, height: float) -> None:
     for half in (1.2 * SIGMA, 1.5 * SIGMA):
-        told = found(scene(half, bumped(height, ground)))
-        assert told is not None, half
-        assert told.is_bump == (height > 0.0)
-        end = half + told.rings * 2.0 / SIZE
+        reported = found(scene(half, bumped(height, ground)))
+        assert reported is not None, half
+        assert reported.is_bump == (height > 0.0)
+        end = half + reported.rings * 2.0 / SIZE
         assert 2.2 * SIGMA < end < 4.5 * SIGMA
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.across import told
+from core.across import reported
 from core.arrays import Ints
 from core.border import border_loops
 from core.fill_verdict import hard_ends
@@ -52,7 +52,7 @@ def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
     mesh = roof(degrees, 0.0)
     (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(quads=True))
     assert piece.verdict.grade == GOOD
-    assert told([piece.across, piece.across]) == "2 run on"
+    assert reported([piece.across, piece.across]) == "2 run on"
     slope = np.tan(np.radians(degrees) / 2.0)
     np.testing.assert_allclose(piece.points[:, 2], -slope * np.abs(piece.points[:, 1]), atol=1e-9)
     on_ridge = np.unique(piece.across.edges)
@@ -91,7 +91,7 @@ def test_a_drawn_line_is_kept_with_its_vertices() -> None:
     assert piece.across.drawn.tolist() == [middle]
     assert piece.points[len(loop)].tolist() == [0.0, 0.06, 0.01]
     assert len(piece.positions) == len(piece.points) - len(loop)
-    assert told([piece.across]) == "1 drawn"
+    assert reported([piece.across]) == "1 drawn"
     assert len(loop) in piece.triangles
     (other,) = fill(with_line, np.eye(4), [loop], FillOptions(hard_edges="IGNORED"))
     assert not len(other.across.drawn)

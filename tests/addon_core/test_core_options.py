@@ -70,7 +70,7 @@ def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
         ({"detail_face_set": 1}, {"detail": 0.5}),
     ],
 )
-def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, Any]) -> None:
+def test_what_nothing_looks_at_is_reported(given: dict[str, Any], beside: dict[str, Any]) -> None:
     assert FairOptions(**given).idle == tuple(given)
     assert FairOptions(**given, **beside).idle == ()
     assert FairOptions(**beside).idle == ()

@@ -29,10 +29,10 @@ def test_turns_are_the_angle_between_two_faces(degrees: float) -> None:
     assert not sides.alike.any()
 
 
-@pytest.mark.parametrize(("degrees", "told"), [(59.0, False), (61.0, True)])
-def test_a_sharp_outline_is_told(degrees: float, told: bool) -> None:
+@pytest.mark.parametrize(("degrees", "reported"), [(59.0, False), (61.0, True)])
+def test_a_sharp_outline_is_reported(degrees: float, reported: bool) -> None:
     notes = outline_notes(grid(6, 0.67, lambda _: bent_grid(degrees)))
-    assert [f"{degrees:.0f}°" in note and "runs along an edge" in note for note in notes] == [True] * told
+    assert [f"{degrees:.0f}°" in note and "runs along an edge" in note for note in notes] == [True] * reported
 
 
 def test_faces_without_area_have_no_normal() -> None:
@@ -80,8 +80,8 @@ def test_an_open_seam() -> None:
     )
 
 
-@pytest.mark.parametrize(("far", "told"), [(0.0, False), (100.0, False), (1e4, True)])
-def test_precision_far_from_the_origin(far: float, told: bool) -> None:
+@pytest.mark.parametrize(("far", "reported"), [(0.0, False), (100.0, False), (1e4, True)])
+def test_precision_far_from_the_origin(far: float, reported: bool) -> None:
     """float32 steps at 10⁴ are 9.8e-4 apart; the grid's edges 1/3, coarse where that ratio exceeds 1e-3."""
     mesh = grid(6, 0.67, lambda points: points + far)
-    assert precision_note(mesh).startswith("PRECISION") == told
+    assert precision_note(mesh).startswith("PRECISION") == reported

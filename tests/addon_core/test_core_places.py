@@ -26,7 +26,7 @@ def test_numbers_and_masks_are_understood(given: Any, meant: list[int]) -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "error", "told"),
+    ("given", "error", "reported"),
     [
         ([1.0, 2.0], TypeError, "faces: expected numbers of faces, or a mask, got float64"),
         (["a"], TypeError, "faces: expected numbers"),
@@ -35,6 +35,6 @@ def test_numbers_and_masks_are_understood(given: Any, meant: list[int]) -> None:
         ([-1], IndexError, "faces: expected indices below 4"),
     ],
 )
-def test_anything_else_is_refused_by_name(given: Any, error: type[Exception], told: str) -> None:
-    with pytest.raises(error, match=told):
+def test_anything_else_is_refused_by_name(given: Any, error: type[Exception], reported: str) -> None:
+    with pytest.raises(error, match=reported):
         as_indices("faces", given, 4)

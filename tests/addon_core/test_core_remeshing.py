@@ -138,8 +138,8 @@ def test_warnings_name_the_mesh_that_was_solved(monkeypatch: pytest.MonkeyPatch,
         assert result.cut == (spacing > 1.0)
         count = len(problem.patch.vertices)
         last = count - 1 if result.cut else count + len(result.vertices) - 1
-        told = fairing.Diagnostic("NO_SOLUTION", "", np.array([last], np.int32), "vertex", {"kinks": 1.0})
-        return replace(result, polished=False, warnings=(told,))
+        reported = fairing.Diagnostic("NO_SOLUTION", "", np.array([last], np.int32), "vertex", {"kinks": 1.0})
+        return replace(result, polished=False, warnings=(reported,))
 
     monkeypatch.setattr(remeshing, "_solved", with_warning)
     verdict = remesh(mesh, spacing=spacing).verdict

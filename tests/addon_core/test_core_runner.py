@@ -28,16 +28,16 @@ def test_raises_what_the_work_raises() -> None:
 
 
 def test_shows_progress_and_ends() -> None:
-    told, go_on = threading.Event(), threading.Event()
+    reported, go_on = threading.Event(), threading.Event()
 
     def work(progress: Any) -> int:
         assert progress(0.25, "descent")
-        told.set()
+        reported.set()
         assert go_on.wait(10.0)
         return 1
 
     background = Run(work)
-    assert told.wait(10.0)
+    assert reported.wait(10.0)
     assert not background.finished
     assert (background.fraction, background.stage) == (0.25, "descent")
     go_on.set()

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats, Mask
-from core.engine import bad_outline, mended_outline
+from core.engine import bad_outline, fitted_boundary
 from core.region import MeshArrays, make_patch
 from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, problem_of
 from core.symmetry import mirror_map, with_image
@@ -119,12 +119,12 @@ def test_a_noisy_outline_is_moved_towards_the_sphere() -> None:
     mesh = grid(20, 0.6, on_sphere)
     noise = 0.012 * np.random.default_rng(2).normal(size=mesh.positions.shape)
     noisy = replace(mesh, positions=mesh.positions + noise)
-    mended = mended_outline(problem_of(noisy, np.eye(4)))
-    off = np.abs(np.linalg.norm(mended.points, axis=1) - 1.0)
-    was = np.abs(np.linalg.norm(noisy.positions[mended.vertices], axis=1) - 1.0)
+    fitted = fitted_boundary(problem_of(noisy, np.eye(4)))
+    off = np.abs(np.linalg.norm(fitted.points, axis=1) - 1.0)
+    was = np.abs(np.linalg.norm(noisy.positions[fitted.vertices], axis=1) - 1.0)
     assert len(off) > 20
     assert np.median(off) < 0.7 * np.median(was)
-    assert len(mended_outline(problem_of(mesh, np.eye(4))).vertices) == 0
+    assert len(fitted_boundary(problem_of(mesh, np.eye(4))).vertices) == 0
 
 
 def test_a_selection_on_one_side_gets_its_image() -> None:

@@ -21,7 +21,7 @@ def lifted(vertex: int, by: float) -> MeshArrays:
     return replace(MESH, positions=positions)
 
 
-def test_a_spike_is_told_from_a_bump() -> None:
+def test_a_spike_is_distinguished_from_a_bump() -> None:
     inside = MESH.corner_vertices[MESH.in_patch[MESH.corner_faces]]
     outside = MESH.corner_vertices[~MESH.in_patch[MESH.corner_faces]]
     middle = int(np.setdiff1d(inside, outside)[10])
@@ -37,7 +37,7 @@ def test_a_spike_is_told_from_a_bump() -> None:
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
-def test_a_crumpled_patch_is_told_from_a_rough_mesh(seed: int) -> None:
+def test_a_crumpled_patch_is_distinguished_from_a_rough_mesh(seed: int) -> None:
     """By noise in edges of the mesh, of the patch alone and of all of it."""
     inside = np.setdiff1d(
         MESH.corner_vertices[MESH.in_patch[MESH.corner_faces]], MESH.corner_vertices[~MESH.in_patch[MESH.corner_faces]]

@@ -22,7 +22,7 @@ def test_neighbours_are_beside_each_other() -> None:
     assert not covering(sheet(8), np.concatenate([sheet(5, (1.0, 0.0)), sheet(3, (-1.0, 0.3))])).any()
 
 
-def test_what_lies_over_an_island_is_told_whichever_is_finer() -> None:
+def test_what_lies_over_an_island_is_reported_whichever_is_finer() -> None:
     new = sheet(8)
     middles = new.mean(axis=1)
     for cells in (1, 5, 40):
@@ -38,7 +38,7 @@ def test_the_winding_of_either_makes_no_difference() -> None:
         np.testing.assert_array_equal(covering(a, b), covering(new, other))
 
 
-def test_new_faces_over_each_other_are_told() -> None:
+def test_new_faces_over_each_other_are_reported() -> None:
     both = np.concatenate([sheet(4), sheet(3, (0.1, 0.1), 0.3), sheet(3, (5.0, 0.0))])
     found = covering(both, both[:0])
     assert found[32:50].all()

@@ -150,8 +150,8 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
         replace(lost, join=Join(ints(7), np.array([31.0]), ints(0))),
     ):
         assert "What it came to" not in judged(spoilt).reason
-    told = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
-    assert judged(replace(lost, result=replace(lost.result, warnings=(told,)))).reason == "Why"
+    reported = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
+    assert judged(replace(lost, result=replace(lost.result, warnings=(reported,)))).reason == "Why"
     outline = fine.problem.patch.vertices[fine.problem.patch.outline]
     assert set(verdict.spots) <= set(outline)
     assert len(verdict.spots)
@@ -194,8 +194,8 @@ def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
 
 def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
     """The engine says how far the outline lies beside the surface; a mesh that had more folds is better off."""
-    told = fairing.Diagnostic("NO_SOLUTION", "", np.empty(0, np.int32), "vertex", {"distance": 0.02})
-    eased = replace(fine, result=replace(fine.result, warnings=(told,)))
+    reported = fairing.Diagnostic("NO_SOLUTION", "", np.empty(0, np.int32), "vertex", {"distance": 0.02})
+    eased = replace(fine, result=replace(fine.result, warnings=(reported,)))
     rough = replace(CLEAN, folded=ints(FACE, OTHER), crossing=ints(FACE, OTHER))
     calm = replace(CLEAN, folded=ints(FACE), crossing=ints(OTHER))
     verdict = judged(replace(eased, before=rough, after=calm))
@@ -210,16 +210,16 @@ def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> N
 
 
 def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
-    told = fairing.Diagnostic("NO_SOLUTION", "", np.array([2, 4], np.int32), "vertex", {"loft": 1.0, "kinks": 2.0})
-    verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
+    reported = fairing.Diagnostic("NO_SOLUTION", "", np.array([2, 4], np.int32), "vertex", {"loft": 1.0, "kinks": 2.0})
+    verdict = judged(replace(fine, result=replace(fine.result, warnings=(reported,))))
     assert verdict.grade == LOOK
     assert "2 vertices of the boundary" in verdict.reason
     assert verdict.spots.tolist() == fine.problem.vertices[[2, 4]].tolist()
 
 
 def with_warning(evidence: Evidence, code: str, elements: Ints, **figures: float) -> Evidence:
-    told = fairing.Diagnostic(code, "", elements.astype(np.int32), "vertex", figures)
-    return replace(evidence, result=replace(evidence.result, warnings=(told,)))
+    reported = fairing.Diagnostic(code, "", elements.astype(np.int32), "vertex", figures)
+    return replace(evidence, result=replace(evidence.result, warnings=(reported,)))
 
 
 def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> None:
@@ -260,13 +260,13 @@ def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
 def test_on_a_new_mesh_the_engines_numbers_are_those_of_the_mesh_that_it_solved(fine: Evidence) -> None:
     own = len(fine.problem.vertices)
     origin = Origin(np.arange(100, 110 + own), np.empty((0, 3), np.int64), ints())
-    told = replace(with_warning(fine, "PINS_NOT_SPREAD", ints(own + 5), tips=1.0), origin=origin)
-    assert judged(told).spots.tolist() == [own + 105]
+    reported = replace(with_warning(fine, "PINS_NOT_SPREAD", ints(own + 5), tips=1.0), origin=origin)
+    assert judged(reported).spots.tolist() == [own + 105]
 
 
 def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
-    told = fairing.Diagnostic("PINS_NOT_SPREAD", "", np.array([3], np.int32), "vertex", {"tips": 1.0})
-    verdict = judged(replace(fine, result=replace(fine.result, warnings=(told,))))
+    reported = fairing.Diagnostic("PINS_NOT_SPREAD", "", np.array([3], np.int32), "vertex", {"tips": 1.0})
+    verdict = judged(replace(fine, result=replace(fine.result, warnings=(reported,))))
     assert (verdict.grade, verdict.reason) == (LOOK, "The surface forms a spike at 1 pinned vertex")
     assert verdict.spots.tolist() == fine.problem.vertices[[3]].tolist()
 
@@ -355,18 +355,20 @@ def test_needles_that_no_one_sees_are_good(fine: Evidence) -> None:
 
 
 @pytest.mark.parametrize(
-    ("ending", "steps", "told"),
+    ("ending", "steps", "reported"),
     [
         ("stalled", 0, "no initial surface was found"),
         ("stalled", 14, "the search came to a halt"),
         ("iteration_limit", 20, "it was not there after the 20 steps that Iterations allows"),
     ],
 )
-def test_how_a_search_ended_is_told_without_a_figure_that_says_nothing(
-    fine: Evidence, ending: str, steps: int, told: str
+def test_how_a_search_ended_is_reported_without_a_figure_that_says_nothing(
+    fine: Evidence, ending: str, steps: int, reported: str
 ) -> None:
     result = replace(fine.result, converged=False, termination=ending, iterations=steps)
-    assert judged(replace(fine, result=result)).reason.startswith(f"No fair surface was found: {told}. What it came to")
+    assert judged(replace(fine, result=result)).reason.startswith(
+        f"No fair surface was found: {reported}. What it came to"
+    )
 
 
 def test_where_multigrid_fails_the_other_method_is_named(fine: Evidence) -> None:

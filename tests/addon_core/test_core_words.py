@@ -26,7 +26,7 @@ def diagnostic(code: str, elements: list[int], kind: str = "vertex", **figures: 
     return fairing.Diagnostic(code, "the engine's own words", np.array(elements, dtype=np.int32), kind, figures)
 
 
-def told(*warnings: fairing.Diagnostic) -> tuple[str, ...]:
+def reported(*warnings: fairing.Diagnostic) -> tuple[str, ...]:
     return sentences(warnings, ORIGIN)
 
 
@@ -39,7 +39,7 @@ def test_the_last_case_of_a_code_holds_without_any_figure_but_those_it_names(cod
     """So that a case of the engine's that is new here still reads as a sentence."""
     assert [bool(words.when) for words in WORDS[code]] == [True] * (len(WORDS[code]) - 1) + [False]
     figures = dict.fromkeys(_fields(WORDS[code][-1]) - {"n", "first", "ends", "islands"}, 1.0)
-    (text,) = told(diagnostic(code, [0, 1], **figures))
+    (text,) = reported(diagnostic(code, [0, 1], **figures))
     assert text[0].isupper() or text[0].isdigit()
     assert code not in text and "{" not in text and "triangle" not in text
 
@@ -49,25 +49,25 @@ def _fields(words: Words) -> set[str]:
 
 
 def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() -> None:
-    assert told(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
+    assert reported(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
         "2 faces of the result are turned over",
     )
-    assert told(diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0)) == (
+    assert reported(diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0)) == (
         "The surface was found, but 1 face can't be placed on it without folds",
     )
-    assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0)) == (
+    assert reported(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0)) == (
         "No harmonic surface fits the boundary: Least Variation was used",
     )
-    assert told(diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0)) == (
+    assert reported(diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0)) == (
         "No fair surface fits these boundary loops: a loft joins them, with a kink at 2 vertices",
     )
-    assert told(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0)) == (
+    assert reported(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0)) == (
         "No fair surface fits these boundary loops: a loft joins them",
     )
-    assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0)) == (
+    assert reported(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0)) == (
         "Boundary: Smooth was left out: with 2 boundary vertices moved, the result is worse",
     )
-    assert told(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == (
+    assert reported(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == (
         "2 vertices of a noisy boundary keep their place",
     )
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
@@ -85,9 +85,9 @@ def test_an_error_speaks_of_the_mesh_and_keeps_its_code() -> None:
     assert refused.value.elements.tolist() == [20, 30, 60]
 
 
-def test_a_surface_with_folds_is_told_once() -> None:
+def test_a_surface_with_folds_is_reported_once() -> None:
     """The engine gives two codes for it, for those who ask for either."""
-    assert told(
+    assert reported(
         diagnostic("NOT_CONVERGED", [0], free_vertices=8.0, folds=2.0),
         diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
     ) == ("The surface was found, but 1 face can't be placed on it without folds",)

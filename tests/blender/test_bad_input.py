@@ -115,7 +115,7 @@ def test_infinity_elsewhere() -> None:
     solved(obj, faces)
 
 
-def test_offset_is_told() -> None:
+def test_offset_is_reported() -> None:
     """At a million float32 lie 1/16 apart, which is a quarter of an edge here."""
     obj, faces = meshes.domed_grid()
     points = meshes.positions(obj)

@@ -37,8 +37,8 @@ def test_example(code: str, mode: tuple[bool, bool, bool], capsys: pytest.Captur
     bpy.context.tool_settings.mesh_select_mode = mode
     capsys.readouterr()
     exec(compile(code, "example", "exec"), {})
-    told = capsys.readouterr().out.splitlines()
-    assert any(line.startswith("True") for line in told)  # each prints whether it converged
+    reported = capsys.readouterr().out.splitlines()
+    assert any(line.startswith("True") for line in reported)  # each prints whether it converged
     if bpy.context.mode == "EDIT_MESH":
         meshes.leave()
         assert meshes.report().warnings == ""

@@ -59,7 +59,7 @@ def test_a_run_ends_with_its_file(go_on: threading.Event, tmp_path: Path) -> Non
     before = meshes.contents(bpy.context.object)
     assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
     assert ended_before
-    assert not operator.told
+    assert not operator.reported
     assert not bpy.context.window_manager.fairing_progress.running
     assert meshes.contents(bpy.context.object) == before
 
@@ -95,7 +95,7 @@ def test_a_run_whose_mesh_is_gone_writes_nothing(way: str, refused: bool, go_on:
     there = bpy.data.objects.get(name)
     before = there and meshes.contents(there)
     assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
-    assert [("changed meanwhile" in text) for _, text in operator.told] == [True]
+    assert [("changed meanwhile" in text) for _, text in operator.reported] == [True]
     assert there is None or meshes.contents(there) == before
 
 

@@ -354,7 +354,7 @@ def test_live_region_does_not_grow() -> None:
     assert set(values[old:]) == {0}
 
 
-def test_a_seam_of_colours_begins_with_the_mean_and_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_seam_of_colours_begins_with_the_mean_and_is_reported(capfd: pytest.CaptureFixture[str]) -> None:
     obj = open_sphere()
     layer = obj.data.color_attributes.new("Paint", "FLOAT_COLOR", "CORNER")
     sides = [float(p.center.x > 0.0) for p in obj.data.polygons for _ in p.loop_indices]
@@ -474,7 +474,7 @@ def test_command_line(arguments: list[str], status: int, open_edges: int, tmp_pa
     assert border_edges(obj) == open_edges
 
 
-def test_a_surface_that_is_not_usable_is_told_to_scripts(tmp_path: Any) -> None:
+def test_a_surface_that_is_not_usable_is_reported_to_scripts(tmp_path: Any) -> None:
     obj = pierced()
     before = meshes.contents(obj)
     with pytest.raises(module().NotUsable, match="through others"):

@@ -157,8 +157,8 @@ def test_scripts_and_the_command_line_list_what_is_left(tmp_path: Any, capsys: p
     given = ["--object", other.name, "--fill", "--report", "json", "--output", str(tmp_path / "filled.blend")]
     assert module("run.cli").execute(given) == 0
     (line,) = [text for text in capsys.readouterr().out.splitlines() if text.startswith("{")]
-    told = json.loads(line)
-    (left,) = told["left_open"]
+    reported = json.loads(line)
+    (left,) = reported["left_open"]
     assert left["vertices"] == open_borders(other)[0]
     assert "without length" in left["reason"]
 

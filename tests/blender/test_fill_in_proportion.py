@@ -61,8 +61,8 @@ def fill(**properties: Any) -> set[str]:
 
 
 def warnings() -> list[str]:
-    told: list[str] = bpy.context.window_manager.fairing_report.warnings.splitlines()
-    return told
+    reported: list[str] = bpy.context.window_manager.fairing_report.warnings.splitlines()
+    return reported
 
 
 @pytest.mark.parametrize("degrees", [10.0, 180.0])
@@ -70,8 +70,8 @@ def test_with_everything_selected_holes_are_filled_and_the_outer_border_is_named
     obj = sheet(degrees, ((2, 2), (8, 7)))
     select_all(obj)
     assert fill() == {"FINISHED"}
-    (told,) = warnings()
-    assert told.startswith("1 border runs around the outside of a sheet of faces and stays open (48 edges")
+    (reported,) = warnings()
+    assert reported.startswith("1 border runs around the outside of a sheet of faces and stays open (48 edges")
     assert open_edges(obj) == 4 * SIZE
 
 

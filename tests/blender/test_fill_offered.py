@@ -24,7 +24,7 @@ class Rows(Layout):
         self.rows: list[Any] = []
 
     def row(self, **_rest: Any) -> Any:
-        row = Layout(self.told)
+        row = Layout(self.reported)
         self.rows.append(row)
         return row
 
@@ -39,7 +39,7 @@ def redo_panel(**chosen: Any) -> Rows:
 
 def test_the_redo_panel_has_every_option() -> None:
     names = [field.name for field in fields(module("core.filling").FillOptions)]
-    assert sorted(redo_panel().told) == sorted(names)
+    assert sorted(redo_panel().reported) == sorted(names)
 
 
 def test_the_join_is_greyed_out_for_shapes_that_have_none() -> None:
@@ -50,7 +50,7 @@ def test_the_join_is_greyed_out_for_shapes_that_have_none() -> None:
         ("MINIMAL_ENERGY", False),
     ):
         rows = redo_panel(equation=equation)
-        states = dict(zip(rows.told, (row.active for row in rows.rows), strict=True))
+        states = dict(zip(rows.reported, (row.active for row in rows.rows), strict=True))
         assert states.pop("continuity") == active
         assert all(states.values())
 
@@ -61,12 +61,12 @@ def test_it_is_in_the_menu_face_and_in_the_context_menu_of_edges_and_vertices() 
     assert ui.draw_context_menu in bpy.types.VIEW3D_MT_edit_mesh_context_menu.draw._draw_funcs
     face = SimpleNamespace(layout=Layout())
     ui.draw_face_menu(face, bpy.context)
-    assert face.layout.told == ["mesh.fair_region", "mesh.fair_fill"]
+    assert face.layout.reported == ["mesh.fair_region", "mesh.fair_fill"]
     for mode, offered in (("VERT", "mesh.fair_fill"), ("EDGE", "mesh.fair_fill"), ("FACE", "mesh.fair_region")):
         tools = SimpleNamespace(mesh_select_mode=tuple(mode == each for each in ("VERT", "EDGE", "FACE")))
         menu = SimpleNamespace(layout=Layout())
         ui.draw_context_menu(menu, SimpleNamespace(tool_settings=tools))
-        assert menu.layout.told == [offered]
+        assert menu.layout.reported == [offered]
 
 
 def test_a_new_mesh_under_multiresolution_is_refused() -> None:

@@ -106,7 +106,7 @@ def test_marked_seams_go_on(capfd: pytest.CaptureFixture[str]) -> None:
         assert f"{len(new)} new edges are seams of UVs" in "".join(capfd.readouterr())
 
 
-def test_what_lies_over_other_islands_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+def test_what_lies_over_other_islands_is_reported(capfd: pytest.CaptureFixture[str]) -> None:
     """Where all islands lie on one heap, and where each has its place."""
     for apart in (0.0, 1.0):
         obj = open_sphere(HOLES["edge"][0])

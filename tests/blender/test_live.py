@@ -210,7 +210,7 @@ def test_new_connectivity_is_read_anew(live: Any) -> None:
     assert live.message == ""
 
 
-def test_a_spoilt_outline_is_told_and_leaves_the_mesh(live: Any) -> None:
+def test_a_spoilt_outline_is_reported_and_leaves_the_mesh(live: Any) -> None:
     table_mountain()
     before = now()
     beside = flank(before)

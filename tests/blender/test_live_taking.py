@@ -44,11 +44,11 @@ def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
 
 def clicked() -> Any:
     """A stand-in for the operator with its methods, called as a click would."""
-    original, told = module("follow.taking").MESH_OT_fair_live_region, []
+    original, reported = module("follow.taking").MESH_OT_fair_live_region, []
 
     class Stand:
         def report(self, kinds: set[str], text: str) -> None:
-            told.append((kinds, text))
+            reported.append((kinds, text))
 
         def _start_watching(self, context: Any) -> None:
             self._signs = module("run.background").Signs(context)
@@ -58,7 +58,7 @@ def clicked() -> Any:
     for name in ("modal", "cancel", "_collect", "_stop_watching"):
         setattr(Stand, name, getattr(original, name))
     stand = Stand()
-    stand.told = told
+    stand.reported = reported
     return stand
 
 
@@ -168,7 +168,7 @@ def test_a_mesh_that_changed_meanwhile_is_left_alone(gate: Gate, change: str) ->
     assert operator._run.wait(10.0)
     after = None if change == "left" else now()
     assert tick(operator) == {"CANCELLED"}
-    assert "changed meanwhile" in operator.told[-1][1]
+    assert "changed meanwhile" in operator.reported[-1][1]
     if after is not None:
         assert nothing_has_changed(after)
 
@@ -190,7 +190,7 @@ def test_without_a_surface_nothing_changes(gate: Gate, monkeypatch: pytest.Monke
     gate.go.set()
     assert operator._run.wait(10.0)
     assert tick(operator) == {"CANCELLED"}
-    assert operator.told == [({"ERROR"}, "Grid: No fair surface was found for the region")]
+    assert operator.reported == [({"ERROR"}, "Grid: No fair surface was found for the region")]
     assert nothing_has_changed(before)
 
 

@@ -23,7 +23,7 @@ class Shown:
 
 shown = Shown()
 module("loading_panel").VIEW3D_PT_fairing_loading.draw(shown, bpy.context)
-print("DRAWN", *shown.layout.told)
+print("DRAWN", *shown.layout.reported)
 print("WHEEL", module("loading").manifest()["wheels"][0].removeprefix("./wheels/"))
 """
 

@@ -11,7 +11,7 @@ import pytest
 from extension import inspect, module
 
 
-def told(*objects: bpy.types.Object, **properties: Any) -> list[str]:
+def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     """Return the infos and warnings of a run, from and to object mode."""
     original = module("run.operators").MESH_OT_fair_region
     said: list[str] = []
@@ -45,7 +45,7 @@ def test_no_face_selected(mode: tuple[bool, bool, bool]) -> None:
         for vertex in obj.data.edges[5].vertices:
             obj.data.vertices[vertex].select = True
     bpy.context.tool_settings.mesh_select_mode = mode
-    (text,) = told(obj)
+    (text,) = reported(obj)
     assert text.startswith("No face is selected: select the faces")
     assert inspect(obj, np.zeros_like(faces)).refusal == text
 
@@ -55,7 +55,7 @@ def test_no_free_vertex() -> None:
     one = np.zeros_like(faces)
     one[9] = True
     meshes.select(obj, one)
-    (text,) = told(obj)
+    (text,) = reported(obj)
     assert text.startswith("No vertex is free to move")
     assert inspect(obj, one).refusal == text
 
@@ -68,7 +68,7 @@ def test_an_object_without_free_vertices_is_named() -> None:
     one[9] = True
     for obj, chosen in ((first, faces), (second, one), (third, np.zeros_like(faces))):
         meshes.select(obj, chosen)
-    said = told(first, second, third)
+    said = reported(first, second, third)
     note = f"{second.name} was left as it is: no vertex inside its selection is free to move"
     assert note in said
     assert note in meshes.report().warnings
@@ -85,7 +85,7 @@ def test_a_pin_group_that_pins_nothing(weight: float | None) -> None:
     if weight is not None:
         group.add(inside[:1], weight, "REPLACE")
     meshes.select(obj, faces)
-    notes = [text for text in told(obj, pin_group="Pin") if "pins nothing" in text]
+    notes = [text for text in reported(obj, pin_group="Pin") if "pins nothing" in text]
     assert len(notes) == (0 if weight else 1)
     assert ("'Pin' has no vertex inside" in "".join(inspect(obj, faces, pin_group="Pin").notes)) == bool(notes)
 

@@ -53,7 +53,7 @@ def test_result_is_symmetric_to_the_bit(scale: tuple[float, float, float]) -> No
 
 
 @pytest.mark.parametrize("what", ["selection", "outline"])
-def test_asymmetry_is_told(what: str) -> None:
+def test_asymmetry_is_reported(what: str) -> None:
     obj, faces = symmetric_dome()
     obj.data.use_mirror_x = True
     if what == "selection":

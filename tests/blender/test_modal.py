@@ -30,9 +30,9 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         _begin, _options, _notes, _way = 0.0, options, (), ""
 
         def report(self, kinds: set[str], text: str) -> None:
-            told.append((kinds, text))
+            reported.append((kinds, text))
 
-    told: list[Any] = []
+    reported: list[Any] = []
     meshes.select(obj, faces)
     meshes.edit(obj)
     job.memory.clear()
@@ -45,7 +45,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         return job.solve(tasks, options, progress)
 
     stand = Stand()
-    stand.told, stand._tasks = told, tasks
+    stand.reported, stand._tasks = reported, tasks
     stand._signs = module("run.background").Signs(bpy.context)
     stand._run = module("core.runner").Run(work)
     return stand
@@ -164,12 +164,12 @@ def test_a_mesh_that_changed_meanwhile_is_left_alone(go_on: threading.Event) -> 
     go_on.set()
     assert operator._run.wait(10.0)
     assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
-    assert "changed meanwhile" in operator.told[-1][1]
+    assert "changed meanwhile" in operator.reported[-1][1]
     meshes.leave()
     assert meshes.positions(obj).tobytes() == moved.tobytes()
 
 
-def test_refusal_at_the_end_is_told(go_on: threading.Event) -> None:
+def test_refusal_at_the_end_is_reported(go_on: threading.Event) -> None:
     obj, faces = meshes.domed_grid()
     operator = started(obj, faces, go_on)
     operator._run.cancel()
@@ -180,4 +180,4 @@ def test_refusal_at_the_end_is_told(go_on: threading.Event) -> None:
     operator._run = module("core.runner").Run(refused)
     assert operator._run.wait(10.0)
     assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
-    assert operator.told == [({"ERROR"}, f"{obj.name}: no")]
+    assert operator.reported == [({"ERROR"}, f"{obj.name}: no")]

@@ -66,7 +66,7 @@ def test_measuring_is_no_change(overlay: Any) -> None:
     assert not bpy.app.timers.is_registered(later)  # else it would go round for ever
 
 
-def test_what_is_no_surface_is_told(overlay: Any) -> None:
+def test_what_is_no_surface_is_reported(overlay: Any) -> None:
     obj, _ = meshes.domed_grid()
     add_tent(obj)
     settings().show = True

@@ -18,27 +18,27 @@ from test_refusals import add_nan, add_tent
 class Layout:
     """Records what a panel draws; stands in for Blender's UILayout and its children."""
 
-    def __init__(self, told: list[str] | None = None) -> None:
-        self.told = [] if told is None else told
+    def __init__(self, reported: list[str] | None = None) -> None:
+        self.reported = [] if reported is None else reported
 
     def label(self, text: str = "", **_rest: Any) -> None:
-        self.told.append(text)
+        self.reported.append(text)
 
     def operator(self, name: str, text: str = "", **_rest: Any) -> Any:
-        self.told.append(text or name)
+        self.reported.append(text or name)
         return SimpleNamespace()
 
     def prop(self, _owner: Any, name: str, **_rest: Any) -> None:
-        self.told.append(name)
+        self.reported.append(name)
 
     def prop_search(self, _owner: Any, name: str, *_rest: Any) -> None:
-        self.told.append(name)
+        self.reported.append(name)
 
     def separator(self, **_rest: Any) -> None:
         pass
 
     def _child(self, **_rest: Any) -> Layout:
-        return Layout(self.told)
+        return Layout(self.reported)
 
     column = row = split = box = _child
 
@@ -49,7 +49,7 @@ def drawn(panel: str) -> str:
 
     shown = Shown()
     getattr(module("show.ui"), panel).draw(shown, bpy.context)
-    return "\n".join(shown.layout.told)
+    return "\n".join(shown.layout.reported)
 
 
 def test_inspection_counts() -> None:
@@ -173,7 +173,7 @@ def in_redo_panel(opened: bool, **chosen: Any) -> list[str]:
     for name in panel.FOLDS:
         setattr(manager, name, opened)
     panel.draw_options(layout, module("core.options").FairOptions(**chosen), obj, manager)
-    return [text for text in layout.told if text in names]
+    return [text for text in layout.reported if text in names]
 
 
 EVERYDAY = [

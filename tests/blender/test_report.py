@@ -26,7 +26,7 @@ def test_nothing_is_good_before_it_has_been_looked_at() -> None:
     assert report.verdict == "UNUSABLE"
 
 
-def test_options_that_nothing_looked_at_are_told_by_their_labels(capfd: pytest.CaptureFixture[str]) -> None:
+def test_options_that_nothing_looked_at_are_reported_by_their_labels(capfd: pytest.CaptureFixture[str]) -> None:
     obj, faces = meshes.domed_grid()
     meshes.fair(obj, faces, bulge=0.5)
     assert checks()["Without effect"] == ("Bulge", "TOLD")

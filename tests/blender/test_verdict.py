@@ -300,7 +300,7 @@ def test_worst_spots_are_the_kinks() -> None:
     assert not bpy.ops.mesh.fair_spots.poll()
 
 
-def test_a_mended_outline_moves_it() -> None:
+def test_a_fitted_boundary_moves_it() -> None:
     obj = meshes.grid(16)
     points = meshes.positions(obj)
     points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
@@ -359,16 +359,16 @@ def test_text_wraps_at_the_width_that_there_is() -> None:
     assert module("host.text")._width("MMMM") > module("host.text")._width("iiii") > 0.0
 
 
-def test_scripts_are_told_by_an_exception() -> None:
+def test_scripts_are_reported_by_an_exception() -> None:
     package = module()
     obj, faces = kinked()
     indices = np.flatnonzero(faces).tolist()
     before = meshes.contents(obj)
-    with pytest.raises(package.NotUsable, match="of its bulge") as told:
+    with pytest.raises(package.NotUsable, match="of its bulge") as reported:
         package.fair_mesh(obj.data, indices, **NONE)
     assert meshes.contents(obj) == before
-    assert not told.value.result.converged
-    assert len(told.value.elements)
+    assert not reported.value.result.converged
+    assert len(reported.value.elements)
     result = package.fair_mesh(obj.data, indices, accept="ALL", **NONE)
     assert not result.converged
     assert meshes.contents(obj) != before
@@ -410,7 +410,7 @@ def test_a_texture_is_kept_without_being_asked() -> None:
     assert results[True, "UNIFORM"] != results[True, "CONFORMAL"]
 
 
-def test_a_hard_edge_that_smoothing_rounds_is_told() -> None:
+def test_a_hard_edge_that_smoothing_rounds_is_reported() -> None:
     bpy.ops.mesh.primitive_cube_add()
     obj = bpy.context.object
     bm = bmesh.new()

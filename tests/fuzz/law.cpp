@@ -56,7 +56,7 @@ void check_fair(const FairResult& result, const MeshInput& mesh, const FairOptio
     require(result.mean_curvature.allFinite(), "H is finite");
     require((result.boundary_angle.array() >= 0.0).all() && (result.boundary_angle.array() <= 180.0).all(),
             "angles are angles");
-    require(result.iterations >= 0 && !result.levels.empty(), "levels and iterations are told");
+    require(result.iterations >= 0 && !result.levels.empty(), "levels and iterations are reported");
     require(result.converged == (result.termination == Termination::converged), "converged means terminated so");
     require(!result.converged || std::isfinite(result.residual), "what converged has a residual");
     require(options.solver.max_iterations > 0, "options are valid");
@@ -67,7 +67,7 @@ void check_same(const FairResult& one, const FairResult& other) {
     for (int v = 0; v < one.vertices.cols(); ++v) {
         require(same_bits(one.vertices, other.vertices, v), "the same input gives the same bits");
     }
-    require(one.iterations == other.iterations && one.residual == other.residual, "the same run is told");
+    require(one.iterations == other.iterations && one.residual == other.residual, "the same run is reported");
 }
 
 void check_levels(const std::vector<MeshLevel>& levels, const MeshInput& mesh) {

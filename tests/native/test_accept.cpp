@@ -73,7 +73,7 @@ TEST_CASE("folds are a flaw and are named, unless the weights come from as many"
     CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
-TEST_CASE("few triangles beside an eased outline may be the outline's own folds, many are a flaw") {
+TEST_CASE("few triangles beside a low-passed outline may be the outline's own folds, many are a flaw") {
     const test::Single single = test::single_patch(test::grid(80, 0.0, test::sphere));
     const Patch& patch = single.patch();
     const Points fixed = single.points.rightCols(patch.vertex_count() - patch.free_count);

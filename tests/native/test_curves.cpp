@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "outline/chain_end.h"
-#include "outline/least_variation_curve.h"
+#include "boundary/chain_end.h"
+#include "boundary/least_variation_curve.h"
 
 using namespace fairing;
 

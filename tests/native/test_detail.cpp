@@ -114,7 +114,7 @@ TEST_CASE("a sphere has next to none, up to its outline") {
     CHECK((smoothed(single, 0.3) - single.points).cwiseAbs().maxCoeff() < 2e-4);
 }
 
-TEST_CASE("what the new base turns over is told from what was turned over before") {
+TEST_CASE("what the new base turns over is distinguished from what was turned over before") {
     const auto overhang = [](double u, double v) {
         const double x = u - 0.5;
         const double y = v - 0.5;

@@ -216,7 +216,7 @@ TEST_CASE("a mesh over a crumpled surface does not grow without end") {
     for (Eigen::Index v = 0; v < count; ++v) normals.col(v) = any().normalized();
     const TargetSurface surface(square.patch, square.points, normals);
     const VectorX lengths = VectorX::Constant(count, 0.7);
-    EvenMesh mesh(square.patch, square.points, surface, lengths);
+    EqualEdgeMesh mesh(square.patch, square.points, surface, lengths);
     mesh.make_even();
     const double expected = expected_count(square.patch, square.points, lengths) + static_cast<double>(count);
     CHECK(static_cast<double>(mesh.result().points.cols()) < 3.0 * expected);  // six times without a limit

@@ -116,7 +116,7 @@ TEST_CASE("cross-sections of a pipe have the radii of its circles") {
     CHECK(sections->radii(0, waisted).minCoeff() == doctest::Approx(0.3).epsilon(0.02));
 }
 
-TEST_CASE("loops that are no tubes' ends are told from those of a pipe") {
+TEST_CASE("loops that are no tubes' ends are distinguished from those of a pipe") {
     const Pipe pipe(20);
     CHECK(is_between_tubes(pipe.single.patch(), pipe.single.points, pipe.problem.fixed_normals));
     const Pipe steep(20, 1.2);  // leans by 69°: a ball between two small caps

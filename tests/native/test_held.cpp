@@ -5,9 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include "boundary/creased.h"
+#include "boundary/fair_border.h"
 #include "meshes.h"
-#include "outline/creased.h"
-#include "outline/fair_border.h"
 #include "pins/released.h"
 #include "pins/spread_pins.h"
 #include "problem/free_slopes.h"

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <random>
 
+#include "boundary/bad_boundary.h"
+#include "boundary/fitted_boundary.h"
+#include "boundary/low_passed_boundary.h"
+#include "boundary/normal_filter.h"
 #include "meshes.h"
-#include "outline/bad_outline.h"
-#include "outline/eased_outline.h"
-#include "outline/mended_outline.h"
-#include "outline/normal_filter.h"
 #include "shape/visible_join.h"
 
 using namespace fairing;
@@ -146,30 +146,31 @@ TEST_CASE("a kink between planes is as visible as its angle") {
 TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
     const Points noisy = rough_plane(3, 0.15);
     const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
-    const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
-    CHECK(mended.noise == doctest::Approx(0.13).epsilon(0.3));
-    const Points move = mended.vertices - noisy;
+    const FittedBoundary fitted = fitted_boundary(noisy, outside, seam_vertices());
+    CHECK(fitted.noise == doctest::Approx(0.13).epsilon(0.3));
+    const Points move = fitted.vertices - noisy;
     for (int v = 0; v < noisy.cols(); ++v) {
         const int ring = v % columns - seam;
         const bool moves = ring >= 0 && ring <= 2;
         CHECK(move.col(v).isZero(0.0) != moves);
         if (moves) CHECK(move.col(v).norm() <= (3 - ring) / 3.0 * 0.25 * 1.35);  // diagonals are edges, too
     }
-    CHECK(mended.moved.size() == 3 * rows);
+    CHECK(fitted.moved.size() == 3 * rows);
     const auto spread = [&](const Points& points) {
         double sum = 0.0;
         for (int v : seam_vertices()) sum += points(2, v) * points(2, v);
         return std::sqrt(sum / rows);
     };
-    CHECK(spread(mended.vertices) < 0.7 * spread(noisy));
+    CHECK(spread(fitted.vertices) < 0.7 * spread(noisy));
 }
 
 TEST_CASE("mended: what is not noisy stays") {
     const auto bowl = [](int i, int j) { return 0.01 * (i * i + j * j); };
     const Points clean = grid_points(columns, rows, bowl);
-    const MendedOutline mended = mend_outline(clean, grid_triangles(columns, rows, seam, columns - 1), seam_vertices());
-    CHECK(mended.moved.empty());
-    CHECK(mended.vertices == clean);
+    const FittedBoundary fitted =
+        fitted_boundary(clean, grid_triangles(columns, rows, seam, columns - 1), seam_vertices());
+    CHECK(fitted.moved.empty());
+    CHECK(fitted.vertices == clean);
 }
 
 TEST_CASE("mended: no triangle turns over, vertices that would turn one are held") {
@@ -184,10 +185,10 @@ TEST_CASE("mended: no triangle turns over, vertices that would turn one are held
         std::normal_distribution<double> normal(0.0, 0.3);
         Points noisy = grid_points(columns, rows, [](int, int) { return 0.0; });
         for (double& coordinate : noisy.reshaped()) coordinate += normal(random);
-        const MendedOutline mended = mend_outline(noisy, outside, seam_vertices());
-        for (const auto t : outside.colwise()) CHECK(normal_of(noisy, t).dot(normal_of(mended.vertices, t)) >= 0.0);
-        for (int v : mended.held) CHECK(mended.vertices.col(v) == noisy.col(v));
-        held += mended.held.size();
+        const FittedBoundary fitted = fitted_boundary(noisy, outside, seam_vertices());
+        for (const auto t : outside.colwise()) CHECK(normal_of(noisy, t).dot(normal_of(fitted.vertices, t)) >= 0.0);
+        for (int v : fitted.held) CHECK(fitted.vertices.col(v) == noisy.col(v));
+        held += fitted.held.size();
     }
     CHECK(held > 0);
 }
@@ -221,7 +222,8 @@ struct Ring {
 
 }  // namespace
 
-TEST_CASE("eased: curvature does not vary along a circle of a sphere or a cone; a zigzag varies the more the finer") {
+TEST_CASE(
+    "low-passed: curvature does not vary along a circle of a sphere or a cone; a zigzag varies the more the finer") {
     const auto zigzag = [](const Ring& ring) {
         const double count = static_cast<double>(ring.loop.size());
         const double edge = 2.0 * std::numbers::pi / count;

@@ -245,16 +245,16 @@ def fair(
             progress,
         )
 
-    mended = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
-    if mended:
+    fitted = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
+    if fitted:
         _mending.refuse_creases(creases, around)
     parts = _feather.vertex_weights(weights, count)
-    refused = {"reference": m0 is not None, "outline": mended, "continuity": joins, "detail_from": sample is not None}
+    refused = {"reference": m0 is not None, "outline": fitted, "continuity": joins, "detail_from": sample is not None}
     width = _feather.width(feather, parts, refused)
     if width > 0.0 or parts is not None:
         fade = _feather.Fade(
             shown, _arguments.share("detail_size", detail_size), width if parts is None else parts, threads, progress
         )
         return FairResult(**_feather.solve_feathered(call, as_given, around, fade))
-    answer = _mending.solve_mended(call, as_given, faces, around) if mended else call(as_given)
+    answer = _mending.solve_fitted(call, as_given, faces, around) if fitted else call(as_given)
     return FairResult(**_mending.with_join(answer, around))

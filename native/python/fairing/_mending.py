@@ -82,7 +82,7 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
         )
 
 
-def solve_mended(
+def solve_fitted(
     call: Callable[[Boundary], Answer], given: Boundary, triangles: IntArray, around: Surroundings
 ) -> Answer:
     """The better answer: the fitted boundary's, unless the given one is solved, or folds less, or joins better.
@@ -94,31 +94,31 @@ def solve_mended(
             "outline: 'mended' needs the triangles outside: pass them as `outside`, or among the triangles with all "
             "their vertices in `fixed`"
         )
-    mended = _core.mend_outline(given.vertices, around.outside, around.rim)
-    if not len(mended["moved"]):
+    fitted = _core.mend_outline(given.vertices, around.outside, around.rim)
+    if not len(fitted["moved"]):
         return call(given)
-    answer = call(_moved(given, triangles, around.rim, mended))
+    answer = call(_moved(given, triangles, around.rim, fitted))
     worth = _worth(answer, around)
     if worth != _FLAWLESS:
         kept = call(given)
         if _worth(kept, around) > worth:
-            why = "its mended place gives folds, a larger kink or no solution"
-            return _reported(kept, mended["moved"], why, worse=1.0)
-    answer["moved"] = mended["moved"]
-    return _reported(answer, mended["held"], "moving it would turn triangles over")
+            why = "its fitted place gives folds, a larger kink or no solution"
+            return _reported(kept, fitted["moved"], why, worse=1.0)
+    answer["moved"] = fitted["moved"]
+    return _reported(answer, fitted["held"], "moving it would turn triangles over")
 
 
-def _moved(given: Boundary, triangles: IntArray, rim: IntArray, mended: Answer) -> Boundary:
-    """The mended positions, and the fitted normals at the rim."""
+def _moved(given: Boundary, triangles: IntArray, rim: IntArray, fitted: Answer) -> Boundary:
+    """The fitted positions, and the fitted normals at the rim."""
     fixed = rim if given.fixed is None else given.fixed
     if given.normals is None:
         normals = _core.vertex_normals(given.vertices, triangles, "averaged")[fixed]
     else:
         normals = given.normals.copy()
     place = np.searchsorted(rim, fixed).clip(max=len(rim) - 1)
-    found = (rim[place] == fixed) & mended["fitted"][place]
-    normals[found] = mended["normals"][place[found]]
-    return replace(given, vertices=mended["vertices"], fixed=fixed, normals=normals)
+    found = (rim[place] == fixed) & fitted["fitted"][place]
+    normals[found] = fitted["normals"][place[found]]
+    return replace(given, vertices=fitted["vertices"], fixed=fixed, normals=normals)
 
 
 _FLAWLESS = (True, 0, 0.0)

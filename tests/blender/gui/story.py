@@ -75,7 +75,7 @@ def look_before_running() -> Story:
     screenshot("selection")
 
 
-def told_before_running() -> Story:
+def reported_before_running() -> Story:
     """The panel says why nothing would happen, and running says the same and changes nothing."""
     scenes.single_face()
     open_tab()
@@ -191,7 +191,7 @@ def in_german() -> Story:
 
 CHAPTERS = (
     look_before_running,
-    told_before_running,
+    reported_before_running,
     fair_it,
     adjust_in_redo_panel,
     cancel_a_hopeless_run,

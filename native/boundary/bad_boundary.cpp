@@ -1,4 +1,4 @@
-#include "outline/bad_outline.h"
+#include "boundary/bad_boundary.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "outline/normal_filter.h"
+#include "boundary/normal_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "outline/closing.h"
+#include "boundary/closing.h"
 
 #include "geometry/neighbourhood.h"
 #include "linear/conjugate_gradients.h"

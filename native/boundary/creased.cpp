@@ -1,4 +1,4 @@
-#include "outline/creased.h"
+#include "boundary/creased.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Normals of neighbouring fits reconciled along a boundary.
 #pragma once
 
-#include "outline/surrounding_fit.h"
+#include "boundary/surrounding_fit.h"
 
 namespace fairing {
 

@@ -1,4 +1,4 @@
-#include "outline/mended_outline.h"
+#include "boundary/fitted_boundary.h"
 
 #include <algorithm>
 
@@ -87,9 +87,9 @@ Indices hold_folds(const Points& points, const Triangles& triangles, Points& mov
 
 }  // namespace
 
-MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline) {
+FittedBoundary fitted_boundary(const Points& points, const Triangles& triangles, const Indices& outline) {
     const SurroundingFit fit = fit_surroundings(points, triangles, outline);
-    MendedOutline result{points, {}, {}, noise_of(fit), normals_of(fit)};
+    FittedBoundary result{points, {}, {}, noise_of(fit), normals_of(fit)};
     if (result.noise < least_noise) return result;
     Points move = moves(points, triangles, shares(triangles, outline, points.cols()));
     result.held = hold_folds(points, triangles, move);

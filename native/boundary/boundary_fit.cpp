@@ -1,12 +1,12 @@
-#include "outline/boundary_fit.h"
+#include "boundary/boundary_fit.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "base/median.h"
 #include "base/progress.h"
+#include "boundary/sided_fits.h"
 #include "mesh/collapsed.h"
-#include "outline/sided_fits.h"
 
 namespace fairing {
 

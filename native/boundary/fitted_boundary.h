@@ -1,11 +1,11 @@
 // A noisy boundary, fitted: moved onto the surface that its surroundings suggest.
 #pragma once
 
-#include "outline/surrounding_fit.h"
+#include "boundary/surrounding_fit.h"
 
 namespace fairing {
 
-struct MendedOutline {
+struct FittedBoundary {
     Points vertices;             // those of the input, bit for bit, but for the moved ones
     Indices moved;               // ascending
     Indices held;                // ascending: a move would fold triangles outside
@@ -17,6 +17,6 @@ struct MendedOutline {
 // by ⅔ and ⅓ of the distance to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves
 // where the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose
 // move would turn a triangle over are held.
-MendedOutline mend_outline(const Points& points, const Triangles& triangles, const Indices& outline);
+FittedBoundary fitted_boundary(const Points& points, const Triangles& triangles, const Indices& outline);
 
 }  // namespace fairing

@@ -1,4 +1,4 @@
-#include "outline/chain_end.h"
+#include "boundary/chain_end.h"
 
 #include <Eigen/Eigenvalues>
 

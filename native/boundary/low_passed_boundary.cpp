@@ -1,4 +1,4 @@
-#include "outline/eased_outline.h"
+#include "boundary/low_passed_boundary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ double mean_edge_of(const Patch& patch, const OutlineData& outline, const Indice
 double outline_variation(const Patch& patch, const OutlineData& outline) {
     double sum = 0.0;
     for (const Indices& loop : patch.loops()) {
-        const double least = std::pow(least_told * mean_edge_of(patch, outline, loop), 4.0);
+        const double least = std::pow(least_reported * mean_edge_of(patch, outline, loop), 4.0);
         for (std::size_t k = 0; k < loop.size(); ++k) {
             const int a = loop[k] - patch.free_count;
             const int b = loop[(k + 1) % loop.size()] - patch.free_count;
@@ -70,7 +70,7 @@ double outline_variation(const Patch& patch, const OutlineData& outline) {
     return sum;
 }
 
-OutlineData eased_outline(const Patch& patch, const OutlineData& outline, double wave) {
+OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, double wave) {
     OutlineData result = outline;
     for (Indices loop : patch.loops()) {
         if (static_cast<double>(loop.size()) <= wave) continue;

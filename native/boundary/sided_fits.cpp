@@ -1,10 +1,10 @@
-#include "outline/sided_fits.h"
+#include "boundary/sided_fits.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "boundary/creased.h"
 #include "mesh/collapsed.h"
-#include "outline/creased.h"
 
 namespace fairing {
 

@@ -1,4 +1,4 @@
-#include "outline/fair_border.h"
+#include "boundary/fair_border.h"
 
 #include <algorithm>
 #include <cmath>

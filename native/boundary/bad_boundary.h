@@ -1,7 +1,7 @@
 // Boundary vertices whose surroundings say little about the surface.
 #pragma once
 
-#include "outline/surrounding_fit.h"
+#include "boundary/surrounding_fit.h"
 
 namespace fairing {
 

@@ -1,4 +1,4 @@
-#include "outline/feather.h"
+#include "boundary/feather.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 // Normals along the boundary of a patch, from the triangles outside or, along hard edges, from its own.
 #pragma once
 
-#include "outline/hard_outline.h"
-#include "outline/surrounding_fit.h"
+#include "boundary/hard_boundary.h"
+#include "boundary/surrounding_fit.h"
 
 namespace fairing {
 

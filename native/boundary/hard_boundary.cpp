@@ -1,13 +1,13 @@
-#include "outline/hard_outline.h"
+#include "boundary/hard_boundary.h"
 
 #include <algorithm>
 #include <map>
 
 #include "base/direction.h"
+#include "boundary/closing.h"
 #include "geometry/angle.h"
 #include "mesh/edges.h"
 #include "mesh/union_find.h"
-#include "outline/closing.h"
 
 namespace fairing {
 

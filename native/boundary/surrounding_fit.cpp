@@ -1,11 +1,11 @@
-#include "outline/surrounding_fit.h"
+#include "boundary/surrounding_fit.h"
 
 #include <algorithm>
 #include <limits>
 
 #include "base/progress.h"
-#include "outline/normal_filter.h"
-#include "outline/sided_fits.h"
+#include "boundary/normal_filter.h"
+#include "boundary/sided_fits.h"
 
 namespace fairing {
 

@@ -19,6 +19,6 @@ double outline_variation(const Patch& patch, const OutlineData& outline);
 // The boundary without its short waves: along each loop positions and normals minimise Σ |x − x₀|² + μ Σ |δ²x|², which
 // halves waves of `wave` vertices, and normals are then at right angles to it. Loops of no more than `wave` vertices
 // and what lies on no loop stay.
-OutlineData eased_outline(const Patch& patch, const OutlineData& outline, double wave);
+OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, double wave);
 
 }  // namespace fairing

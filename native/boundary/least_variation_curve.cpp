@@ -1,4 +1,4 @@
-#include "outline/least_variation_curve.h"
+#include "boundary/least_variation_curve.h"
 
 #include <algorithm>
 #include <array>
