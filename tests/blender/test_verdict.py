@@ -12,7 +12,6 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
-from mathutils import Vector
 from test_held import box, bumpy
 from test_interface import command
 from test_panel import drawn
@@ -408,24 +407,6 @@ def test_a_texture_is_kept_without_being_asked() -> None:
     assert results[False, "AUTOMATIC"] == results[False, "UNIFORM"]
     assert results[True, "AUTOMATIC"] == results[True, "CONFORMAL"]
     assert results[True, "UNIFORM"] != results[True, "CONFORMAL"]
-
-
-def test_a_hard_edge_that_smoothing_rounds_is_reported() -> None:
-    bpy.ops.mesh.primitive_cube_add()
-    obj = bpy.context.object
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bmesh.ops.subdivide_edges(bm, edges=bm.edges[:], cuts=12, use_grid_fill=True)
-    bm.to_mesh(obj.data)
-    bm.free()
-    faces = meshes.faces_where(obj, lambda c: (c - Vector((1.0, -1.0, 1.0))).length < 0.5)
-    before = meshes.positions(obj)
-    meshes.fair(obj, faces, outline="MENDED")
-    report = meshes.report()
-    assert report.verdict == "LOOK"
-    assert report.reason.startswith("Boundary: Smooth has rounded a hard edge outside")
-    assert "AS_SELECTED" in report.remedies
-    assert np.abs(meshes.positions(obj) - before)[~meshes.free_vertices(obj, faces)].max() > 0.0
 
 
 def test_edges_that_are_marked_sharp_are_missed_unless_they_are_pinned() -> None:
