@@ -152,7 +152,7 @@ Points MultigridStep::displacement(const Points& points, const TangentPlanes& pl
 }
 
 Points MultigridStep::displacement(TurningPlanes&& temporary, Effort effort) const {
-    TurningPlanes planes = std::move(gone);
+    TurningPlanes planes = std::move(temporary);
     Points across = pull(planes.points);
     planes.points.resize(3, 0);
     Planes singles = project(across, planes.normals, std::move(planes.shapes));
