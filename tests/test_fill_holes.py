@@ -171,7 +171,7 @@ def test_more_than_was_allowed_is_refused_before_it_is_made() -> None:
     assert error.diagnostic.figures["count"] == pytest.approx(424, rel=0.1)
     assert "mesh" not in reported  # the second look, at the first small surface
     refused(lambda: fairing.fill(vertices, triangles, spacing=1e-4, progress=lambda _, stage: reported.append(stage)))
-    assert len(fairing.fill(vertices, triangles, max_vertices=500).vertices) == 424
+    assert len(fairing.fill(vertices, triangles, max_vertices=500).vertices) == pytest.approx(424, rel=0.1)
 
 
 def test_a_new_mesh_in_proportion_to_the_old_surface() -> None:

@@ -46,7 +46,7 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a loft "loft", 1, for
 // the shape before "smoothed", 1, and where one of these two leaves the prescribed tangent planes by more than 20°
-// "kinks", these outline vertices, which are the elements then; for a low-passed outline (method/low_passed)
+// "kinks", these outline vertices, which are the elements then; for a low-passed outline (method/own_mesh)
 // "distance", how far it lies beside the surface, in units of D.
 Diagnostic no_solution(const Problem& problem, const Solution& solution);
 

@@ -7,7 +7,6 @@ namespace fairing {
 
 Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held) {
     constexpr double accuracy = 1e-6;  // flat loops give exact zeros across; others need a direction alone
-    constexpr int most_cycles = 500;
     const auto count = static_cast<int>(points.cols());
     const VertexAdjacency around(triangles, count);
     const auto is_free = [&](int v) { return !held[v] && around.begin[v] < around.begin[v + 1]; };

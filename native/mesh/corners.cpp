@@ -12,21 +12,16 @@ Indices each_once(Indices numbers) {
     return numbers;
 }
 
-// What some triangles' columns of a table name.
-Indices named_by(const Indices& triangles, const Triangles& table) {
-    Indices named;
-    named.reserve(3 * triangles.size());
-    for (const int t : triangles) {
-        for (const int number : table.col(t)) named.push_back(number);
-    }
-    return each_once(std::move(named));
-}
-
 }  // namespace
 
-Indices corners_of(const Patch& patch, const Indices& triangles) { return named_by(triangles, patch.triangles); }
-
-Indices edges_of(const Patch& patch, const Indices& triangles) { return named_by(triangles, patch.triangle_edges); }
+Indices corners_of(const Patch& patch, const Indices& triangles) {
+    Indices corners;
+    corners.reserve(3 * triangles.size());
+    for (const int t : triangles) {
+        for (const int v : patch.triangles.col(t)) corners.push_back(v);
+    }
+    return each_once(std::move(corners));
+}
 
 Indices triangles_at(const Patch& patch, const Indices& vertices) {
     Indices triangles;

@@ -8,9 +8,6 @@ namespace fairing {
 // Each once, ascending.
 Indices corners_of(const Patch& patch, const Indices& triangles);
 
-// Likewise.
-Indices edges_of(const Patch& patch, const Indices& triangles);
-
 // Those with one of the vertices as a corner; each once, ascending.
 Indices triangles_at(const Patch& patch, const Indices& vertices);
 

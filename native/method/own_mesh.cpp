@@ -1,6 +1,9 @@
 #include "method/own_mesh.h"
 
 #include "method/coarse_own_mesh.h"
+#include "placement/follow_outline.h"
+#include "placement/tears.h"
+#include "placement/untear.h"
 
 namespace fairing {
 
@@ -55,6 +58,30 @@ const CoarseStart& start_of(const Problem& problem, const Traits& traits, Attemp
     return *attempts.start;
 }
 
+// Placed alone: for a surface that the problem's own mesh has no equal of. Nothing where no mesh carries it. `traits`,
+// `attempts`: of the problem whose loops may have been low-passed since.
+std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
+                                          const Progress& progress) {
+    if (!traits.is_large) return FineOwnMesh(problem, progress).run(std::nullopt, Polish::unwanted);
+    const CoarseStart& start = start_of(problem, traits, attempts, progress);
+    if (start.is_in_vain()) return std::nullopt;
+    return solve_on_coarse_own_mesh(problem, std::nullopt, Polish::unwanted, start, progress);
+}
+
+// The placed vertices beside the boundary that lies off their surface by these offsets. The rows next to it follow it;
+// where that leaves triangles torn and the rows that stay have fewer, these do.
+Points beside(const Patch& patch, const Points& offsets, const Points& placed) {
+    Points followed = placed;
+    follow_outline(patch, offsets, followed);
+    followed = untorn(patch, std::move(followed));
+    const std::size_t torn = torn_triangles(patch, followed).size();
+    if (torn == 0) return followed;
+    Points kept = placed;
+    kept.rightCols(offsets.cols()) += offsets;
+    kept = untorn(patch, std::move(kept));
+    return torn_triangles(patch, kept).size() < torn ? kept : followed;
+}
+
 }  // namespace
 
 std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
@@ -68,12 +95,14 @@ std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& 
     return FineOwnMesh(problem, progress).run(guess, Polish::wanted);
 }
 
-std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
-                                          const Progress& progress) {
-    if (!traits.is_large) return FineOwnMesh(problem, progress).run(std::nullopt, Polish::unwanted);
-    const CoarseStart& start = start_of(problem, traits, attempts, progress);
-    if (start.is_in_vain()) return std::nullopt;
-    return solve_on_coarse_own_mesh(problem, std::nullopt, Polish::unwanted, start, progress);
+std::optional<Solution> solve_low_passed(const Problem& problem, const Traits& traits, Attempts& attempts,
+                                         const Progress& progress) {
+    const Problem& smooth = traits.low_passed();
+    auto solution = place_on_own_mesh(smooth, traits, attempts, progress);
+    if (!solution) return std::nullopt;
+    solution->points = beside(problem.patch, problem.fixed_points - smooth.fixed_points, solution->points);
+    solution->provenance = Provenance::low_passed;
+    return solution;
 }
 
 }  // namespace fairing

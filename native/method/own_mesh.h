@@ -37,9 +37,9 @@ struct Attempts {
 std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                           const Progress& progress);
 
-// Placed alone: for a surface that the problem's own mesh has no equal of. Nothing where no mesh carries it.
-// `traits`, `attempts`: of the problem whose loops may have been low-passed since.
-std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
-                                          const Progress& progress);
+// The surface between the low-passed loops, solved there, where none meets the loops as they are. These stay; the rows
+// of vertices next to them follow where they lie beside that surface. Nothing where no surface is found.
+std::optional<Solution> solve_low_passed(const Problem& problem, const Traits& traits, Attempts& attempts,
+                                         const Progress& progress);
 
 }  // namespace fairing

@@ -15,7 +15,7 @@ enum class Step {
     own_mesh,         // on a mesh of the engine's own, the vertices placed on it (method/own_mesh)
     placed_weights,   // from coarse to fine with uniform weights, the vertices then placed by the problem's
     uniform_weights,  // all of these with uniform weights, where the problem's turn triangles over
-    low_passed,       // on a mesh of the engine's own between loops without their short waves (method/low_passed)
+    low_passed,       // on a mesh of the engine's own between loops without their short waves (method/own_mesh)
     lifted_pins,      // the surface without pins, lifted to pins that have a radius (method/pinned)
     // What stands in for it.
     least_variation,  // the surface of least variation, also as the equation asked for

@@ -44,7 +44,7 @@ enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, 
 // stand in for a surface that the problem's equation does not have (method/solve).
 enum class Provenance {
     equation,    // the problem's equation, between the boundary loops as they are
-    low_passed,  // the same between loops without their short waves, beside which the real ones lie (method/low_passed)
+    low_passed,  // the same between loops without their short waves, beside which the real ones lie (method/own_mesh)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
     swept_tube,  // cross-sections swept along a bend (start/swept_start)
