@@ -12,6 +12,7 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
+from mathutils import Vector
 from test_held import box, bumpy
 from test_interface import command
 from test_panel import drawn
