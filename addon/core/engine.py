@@ -39,6 +39,8 @@ class Problem:
     curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
     weights: Floats | None = None  # (q,) each vertex's own factor; None: 1 inside, 0 outside
     sample: Ints = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))  # (s, 3) whose skin is copied
+    curve: Ints = field(default_factory=nothing)  # patch indices of fixed vertices that move before all else
+    curve_points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # where they go
     inward: Ints = field(default_factory=nothing)  # mesh vertices of the boundary with the slope of the selected faces
 
     @classmethod
@@ -56,6 +58,15 @@ class Problem:
         """The (p, 3) points of the patch alone."""
         return self.points[: len(self.patch.vertices)]
 
+    @property
+    def posed(self) -> Floats:
+        """The (q, 3) points with its curves where they go."""
+        if not len(self.curve):
+            return self.points
+        points = self.points.copy()
+        points[self.curve] = self.curve_points
+        return points
+
 
 def solve(problem: Problem, options: FairOptions, progress: Progress | None = None) -> fairing.FairResult:
     """Fair the patch; indices in the result are patch indices.
@@ -71,7 +82,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     reads = options.reads_surroundings
     with naming_the_band(options), in_mesh_words(problem.origin):
         return fairing.fair(
-            problem.points if reads else problem.own_points,
+            problem.posed if reads else problem.posed[: len(patch.vertices)],
             patch.triangles,
             fixed=patch.fixed,
             fixed_normals=problem.normals,
@@ -171,8 +182,9 @@ class RepeatedSolve:
     def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
         with in_mesh_words(problem.patch.origin):
+            own = problem.posed[: len(problem.patch.vertices)]
             return self._solver.solve(
-                problem.own_points, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures
+                own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures
             )
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .across import told
 from .filling import FillOptions, Piece
 from .report import Check, Report, distortion_text, kink_checks, shape_checks
 from .verdict import GRADES, UNUSABLE, NotUsable, Verdict
@@ -95,9 +96,11 @@ def _named_worst(named: Named) -> Verdict:
 
 
 def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> tuple[Check, ...]:
+    edges = told([piece.across for piece in pieces])
     faces = sum(each.faces for each in added) if added else sum(len(piece.triangles) for piece in pieces)
     return (
         Check("New faces", str(faces)),
+        *((Check("Hard edges", edges),) if edges else ()),
         *((Check("Surfaces", str(len(pieces))),) if len(pieces) > 1 else ()),
         *((Check("Texture distortion", distortion_text(distortion)),) if distortion else ()),
     )

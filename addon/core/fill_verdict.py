@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -29,6 +29,7 @@ class Surface:
     result: fairing.FillResult
     join: Join
     tangent_only: Ints  # mesh vertices where a curvature was asked for and is not continued
+    across: Ints = field(default_factory=nothing)  # (c, 2) edges of curves across it, in numbers of the points
 
 
 def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
@@ -37,7 +38,8 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
     over = _outlines(len(result.loops), counted(len(outline), "edge", "edges"))
     if not result.converged and result.termination != "folded":
         return Verdict(UNUSABLE, f"No fair surface was found for {over}", np.unique(outline))
-    folds = fairing.flipped_triangles(points, triangles, fixed=np.arange(len(outline)))
+    held = np.union1d(np.arange(len(outline)), surface.across)
+    folds = fairing.flipped_triangles(points, triangles, fixed=held)
     if len(folds) or result.termination == "folded":
         text = f"The surface over {over} is folded over"
         return Verdict(UNUSABLE, text, np.unique(outline))
@@ -47,7 +49,8 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface) -> Verdict:
         return Verdict(UNUSABLE, text, np.unique(outline))
     if len(surface.join.seen):
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
-    ends = hard_ends(world, outline)
+    joined = np.unique(surface.across)
+    ends = np.setdiff1d(hard_ends(world, outline), outline[joined[joined < len(outline)]])
     if len(ends):
         text = counted(len(ends), "vertex", "vertices")
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)

@@ -11,6 +11,7 @@ import numpy as np
 
 import fairing
 
+from .across import HARD_EDGES, Across, Numbering, drawn_edges, marked_edges, within
 from .around import nearby
 from .arrays import Floats, Ints
 from .border import BorderRefusal
@@ -29,6 +30,7 @@ from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
+_TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE")
 SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION")
 
 
@@ -42,6 +44,7 @@ class FillOptions:
     equation: str = "AUTOMATIC"
     continuity: str = "G1"  # G2: the curvature around is continued, too
     bridge: bool = False  # all loops of an object are joined
+    hard_edges: str = "RUN_ON"  # those that end at a hole go on through it, as edges drawn across it do; IGNORED
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     quads: bool = False  # triangles are written in pairs, as far as they can be
@@ -56,6 +59,8 @@ class FillOptions:
             raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
         if self.inner not in INNER:
             raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
+        if self.hard_edges not in HARD_EDGES:
+            raise ValueError(f"hard_edges: expected one of {', '.join(HARD_EDGES)}, got {self.hard_edges!r}")
         if self.accept not in ACCEPT:
             raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
         refuse_other_kinds(self)
@@ -96,6 +101,7 @@ class Piece:
     quads: bool = False  # whether triangles are written in pairs
     limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
+    across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
@@ -104,7 +110,7 @@ class Piece:
         """
         if not self.quads:
             return faces_of(self.triangles)
-        return paired_faces(self.points, self.triangles, lines, kinds)
+        return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
     @property
     def outline(self) -> Ints:
@@ -126,7 +132,12 @@ class Piece:
         return harmonic(self.points, self.triangles, values)
 
     def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
-        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface."""
+        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface.
+
+        None where curves run across the surface: there they stay where they are carried.
+        """
+        if self.across.holds_any:
+            return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles
         return key_surfaces(NewSurface(self.points, triangles, self.result.equation), self.around, places, carried)
@@ -167,7 +178,9 @@ def _piece(
     world: MeshArrays, matrix: Floats, loops: list[Ints], options: FillOptions, progress: Progress | None
 ) -> Piece:
     outline = np.concatenate(loops)
-    vertices, around = _surroundings(world, outline)
+    runs_on = options.hard_edges == "RUN_ON" and not options.bridge
+    drawn = drawn_edges(world, outline) if runs_on else np.empty((0, 2), np.int64)
+    vertices, around = _surroundings(world, outline, drawn)
     given = [np.searchsorted(vertices, loop) for loop in loops]
     origin = Origin(vertices, around, np.zeros(len(around), np.int64))
     with _joining(options, outline, len(loops)), in_mesh_words(origin):
@@ -175,22 +188,24 @@ def _piece(
             world.positions[vertices], around, given, bridge=options.bridge, spacing=_spacing(world, loops, options),
             inner=options.inner.lower(), equation=options.equation.lower(),
             continuity="G2" if options.joins_curvature else "G1", max_vertices=options.max_vertices,
-            progress=progress,
+            edges=options.hard_edges.lower(), wires=within(drawn, vertices),
+            marked=within(marked_edges(world), vertices), progress=progress,
         )  # fmt: skip
-    number = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
-    number[np.concatenate(given)] = np.arange(len(outline))
-    number[len(vertices) :] = len(outline) + np.arange(len(result.vertices))
-    triangles = number[result.triangles]
-    points = np.concatenate([world.positions[outline], result.vertices])
+    number = Numbering.made(outline, vertices, result)
+    triangles = number.of[result.triangles]
+    inside = number.places(world.positions, result.vertices)
+    points = np.concatenate([world.positions[outline], inside])
     whole = np.concatenate([world.positions[vertices], result.vertices])
-    join = join_at(vertices[result.fixed], fairing.visible_join(whole, result.triangles, around, result.fixed))
+    rim = np.concatenate(given)
+    join = join_at(outline, fairing.visible_join(whole, result.triangles, around, rim))
+    across = number.across(result, within(drawn, vertices))
     slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
     tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
-    verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only))
+    verdict = judge(world, outline, Surface(points, triangles, result, join, tangent_only, across.edges))
     return Piece(
         loops=tuple(loops),
         points=points,
-        positions=to_local(result.vertices, matrix),
+        positions=to_local(inside, matrix),
         triangles=triangles[:, ::-1] if world.mirrored else triangles,
         verdict=_advised(verdict, options, len(loops)),
         result=result,
@@ -199,16 +214,18 @@ def _piece(
         quads=options.quads,
         limit_total=options.limit_total,
         notes=_notes(result, slopes, origin),
+        across=across,
     )
 
 
-def _surroundings(world: MeshArrays, outline: Ints) -> tuple[Ints, Ints]:
-    """Return the (q,) mesh vertices of the boundary and of the triangles around it, and these, in their numbers."""
+def _surroundings(world: MeshArrays, outline: Ints, drawn: Ints) -> tuple[Ints, Ints]:
+    """Return the (q,) mesh vertices of the boundary, of the triangles around it and of drawn edges (w, 2), and these
+    triangles, in their numbers."""
     finite = np.isfinite(world.positions).all(axis=1)
     start = np.zeros(len(finite), dtype=bool)
     start[outline] = True
     around = nearby(world.triangles[finite[world.triangles].all(axis=1)], start)
-    vertices = np.union1d(outline, around)
+    vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
     return vertices, np.searchsorted(vertices, around)
 
 
@@ -231,7 +248,7 @@ def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> floa
 
 def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
     """Report what stands in for the surface asked for, and where its curvature is not continued."""
-    warnings = [warning for warning in result.warnings if warning.code in ("NO_SOLUTION", "NOT_TANGENT")]
+    warnings = [warning for warning in result.warnings if warning.code in _TOLD]
     known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in warnings]
     return sentences((*known, *slopes), origin)
 

@@ -15,7 +15,8 @@ INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAP
 BOUNDARY_NORMALS = ("AUTOMATIC", "SURROUNDING", "INSIDE", "AVERAGE", "CUSTOM")
 CONTINUITIES = ("G1", "G2")
 METHODS = ("GLOBAL", "PAPER")
-PIN_EDGES = ("NONE", "SHARP", "SEAM", "CREASE")
+PIN_EDGES = ("AUTOMATIC", "NONE", "SHARP", "SEAM", "CREASE")
+PIN_CURVES = ("FAIRED", "HELD")
 PIN_SLOPES = ("AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE")
 OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
@@ -33,6 +34,7 @@ _CHOICES = {
     "continuity": CONTINUITIES,
     "method": METHODS,
     "pin_edges": PIN_EDGES,
+    "pin_curve": PIN_CURVES,
     "pin_slope": PIN_SLOPES,
     "open_border": OPEN_BORDERS,
     "outline": OUTLINES,
@@ -69,7 +71,8 @@ class FairOptions:
     tolerance: float = 1e-6  # of the patch's diameter
     max_iterations: int = 200
     pin_group: str = ""  # name of a vertex group, empty for none
-    pin_edges: str = "NONE"
+    pin_edges: str = "AUTOMATIC"  # SHARP for those that run through the selection, NONE for the others
+    pin_curve: str = "FAIRED"  # of SHARP: those that run through become fair themselves; HELD: they stay as they are
     pin_slope: str = "AUTOMATIC"  # of these edges: CREASE for SHARP, AVERAGE for others
     pin_radius: float = 0.1  # over which part of the patch's size a pinned vertex lifts the surface
     open_border: str = "HELD"  # FAIRED: it becomes fair, too
@@ -140,7 +143,27 @@ class FairOptions:
             return "AVERAGE"
         if self.pin_slope != "AUTOMATIC":
             return self.pin_slope
-        return "CREASE" if self.pin_edges == "SHARP" else "AVERAGE"
+        return "CREASE" if self.pins_sharp else "AVERAGE"
+
+    @property
+    def fairs_pinned_edges(self) -> bool:
+        """Whether pinned edges move."""
+        return self.pins_sharp and self.pin_curve == "FAIRED" and self.mesh == "KEEP" and self.method == "GLOBAL"
+
+    @property
+    def pins_sharp(self) -> bool:
+        """Whether edges marked sharp are held, all or some."""
+        return self.pin_edges == "SHARP" or self.pins_running_through
+
+    @property
+    def pins_running_through(self) -> bool:
+        """Whether those are held that run through the selection."""
+        keeps = self.mesh == "KEEP" and self.method == "GLOBAL" and self.outline == "GIVEN"
+        return self.pin_edges == "AUTOMATIC" and keeps
+
+    def following(self) -> FairOptions:
+        """Return the options for a region that follows its boundary: edges that run through have no place of theirs."""
+        return replace(self, pin_edges="NONE") if self.pin_edges == "AUTOMATIC" else self
 
     @property
     def fairs_border(self) -> bool:
@@ -193,6 +216,7 @@ class FairOptions:
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,
+            "pin_curve": self.pins_sharp and self.mesh == "KEEP" and self.method == "GLOBAL",
             "pin_slope": self.pin_edges != "NONE",
             "open_border": self.mesh == "KEEP",
         }

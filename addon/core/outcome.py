@@ -53,7 +53,7 @@ def outcome(
     """
     problem, result = solved.problem, solved.result
     patch, before = problem.patch, problem.points
-    moving = np.union1d(patch.free, result.moved).astype(np.int64)
+    moving = np.unique(np.concatenate([patch.free, result.moved, problem.curve])).astype(np.int64)
     if problem.weights is not None:
         moving = moving[problem.weights[moving] > 0.0]  # the others keep their bits
     positions, warnings = _positions(mesh, matrix, options.factor, solved, moving)

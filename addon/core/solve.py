@@ -15,10 +15,11 @@ from .boundary import boundary
 from .engine import Progress
 from .feather import band_weights, refuse_options
 from .findings import Origin
+from .held_curves import faired_curves
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
-from .region import MeshArrays, make_patch
+from .region import MeshArrays, make_patch, nothing
 from .winding import winding_note, with_one_winding
 from .words import sentences
 
@@ -102,18 +103,12 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         precision = precision_note(mesh)
         odd = outline_notes(world, inward) + ((precision,) if precision else ())
+        curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(
-        patch,
-        world.positions[vertices],
-        known.normals,
-        vertices,
-        around,
-        curvatures,
-        weights,
-        sample,
-        inward,
-    )
+        patch, world.positions[vertices], known.normals, vertices, around, curvatures, weights, sample,
+        np.searchsorted(patch.vertices, curve), places, inward,
+    )  # fmt: skip
     return problem, known.notes + winding_note(turned) + odd + mesh.notes
 
 

@@ -32,6 +32,10 @@ class Words:
 _DOUBLED = (
     "The new surface doubles back onto faces that stick out into the boundary: delete these first, or select them"
 )
+_CROSSING_WIRES = (
+    "Edges that were drawn across the hole cross each other, or enclose a place of their own, at vertex {first}: give "
+    "them a common vertex, or delete some"
+)
 _DISSOLVE = "dissolve it, or split that edge there and use Merge by Distance"
 SPREAD_UNIFORMLY = "Spread Vertices would turn faces over here: Uniform was used instead"
 _SLOPE_ONLY = (
@@ -54,6 +58,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "NONMANIFOLD_EDGE": (
         Words("Two faces lie on the same vertices at the edge {ends}: delete one of them", when="doubled_triangles"),
         Words(_DOUBLED, when="doubles"),
+        Words(_CROSSING_WIRES, when="wires"),
         Words("More than two faces meet at the edge {ends}: delete the extra ones, or pin both ends"),
     ),
     "NONMANIFOLD_VERTEX": (
@@ -114,6 +119,24 @@ WORDS: dict[str, tuple[Words, ...]] = {
         Words(
             "The border of {n} edges through vertex {first} runs around the outside of a sheet of faces: "
             "to fill it all the same, select it alone"
+        ),
+    ),
+    "EDGES_LEFT_ALONE": (
+        Words(
+            "A hard edge ends at the hole, at vertex {first}, and no other one goes on from there: draw an edge "
+            "(select two vertices, F) where it is to run",
+            "{n} hard edges end at the hole, at vertex {first} and others, and don't go on from there: draw edges "
+            "(select two vertices, F) where they are to run",
+            when="lonely",
+        ),
+        Words(
+            "{n} hard edges end at the hole, at vertex {first} and others, and may be joined in several ways: draw "
+            "edges (select two vertices, F) where they are to run",
+            when="ambiguous",
+        ),
+        Words(
+            "{n} hard edges end at the hole, at vertex {first} and others: too many to be joined. Draw edges (select "
+            "two vertices, F) where they are to run"
         ),
     ),
     "OUT_OF_PROPORTION": (

@@ -78,6 +78,7 @@ def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | N
     mesh_io.writable_key(obj)
     if options.boundary_normals == "CUSTOM":
         raise ValueError("Custom normals along the boundary can't be followed: choose Surroundings or Average")
+    options = options.following()
     mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
     if not free_vertices(mesh).any():
         raise ValueError("No vertex inside the region is free to move")

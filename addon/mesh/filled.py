@@ -105,6 +105,7 @@ class _Rim:
     def __init__(self, bm: Any, piece: Piece) -> None:
         self._piece = piece
         self._vertices = [bm.verts[vertex] for vertex in piece.outline.tolist()]
+        self._drawn = [bm.verts[vertex] for vertex in piece.across.drawn.tolist()]
         self._around = [bm.verts[vertex] for vertex in piece.around.vertices.tolist()]
         following = piece.following.tolist()
         self._faces = [_border_face(self._vertices[i], self._vertices[j]) for i, j in enumerate(following)]
@@ -135,11 +136,18 @@ class _Rim:
         """Make vertices, then faces; return both."""
         piece = self._piece
         near, _ = piece.examples()
-        examples = [self._vertices[number] for number in near.tolist()]
-        new = VertexData(piece.positions, self._vertices, piece.carried, examples, None, self._keyed, piece.limit_total)
+        there = len(self._drawn)
+        examples = [self._vertices[number] for number in near[there:].tolist()]
+        new = VertexData(
+            piece.positions[there:], self._vertices, lambda values: piece.carried(values)[there:], examples, None,
+            self._keyed, piece.limit_total,
+        )  # fmt: skip
         vertices = make_vertices(target, new)
         made = make_faces(target, vertices, data)
-        table = [*self._vertices, *vertices]
+        table = [*data.stay, *vertices]
+        for a, b in piece.across.sharp.tolist():
+            edge = target.bm.edges.get((table[a], table[b]))
+            edge.smooth = False
         for rim, flat in zip(self._rims, self._maps, strict=True):
             if self._is_marked(rim):
                 for a, b in flat.seams.tolist():
@@ -153,7 +161,7 @@ class _Rim:
         seams = np.concatenate([np.empty((0, 2), dtype=np.int64), *(flat.seams for flat in self._maps)])
         faces = piece.faces(kinds(target, self._faces, self._after)[of_face], seams)
         return FaceData(
-            stay=self._vertices,
+            stay=[*self._vertices, *self._drawn],
             polygons=faces.polygons,
             sources=self._after + self._before,
             carry=self._corner_values,
@@ -164,7 +172,7 @@ class _Rim:
 
     def _keyed(self, shapes: Shapes, starts: Floats, offsets: Floats) -> Floats:
         """Return (k, 3 keys): offsets of the keys' own surfaces from the starts (k, 3) of the new vertices."""
-        if not shapes.width:
+        if not shapes.width or self._piece.across.holds_any:
             return offsets
         here = np.array([vertex.co[:] for vertex in self._around])
         keys = [slice(3 * k, 3 * k + 3) for k in range(shapes.width // 3)]

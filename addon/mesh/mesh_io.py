@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints, Mask
+from ..core.held_curves import beyond, running_through
 from ..core.options import FairOptions
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
@@ -200,8 +201,11 @@ def _triangles(mesh: bpy.types.Mesh, sizes: Ints, corner_vertices: Ints) -> tupl
 def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
     """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
     pinned = arrays.pinned.copy()
-    marked = _marked_edges(mesh, options.pin_edges)
+    through = options.pins_running_through
+    marked = running_through(arrays) if through else _marked_edges(mesh, options.pin_edges)
     pinned[arrays.edges[marked]] = True
+    if through and arrays.sharp is not None:
+        marked = marked | (arrays.sharp & beyond(arrays))  # no fit looks across them
     slope = options.slope_at_pinned_edges
     arrays = replace(
         arrays,

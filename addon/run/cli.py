@@ -38,6 +38,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--fill", action="store_true", help="fill holes instead")
     parser.add_argument("--bridge", action="store_true", help="with --fill: join their boundary loops in one surface")
+    parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")
     defaults = FairOptions()

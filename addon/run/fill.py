@@ -111,6 +111,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             "equation",
             "continuity",
             "bridge",
+            "hard_edges",
             "spacing",
             "inner",
             "max_vertices",

@@ -124,10 +124,15 @@ _INNER = (
     ("EVEN", "Equal", "All of one length, but for those beside a boundary that is finer or coarser"),
 )
 _PIN_EDGES = (
+    ("AUTOMATIC", "Automatic", "Edges marked sharp that run through the selection, from marked edges to marked edges"),
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
     ("SEAM", "Seam", "The surface passes through UV seams; closed loops of them divide it"),
     ("CREASE", "Crease", "The surface passes through edges with a crease weight; closed loops of them divide it"),
+)
+_PIN_CURVES = (
+    ("FAIRED", "Faired", "Those that run through between marked edges outside become fair curves, with what is around"),
+    ("HELD", "As They Are", "They stay where they are"),
 )
 _PIN_SLOPES = (
     ("AUTOMATIC", "Automatic", "Crease for edges marked sharp, averaged for others"),
@@ -278,7 +283,13 @@ class FairProperties(SurfaceProperties, SkinProperties):
         name="Pin Edges",
         description="Marked edges that the surface passes through",
         items=_PIN_EDGES,
-        default="NONE",
+        default="AUTOMATIC",
+    )
+    pin_curve: EnumProperty(
+        name="Pinned Edges",
+        description="Whether edges marked sharp that run through the selection become fair themselves",
+        items=_PIN_CURVES,
+        default="FAIRED",
     )
     pin_slope: EnumProperty(
         name="At Pinned Edges",

@@ -80,6 +80,8 @@ def _draw_held(group: Any, options: Any, obj: bpy.types.Object) -> None:
     if options.pin_group:
         group.prop(options, "pin_radius", slider=True)
     group.prop(options, "pin_edges")
+    if options.pin_edges in ("AUTOMATIC", "SHARP"):
+        group.prop(options, "pin_curve")
     if options.pin_edges != "NONE":
         group.prop(options, "pin_slope")
     row = group.row()

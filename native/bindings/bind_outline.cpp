@@ -5,7 +5,9 @@
 #include "geometry/hard_edges.h"
 #include "outline/bad_outline.h"
 #include "outline/boundary_fit.h"
+#include "outline/chain_end.h"
 #include "outline/feather.h"
+#include "outline/least_variation_curve.h"
 #include "outline/mended_outline.h"
 #include "shape/visible_join.h"
 
@@ -116,6 +118,21 @@ py::tuple visible_join_arrays(const DoubleArray& vertices, const IntArray& insid
     return py::make_tuple(from_vector(join.degrees), join.limit, from_indices(join.seen));
 }
 
+// Rows: beginning and end.
+py::array fair_curve_array(const DoubleArray& places, const DoubleArray& directions,
+                           const std::vector<double>& shares) {
+    const Points ends = to_points(places);
+    const Points ways = to_points(directions);
+    const auto count = static_cast<Eigen::Index>(shares.size());
+    return from_points(least_variation_curve({ends.col(0), ways.col(0)}, {ends.col(1), ways.col(1)},
+                                             Eigen::Map<const VectorX>(shares.data(), count)));
+}
+
+py::tuple chain_end(const DoubleArray& chain) {
+    const ChainEnd end = end_of_chain(to_points(chain));
+    return py::make_tuple(from_points(end.direction), from_points(end.curvature));
+}
+
 }  // namespace
 
 void bind_outline(py::module_& module) {
@@ -130,6 +147,8 @@ void bind_outline(py::module_& module) {
                py::arg("width"), py::arg("stops"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
+    module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
+    module.def("chain_end", &chain_end, py::arg("chain"));
     module.def("visible_join", &visible_join_arrays, py::arg("vertices"), py::arg("inside"), py::arg("outside"),
                py::arg("outline"), py::arg("before"));
 }

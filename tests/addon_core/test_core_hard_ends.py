@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from core.across import told
 from core.arrays import Ints
 from core.border import border_loops
 from core.fill_verdict import hard_ends
@@ -41,14 +42,65 @@ def test_a_ridge_ends_on_both_sides_of_a_hole(degrees: float) -> None:
     loop = rim(mesh, 0.0)
     ends = mesh.positions[hard_ends(mesh, loop)]
     np.testing.assert_allclose(ends, [[-0.25, 0.0, 0.0], [0.25, 0.0, 0.0]], atol=1e-12)
-    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(accept="ALL"))
+    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(accept="ALL", hard_edges="IGNORED"))
     assert piece.verdict.grade != GOOD
+
+
+@pytest.mark.parametrize("degrees", [90.0, 50.0])
+def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
+    """The two slopes come back, the report says why, and no quad lies over the ridge."""
+    mesh = roof(degrees, 0.0)
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(quads=True))
+    assert piece.verdict.grade == GOOD
+    assert told([piece.across, piece.across]) == "2 run on"
+    slope = np.tan(np.radians(degrees) / 2.0)
+    np.testing.assert_allclose(piece.points[:, 2], -slope * np.abs(piece.points[:, 1]), atol=1e-9)
+    on_ridge = np.unique(piece.across.edges)
+    np.testing.assert_allclose(piece.points[on_ridge, 1:], 0.0, atol=1e-9)
+    lines = np.empty((0, 2), dtype=np.int64)
+    polygons = piece.faces(np.zeros(len(piece.triangles), dtype=np.int64), lines).polygons
+    assert max(map(len, polygons)) == 4
+    for polygon in polygons:
+        sides = np.sign(np.round(piece.points[polygon, 1], 9))
+        assert not {-1.0, 1.0} <= set(sides.tolist())
+    assert not len(piece.across.sharp)
+
+
+def test_a_marked_ridge_goes_on_marked() -> None:
+    mesh = roof(20.0, 0.0)
+    ridge = (np.abs(mesh.positions[mesh.edges][:, :, 1]) < 1e-9).all(axis=1)
+    (soft,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions())
+    assert not len(soft.across.edges)
+    (piece,) = fill(replace(mesh, sharp=ridge), np.eye(4), [rim(mesh, 0.0)], FillOptions())
+    assert len(piece.across.sharp) == len(piece.across.edges) > 3
+
+
+def test_a_drawn_line_is_kept_with_its_vertices() -> None:
+    """Two edges over a vertex beside the ridge; they are the first points inside, at their places."""
+    mesh = roof(90.0, 0.0)
+    loop = rim(mesh, 0.0)
+    first, last = hard_ends(mesh, loop).tolist()
+    middle = len(mesh.positions)
+    with_line = replace(
+        mesh,
+        positions=np.vstack([mesh.positions, [0.0, 0.06, 0.01]]),
+        edges=np.vstack([mesh.edges, [[first, middle], [middle, last]]]),
+        pinned=np.append(mesh.pinned, False),
+    )
+    (piece,) = fill(with_line, np.eye(4), [loop], FillOptions())
+    assert piece.across.drawn.tolist() == [middle]
+    assert piece.points[len(loop)].tolist() == [0.0, 0.06, 0.01]
+    assert len(piece.positions) == len(piece.points) - len(loop)
+    assert told([piece.across]) == "1 drawn"
+    assert len(loop) in piece.triangles
+    (other,) = fill(with_line, np.eye(4), [loop], FillOptions(hard_edges="IGNORED"))
+    assert not len(other.across.drawn)
 
 
 def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
     """A ridge of 36° leaves kinks that the mesh's own bends hide."""
     mesh = roof(36.0, 0.0)
-    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions())
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(hard_edges="IGNORED"))
     assert (piece.verdict.grade, len(piece.join.seen)) == (LOOK, 0)
     assert "Hard edges end at the hole, at 2 vertices" in piece.verdict.reason
 

@@ -53,7 +53,9 @@ def test_a_border_that_becomes_fair_is_free_but_where_the_selection_ends() -> No
 @pytest.mark.parametrize(
     ("options", "slope"),
     [
+        ({}, "CREASE"),
         ({"pin_edges": "SHARP"}, "CREASE"),
+        ({"method": "PAPER"}, "AVERAGE"),
         ({"pin_edges": "SEAM"}, "AVERAGE"),
         ({"pin_edges": "SEAM", "pin_slope": "SMOOTH"}, "SMOOTH"),
         ({"pin_edges": "SHARP", "pin_slope": "AVERAGE"}, "AVERAGE"),

@@ -68,13 +68,19 @@ def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
         ({"detail_size": 0.1}, {"detail": 0.5}),
         ({"detail_from": "Skin"}, {"detail": 0.5}),
         ({"detail_face_set": 1}, {"detail": 0.5}),
-        ({"pin_slope": "SMOOTH"}, {"pin_edges": "SHARP"}),
     ],
 )
 def test_what_nothing_looks_at_is_told(given: dict[str, Any], beside: dict[str, Any]) -> None:
     assert FairOptions(**given).idle == tuple(given)
     assert FairOptions(**given, **beside).idle == ()
     assert FairOptions(**beside).idle == ()
+
+
+def test_what_belongs_to_pinned_edges_is_idle_without_them() -> None:
+    for given in ({"pin_slope": "SMOOTH"}, {"pin_curve": "HELD"}):
+        assert FairOptions(**given).idle == ()
+        assert FairOptions(**given, pin_edges="NONE").idle == tuple(given)
+    assert FairOptions(pin_curve="HELD", pin_edges="SEAM").idle == ("pin_curve",)
 
 
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:

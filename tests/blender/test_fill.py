@@ -492,7 +492,7 @@ def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found} == {
         "equation": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "inner": "OUTLINE",
-        "quads": False, "max_vertices": 0, "limit_total": 0, "accept": "USABLE",
+        "quads": False, "max_vertices": 0, "limit_total": 0, "accept": "USABLE", "hard_edges": "RUN_ON",
     }  # fmt: skip
     assert all(p.description for p in found)
 

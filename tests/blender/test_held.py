@@ -46,10 +46,47 @@ def test_a_box_corner_with_sharp_edges_comes_back_flat(slope: str, flat: bool) -
     on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
     before = bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
     assert off_box(before) > 0.01
-    meshes.fair(obj, faces, pin_edges="SHARP", pin_slope=slope)
+    meshes.fair(obj, faces, pin_edges="SHARP", pin_slope=slope, pin_curve="HELD")
     after = meshes.positions(obj)
     assert after[on_edge].tobytes() == before[on_edge].tobytes()
     assert (off_box(after) < 1e-5) == flat
+
+
+@pytest.mark.parametrize("pins", ["AUTOMATIC", "SHARP"])
+def test_dented_edges_that_run_through_become_straight(pins: str) -> None:
+    """A box corner with noise everywhere inside, its edges and its tip among it; nothing outside moves."""
+    obj, faces = box()
+    exact = meshes.positions(obj)
+    before = bumpy(obj, meshes.free_vertices(obj, faces))
+    meshes.fair(obj, faces, pin_edges=pins)
+    after = meshes.positions(obj)
+    on_edge = np.isclose(exact, 0.0).sum(axis=1) >= 2
+    assert np.sort(np.abs(before), axis=1)[on_edge, 1].max() > 0.01
+    assert np.sort(np.abs(after), axis=1)[on_edge, 1].max() < 1e-6
+    assert off_box(after) < 1e-5
+    outside = ~meshes.free_vertices(obj, faces)
+    assert after[outside].tobytes() == before[outside].tobytes()
+
+
+def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:
+    """By default they move, with Factor one half half of the way; marks that end inside are not held."""
+    results = {}
+    for name, options in {"held": {"pin_curve": "HELD"}, "half": {"factor": 0.5}, "fair": {}}.items():
+        obj, faces = box()
+        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
+        before = bumpy(obj, meshes.free_vertices(obj, faces))
+        meshes.fair(obj, faces, **options)
+        results[name] = meshes.positions(obj)[on_edge], before[on_edge]
+    assert results["held"][0].tobytes() == results["held"][1].tobytes()
+    half = 0.5 * (results["fair"][0] + results["fair"][1])
+    assert np.abs(results["half"][0] - half).max() < 1e-6
+    obj, faces = box()
+    for edge in obj.data.edges:
+        ends = [obj.data.vertices[v].co for v in edge.vertices]
+        edge.use_edge_sharp = edge.use_edge_sharp and max(abs(x) for end in ends for x in end) < 0.35
+    before = bumpy(obj, meshes.free_vertices(obj, faces))
+    meshes.fair(obj, faces)
+    assert off_box(meshes.positions(obj)) > 1e-3
 
 
 @pytest.mark.parametrize("border", ["HELD", "FAIRED"])

@@ -5,6 +5,7 @@ from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._fair import fair
+from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._growing import GrownOutline, grown_outline
@@ -46,6 +47,7 @@ __all__ = [
     "BoundaryNormals",
     "Cancelled",
     "Diagnostic",
+    "FairEdges",
     "FairResult",
     "FillResult",
     "GrownOutline",
@@ -69,6 +71,7 @@ __all__ = [
     "edges_with_uses",
     "expected_vertices",
     "fair",
+    "fair_edges",
     "feather_weights",
     "fill",
     "flipped_triangles",

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
-from time import perf_counter
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _holes, _loops, _options, _short_edges, _sides
+from fairing import _arguments, _core, _holes, _loops, _options, _run_on, _short_edges, _sides
+from fairing._along import filled_along
 from fairing._fair import fair
 from fairing._measure import boundary_loops
-from fairing._new_mesh import FillResult, NewMeshResult, Origin
+from fairing._new_mesh import FillResult, Origin, read_only, report_fields
 from fairing._proportion import Limit
 from fairing._tangency import not_tangent
 from fairing._types import FairResult, FloatArray, IntArray, MeshError
+from fairing._watch import Watch
 
 LEAST_COUNT = 1000
 """Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
@@ -38,6 +39,9 @@ def fill(
     inner: str | None = None,
     max_vertices: int = 0,
     fixed_curvatures: Any = None,
+    edges: str = "run_on",
+    wires: npt.ArrayLike | None = None,
+    marked: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     **options: Any,
 ) -> FillResult:
@@ -77,6 +81,15 @@ def fill(
     fixed_curvatures : (n,), (Σ k,) float, or a list with a (k,) for each loop
         Mean curvatures H at the boundary, NaN where not known, for ``continuity="G2"``: the surface continues the
         curvature around it, too. Default: fitted to the triangles around.
+    edges : "run_on" | "ignored"
+        "run_on": hard edges (:func:`fairing.hard_edges`) that end at a hole run on through it. Ends that belong
+        together are joined by a curve of least variation, three and more meet in a point. Each curve is a crease of a
+        surface of least variation (docs/curves.md); ``curves`` names it, and EDGES_LEFT_ALONE ends that are not joined.
+        So do narrow bands of high curvature, bevels and rolled edges (``bands``). Not with ``bridge``.
+    wires : (w, 2) int
+        Edges without a triangle that were drawn across holes: they are such curves as they are.
+    marked : (e, 2) int
+        Edges that are hard whatever they bend.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
     options
@@ -89,7 +102,7 @@ def fill(
     MeshError
         NOT_A_LOOP, NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that touch or cross, or vertices of one boundary in one place
         or on its edges), NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out
-        into a loop), NOT_A_HOLE (there are none but outer borders; or one that was named
+        into a loop, or where ``wires`` cross), NOT_A_HOLE (there are none but outer borders; or one that was named
         lies around a flat sheet, which no surface closes), OUT_OF_PROPORTION (``max_vertices``),
         LOOPS_NOT_JOINED (one is turned; loops that no surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or
         INDEX_RANGE; ``elements`` are the vertices.
@@ -105,7 +118,8 @@ def fill(
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     outline = _loops.border_loops(around, limit) if loops is None else _loops.given_loops(loops, points, around)
     _loops.check(outline, points, bool(bridge))
-    normals = _loops.loop_normals(normals, outline, points, around)
+    broken = _run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))
+    normals = _loops.loop_normals(normals, outline, points, around, broken.hard)
     outer: tuple[IntArray, ...] = ()
     if loops is None:
         outline, normals, outer = _loops.without_outer(outline, points, normals)
@@ -119,6 +133,19 @@ def fill(
     normals = _short_edges.with_shared_normals(outline, points, normals)
     if fixed_curvatures is not None:
         options["fixed_curvatures"] = _loops.loop_curvatures(fixed_curvatures, outline, len(points))
+    curves = broken.run_on(outline, normals, (points, around), (length.length, length.even))
+    if curves.holds_any:
+
+        def others(these: _loops.Outline, rows: FloatArray, rest: Any, part: Progress | None) -> FillResult:
+            return fill(
+                points, around, list(these.loops), normals=these.split(rows), spacing=spacing, inner=inner,
+                max_vertices=max_vertices, edges="ignored", progress=part, **{**options, "fixed_curvatures": rest},
+            )  # fmt: skip
+
+        task = (outline, normals, around, length.wanted(0), options)
+        result = filled_along(curves, task, others, progress)
+        told = result.warnings + ((_loops.not_holes(outer),) if outer else ())
+        return replace(result, left_open=tuple(map(read_only, outer)), warnings=told)
     watch = Watch(progress)
     first = _first_surface(points, outline, normals, bool(bridge), options, watch.part(0, 0.2))
     watch.lap("first")
@@ -142,7 +169,7 @@ def fill(
         values["triangles"] = fine.triangles
     watch.lap("coarser")
     values["seconds"] = {**values["seconds"], **watch.seconds}
-    values["warnings"] += (_loops.not_holes(outer),) if outer else ()
+    values["warnings"] += curves.warnings + ((_loops.not_holes(outer),) if outer else ())
     return FillResult(
         **values,
         loops=tuple(read_only(loop) for loop in outline.loops),
@@ -240,27 +267,6 @@ class Patch:
         )  # fmt: skip
 
 
-class Watch:
-    """Seconds of the stages, and the callback's share of each."""
-
-    def __init__(self, progress: Progress | None) -> None:
-        self.seconds: dict[str, float] = {}
-        self._progress = progress
-        self._begin = self._last = perf_counter()
-
-    def lap(self, stage: str) -> None:
-        now = perf_counter()
-        self.seconds[stage] = now - self._last
-        self.seconds["total"] = now - self._begin
-        self._last = now
-
-    def part(self, begin: float, end: float) -> Progress | None:
-        progress = self._progress
-        if progress is None:
-            return None
-        return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
-
-
 _MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")
 
 
@@ -301,16 +307,6 @@ def _first_equation(options: dict[str, Any]) -> str:
     return asked if asked == "least_variation" or (asked == "automatic" and not joins_curvature) else "harmonic"
 
 
-def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
-    """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
-    own = {field.name for field in fields(NewMeshResult)}
-    values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
-    values["cut"] = False
-    for name in ("vertices", "mean_curvature"):
-        values[name] = read_only(values[name][old_count:])
-    return values
-
-
 def cut_fields(patch: Patch, old_count: int) -> dict[str, Any]:
     """The fields of a mesh that was cut from another one's surface."""
     return {
@@ -323,11 +319,3 @@ def carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArr
     """(k,) values at vertices (n,), interpolated at places on triangles."""
     carried: FloatArray = read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
     return carried
-
-
-def read_only(array: Any) -> Any:
-    result = np.ascontiguousarray(array)
-    if result is array or result.base is not None:
-        result = result.copy()
-    result.flags.writeable = False
-    return result

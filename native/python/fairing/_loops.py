@@ -168,10 +168,12 @@ def _refuse_touches(loops: Sequence[IntArray], vertices: FloatArray) -> None:
         _refuse("NONMANIFOLD_VERTEX", text, meeting, meeting=float(len(meeting)))
 
 
-def loop_normals(normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray) -> FloatArray:
-    """(Σ k, 3) unit normals in the order of the loops."""
+def loop_normals(
+    normals: Any, outline: Outline, vertices: FloatArray, triangles: IntArray, hard: IntArray | None = None
+) -> FloatArray:
+    """(Σ k, 3) unit normals in the order of the loops; hard: (h, 2) edges across which no fit looks."""
     where = outline.vertices
-    around = surrounding_normals(vertices, triangles, where).normals
+    around = surrounding_normals(vertices, triangles, where, creases=hard).normals
     if normals is None:
         missing = where[~(np.linalg.norm(around, axis=1) > 0)]
         if len(missing):

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, fields
+from typing import Any, Literal
 
-from fairing._types import Diagnostic, FloatArray, IntArray
+import numpy as np
+
+from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 
 Origin = tuple[IntArray, FloatArray]
 
@@ -58,6 +60,13 @@ class FillResult(NewMeshResult):
     """The loops that were filled, each in the direction that has the new surface on its left."""
     left_open: tuple[IntArray, ...]
     """Border loops around the outside of a sheet, left open where no ``loops`` were named (see NOT_A_HOLE)."""
+    curves: tuple[IntArray, ...] = ()
+    """Hard edges that run on through the holes, and wires: the vertices of each from end to end. New ones among them
+    come first in ``vertices`` and are ``fixed``."""
+    marked: tuple[bool, ...] = ()
+    """Of each curve: whether the hard edges that it continues were ``marked``."""
+    bands: tuple[tuple[IntArray, IntArray], ...] = ()
+    """Bevels and rolled edges that run on through the holes: the vertices along both sides of each."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,3 +77,21 @@ class RemeshResult(NewMeshResult):
     """Where each new vertex lies on the old patch: (k,) triangles and (k, 3) barycentric weights at their corners."""
     old: IntArray
     """(k,) the old vertex whose place on the surface a new one has, at an edge that was ``kept``; −1 for the others."""
+
+
+def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
+    """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
+    own = {field.name for field in fields(NewMeshResult)}
+    values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
+    values["cut"] = False
+    for name in ("vertices", "mean_curvature"):
+        values[name] = read_only(values[name][old_count:])
+    return values
+
+
+def read_only(array: Any) -> Any:
+    result = np.ascontiguousarray(array)
+    if result is array or result.base is not None:
+        result = result.copy()
+    result.flags.writeable = False
+    return result

@@ -13,17 +13,15 @@ from fairing._fill import (
     Patch,
     Progress,
     Spacing,
-    Watch,
     carried,
     cut_fields,
-    read_only,
     refuse_made_here,
-    report_fields,
     spacing_of,
 )
-from fairing._new_mesh import RemeshResult
+from fairing._new_mesh import RemeshResult, read_only, report_fields
 from fairing._proportion import Limit
 from fairing._types import MeshError
+from fairing._watch import Watch
 
 
 def remesh(

@@ -1,0 +1,133 @@
+"""Loops that curves across them cut into several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fairing._loops import Outline
+from fairing._types import FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Tree:
+    """Curves that hang together: one between two places of a loop, or more that meet inside."""
+
+    leaves: tuple[int, ...]
+    """Places in the loop, ascending."""
+    paths: tuple[IntArray, ...]
+    """The vertices from each leaf to the next one, and from the last to the first, both ends included."""
+
+
+@dataclass(frozen=True, eq=False)
+class CutOutline:
+    """Loops without curves across them, the new surface on their left."""
+
+    loops: tuple[IntArray, ...]
+    normals: tuple[FloatArray, ...]
+    """For each loop (k, 3): one side's, at curves a mean between their ends'."""
+
+
+def gap(tree: Tree, place: int) -> int:
+    """Between which two leaves a place of the loop lies."""
+    return int(np.searchsorted(tree.leaves, place)) % len(tree.leaves)
+
+
+def crosses(trees: Sequence[Tree]) -> set[int]:
+    """Which trees cross another one: their leaves follow each other by turns."""
+    found = set()
+    for i, one in enumerate(trees):
+        for j, other in enumerate(trees[:i]):
+            gaps = {gap(one, leaf) for leaf in other.leaves if leaf not in one.leaves}
+            if len(gaps) > 1:
+                found |= {i, j}
+    return found
+
+
+def cut(
+    loop: IntArray, normals: FloatArray, sides: FloatArray, trees: Sequence[Tree], points: FloatArray
+) -> CutOutline:
+    """The loops that trees leave of one; none of them cross.
+
+    normals: (k, 3) at its vertices; sides: (k, 3) of the triangle outside at the edge to the next one.
+    """
+    pieces = [_Piece(loop, normals, np.arange(len(loop)))]
+    for tree in trees:
+        whole = next(piece for piece in pieces if set(tree.leaves) <= set(piece.places.tolist()))
+        pieces.remove(whole)
+        pieces += _parted(whole, tree, sides, points)
+    return CutOutline(tuple(piece.loop for piece in pieces), tuple(piece.normals for piece in pieces))
+
+
+@dataclass(frozen=True, eq=False)
+class _Piece:
+    loop: IntArray
+    normals: FloatArray
+    places: IntArray
+    """In the loop that was there first; −1 on curves."""
+
+    def between(self, first: int, last: int) -> _Piece:
+        """From one place to another, both included."""
+        begin, end = (int(np.flatnonzero(self.places == place)[0]) for place in (first, last))
+        there = (begin + np.arange((end - begin) % len(self.loop) + 1)) % len(self.loop)
+        return _Piece(self.loop[there], self.normals[there].copy(), self.places[there])
+
+
+def _parted(whole: _Piece, tree: Tree, sides: FloatArray, points: FloatArray) -> list[_Piece]:
+    order = sorted(tree.leaves, key=lambda leaf: int(np.flatnonzero(whole.places == leaf)[0]))
+    turn = tree.leaves.index(order[0])
+    paths = tree.paths[turn:] + tree.paths[:turn]
+    result = []
+    for leaf, after, path in zip(order, order[1:] + order[:1], paths, strict=True):
+        part = whole.between(leaf, after)
+        part.normals[0], part.normals[-1] = sides[leaf], sides[after - 1]
+        back = path[::-1]
+        along = _along(points[back], part.normals[-1], part.normals[0])[1:-1]
+        result.append(
+            replace(
+                part,
+                loop=np.concatenate([part.loop, back[1:-1]]),
+                normals=np.concatenate([part.normals, along]),
+                places=np.concatenate([part.places, np.full(len(back) - 2, -1)]),
+            )
+        )
+    return result
+
+
+def _along(points: FloatArray, first: FloatArray, last: FloatArray) -> FloatArray:
+    """Unit normals (k, 3) of a polyline, from those at its ends."""
+    lengths = np.concatenate([[0.0], np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()])
+    share = (lengths / max(lengths[-1], 1e-300))[:, None]
+    normals = (1.0 - share) * first + share * last
+    tangents = np.gradient(points, axis=0) if len(points) > 1 else np.zeros_like(points)
+    tangents /= np.maximum(np.linalg.norm(tangents, axis=1), 1e-300)[:, None]
+    normals -= (normals * tangents).sum(axis=1)[:, None] * tangents
+    sizes = np.linalg.norm(normals, axis=1)[:, None]
+    unit: FloatArray = np.where(sizes > 1e-6, normals / np.maximum(sizes, 1e-300), first)
+    return unit
+
+
+def outside_normals(loop: IntArray, vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    """(k, 3) unit normals of the triangles at each edge to the next vertex; zero where there is none."""
+    heads = {tail: at for at, tail in enumerate(loop.tolist())}
+    after = np.roll(loop, -1)
+    result = np.zeros((len(loop), 3))
+    for corner in range(3):
+        tails, tips = triangles[:, corner], triangles[:, (corner + 1) % 3]
+        for row in np.flatnonzero(np.isin(tails, loop) & np.isin(tips, loop)).tolist():
+            for a, b in ((tails[row], tips[row]), (tips[row], tails[row])):
+                at = heads.get(int(a))
+                if at is not None and after[at] == b:
+                    p, q, r = vertices[triangles[row]]
+                    normal = np.cross(q - p, r - p)
+                    result[at] = normal / max(float(np.linalg.norm(normal)), 1e-300)
+    return result
+
+
+def outline_of(cuts: Sequence[CutOutline]) -> tuple[Outline, FloatArray]:
+    """All of them with their normals (Σ k, 3)."""
+    loops = tuple(loop for each in cuts for loop in each.loops)
+    normals = np.concatenate([rows for each in cuts for rows in each.normals])
+    return Outline(loops, (False,) * len(loops), (False,) * len(loops)), normals

@@ -1,0 +1,150 @@
+"""Fair Fill over hard edges: they run on, drawn edges are taken, marks go on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+SIZE = 12
+
+
+def box_edge(*, marked: bool = False, wire: Sequence[tuple[float, float, float]] = ()) -> bpy.types.Object:
+    """The faces z = 0 and x = 0 of a box with a square hole over their edge; a wire across it through these places."""
+    s, t = np.meshgrid(np.arange(2 * SIZE + 1) / SIZE - 1.0, np.arange(SIZE + 1) / SIZE, indexing="ij")
+    points = np.column_stack([np.minimum(s, 0).ravel(), t.ravel(), -np.maximum(s, 0).ravel()])
+    number = np.arange(points.shape[0]).reshape(s.shape)
+    quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1).reshape(-1, 4)
+    centres = np.stack([s, t], axis=-1).reshape(-1, 2)[quads].mean(axis=1)
+    kept = quads[np.abs(centres - [0.0, 0.5]).max(axis=1) > 0.26]
+    used, kept = np.unique(kept, return_inverse=True)
+    places = points[used].tolist()
+    ends = [k for k, p in enumerate(places) if p[0] == 0.0 == p[2] and abs(p[1] - 0.5) < 0.26]
+    chain = [ends[0], *range(len(places), len(places) + len(wire)), ends[-1]]
+    obj = meshes.add(places + [list(place) for place in wire], kept.reshape(-1, 4).tolist(), "Box")
+    mesh = obj.data
+    if wire:
+        first = len(mesh.edges)
+        mesh.edges.add(len(chain) - 1)
+        for k, pair in enumerate(pairwise(chain)):
+            mesh.edges[first + k].vertices = pair
+    for edge in mesh.edges:
+        a, b = (mesh.vertices[v].co for v in edge.vertices)
+        edge.use_edge_sharp = marked and max(abs(a.x), abs(a.z), abs(b.x), abs(b.z)) < 1e-6
+    return obj
+
+
+def fill(obj: bpy.types.Object, **properties: Any) -> Any:
+    mesh = obj.data
+    rim = [v.index for v in mesh.vertices if max(abs(v.co.x), abs(v.co.z), abs(v.co.y - 0.5)) < 0.26]
+    (result,) = module().fill_mesh(mesh, rim, **properties)
+    return result
+
+
+def off_the_faces(obj: bpy.types.Object) -> float:
+    places = np.array([v.co[:] for v in obj.data.vertices])
+    return float(np.minimum(np.abs(places[:, 0]), np.abs(places[:, 2])).max())
+
+
+def sharp_edges(obj: bpy.types.Object) -> list[Any]:
+    return [edge for edge in obj.data.edges if edge.use_edge_sharp]
+
+
+def test_an_edge_runs_on_and_its_mark_too() -> None:
+    obj = box_edge(marked=True)
+    before = len(sharp_edges(obj))
+    fill(obj)
+    assert off_the_faces(obj) < 1e-6
+    marked = sharp_edges(obj)
+    ends = np.array([[obj.data.vertices[v].co[:] for v in edge.vertices] for edge in marked])
+    assert np.abs(ends[:, :, [0, 2]]).max() < 1e-6
+    assert abs(np.abs(np.diff(ends[:, :, 1], axis=1)).sum() - 1.0) < 1e-6
+    assert len(marked) > before
+    soft = box_edge()
+    fill(soft)
+    assert off_the_faces(soft) < 1e-6
+    assert not sharp_edges(soft)
+    rounded = box_edge()
+    fill(rounded, hard_edges="IGNORED", accept="ALL")
+    assert off_the_faces(rounded) > 0.02
+
+
+def test_a_drawn_edge_is_taken_with_its_own_vertices() -> None:
+    """No vertex lies twice, no edge is left without faces, and the wire's vertex stays where it was drawn."""
+    obj = box_edge(wire=[(0.0, 0.5, 0.05)])
+    count = len(obj.data.vertices)
+    fill(obj)
+    mesh = obj.data
+    assert mesh.vertices[count - 1].co[:] == (0.0, 0.5, np.float32(0.05))
+    uses = np.zeros(len(mesh.edges), dtype=int)
+    for loop in mesh.loops:
+        uses[loop.edge_index] += 1
+    places = np.array([v.co[:] for v in mesh.vertices])
+    at_hole = (np.abs(places[:, 1] - 0.5) < 0.3) & (np.abs(places[:, [0, 2]]).max(axis=1) < 0.3)
+    inner = [k for k, e in enumerate(mesh.edges) if at_hole[list(e.vertices)].all()]
+    assert set(uses[inner].tolist()) == {2}
+    assert (count - 1) in {v for polygon in mesh.polygons for v in polygon.vertices}
+    distances = np.linalg.norm(places[:, None] - places[None], axis=2) + np.eye(len(places))
+    assert distances.min() > 1e-3
+    assert mesh.validate(verbose=True) is False
+
+
+def test_other_keys_carry_the_edge_along() -> None:
+    """A key that lifts everything by one unit lifts the new vertices as much; the edge is in it, too."""
+    obj = box_edge(marked=True)
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Up")
+    for point in key.data:
+        point.co.z += 1.0 + 0.3 * point.co.y
+    fill(obj)
+    base, up = (np.array([p.co[:] for p in obj.data.shape_keys.key_blocks[k].data]) for k in (0, 1))
+    lifted = up - base
+    assert np.abs(lifted[:, :2]).max() < 1e-6
+    assert np.abs(lifted[:, 2] - 1.0 - 0.3 * base[:, 1]).max() < 1e-2
+
+
+def test_drawn_edges_that_cross_are_refused_and_named() -> None:
+    """Nothing is written; the error names the vertices, in words for the artist."""
+    obj = box_edge(wire=[(0.0, 0.5, 0.0)])
+    mesh = obj.data
+    rim = [v.index for v in mesh.vertices if abs(v.co.y - 0.5) < 0.26 and max(abs(v.co.x), abs(v.co.z)) < 0.26]
+    a = min(rim, key=lambda v: mesh.vertices[v].co.x)
+    b = min(rim, key=lambda v: mesh.vertices[v].co.z)
+    mesh.edges.add(1)
+    mesh.edges[len(mesh.edges) - 1].vertices = (a, b)
+    before = meshes.contents(obj)
+    with pytest.raises(ValueError, match="Edges that were drawn across the hole cross each other") as caught:
+        fill(obj)
+    assert {a, b} <= set(np.asarray(caught.value.elements).tolist())
+    assert meshes.contents(obj) == before
+
+
+def test_a_bevel_runs_on_and_the_report_tells() -> None:
+    """Five rows of a quarter circle of radius .15, off it by less than a tenth."""
+    rows, radius = 5, 0.15
+    s = np.concatenate([np.linspace(-1, 0, 13)[:-1], np.linspace(0, 1, rows + 1)[:-1], np.linspace(1, 2, 13)])
+    s, t = np.meshgrid(s, np.arange(25) / 24 - 0.5, indexing="ij")
+    angle = np.clip(s, 0, 1) * np.pi / 2
+    x, z = radius * (np.sin(angle) - 1) + np.minimum(s, 0), radius * (np.cos(angle) - 1) - np.maximum(s - 1, 0)
+    number = np.arange(s.size).reshape(s.shape)
+    quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1).reshape(-1, 4)
+    points = np.column_stack([x.ravel(), t.ravel(), z.ravel()])
+    centre = np.array([-0.04, 0.0, -0.04])
+    kept = quads[np.linalg.norm(points[quads].mean(axis=1) - centre, axis=1) > 0.36]
+    used, kept = np.unique(kept, return_inverse=True)
+    obj = meshes.add(points[used].tolist(), kept.reshape(-1, 4).tolist(), "Bevel")
+    count = len(obj.data.vertices)
+    rim = [v.index for v in obj.data.vertices if np.linalg.norm(v.co[:] - centre) < 0.4]
+    (result,) = module().fill_mesh(obj.data, rim)
+    assert len(result.bands) == 1
+    new = np.array([v.co[:] for v in obj.data.vertices])[count:]
+    out, high = new[:, 0] + radius, new[:, 2] + radius
+    rolled = np.abs(np.hypot(out, high) - radius)
+    off = np.where((out > 0) & (high > 0), rolled, np.minimum(np.abs(new[:, 0]), np.abs(new[:, 2])))
+    assert off.max() < 0.1 * radius

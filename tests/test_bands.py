@@ -1,0 +1,95 @@
+"""Bevels and rolled edges that end at a hole run on through it with their width and their profile."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import fairing
+import hard_holes
+import holes
+from fairing._bands import bands_at, pairs_across
+from hard_holes import Hole
+
+TENTH = 0.1  # of the radius
+
+
+def off(hole: Hole, radius: float, **options: object) -> float:
+    """Largest distance of a new vertex to the exact surface, over the radius of the edge."""
+    result = fairing.fill(hole.vertices, hole.triangles, [hole.loop], **options)  # type: ignore[arg-type]
+    assert result.converged
+    assert len(result.bands) == ("edges" not in options)
+    assert len(result.curves) == 0
+    assert result.join.max() < 15
+    return float(hole.sides[0](result.vertices).max() / radius)
+
+
+@pytest.mark.parametrize(
+    ("n", "options", "bound"),
+    [
+        (20, {}, 0.02),
+        (30, {}, 0.01),
+        (24, {"rows": 3}, 0.05),
+        (40, {"radius": 0.06}, 0.05),
+        (24, {"taper": 0.3}, 0.05),
+        (24, {"bend": 1.0}, TENTH),
+        (24, {"bend": -0.7}, TENTH),
+    ],
+    ids=["coarse", "fine", "three rows", "narrow", "tapering", "a lid's rim", "a bore's rim"],
+)
+def test_a_rolled_edge_runs_on(n: int, options: dict[str, float], bound: float) -> None:
+    hole = hard_holes.in_bevel(n, 1, **options)  # type: ignore[arg-type]
+    radius = options.get("radius", 0.12)
+    assert off(hole, radius) < bound
+
+
+def test_without_the_rule_it_swells() -> None:
+    assert off(hard_holes.in_bevel(20, 1), 0.12, edges="ignored") > 0.4
+
+
+def test_bands_are_found_where_they_come_to_the_outline() -> None:
+    """Two, a quarter turn each, that face each other; sides belong together, in order, each vertex once."""
+    hole = hard_holes.in_bevel(24, 1)
+    loop = hole.loop[::-1]
+    normals = fairing.surrounding_normals(hole.vertices, hole.triangles, loop).normals
+    one, other = bands_at(loop, hole.vertices, normals)
+    for band, sign in ((one, one.points[:, 1].mean() < 0), (other, other.points[:, 1].mean() < 0)):
+        assert abs(abs(band.end.angle) - 90) < 10
+        assert band.end.direction[1] * (1 if sign else -1) > 0.99
+        assert (np.diff(band.shares) > 0).all()
+    pairs = pairs_across(one, other)
+    assert pairs[0] == (0, len(other.places) - 1)
+    assert pairs[-1] == (len(one.places) - 1, 0)
+    assert len(pairs) == min(len(one.places), len(other.places))
+    assert all(a < c and b > d for (a, b), (c, d) in pairwise(pairs))
+
+
+@pytest.mark.parametrize("half_angle", [20, 60, 90, 130])
+def test_a_ball_has_no_bands(half_angle: float) -> None:
+    vertices, triangles = holes.bowl(48, half_angle)
+    loop = np.arange(48)
+    normals = fairing.surrounding_normals(vertices, triangles, loop).normals
+    assert bands_at(loop, vertices, normals) == []
+
+
+@pytest.mark.parametrize("noise", [0.1, 0.3])
+def test_noise_has_no_bands(noise: float) -> None:
+    """A flat mesh with noise of so many edges."""
+    hole = hard_holes.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, 0.0)], 16)
+    rough = hole.vertices + noise / 16 * np.random.default_rng(2).normal(size=hole.vertices.shape)
+    loop = hole.loop[::-1]
+    normals = fairing.surrounding_normals(rough, hole.triangles, loop).normals
+    assert bands_at(loop, rough, normals) == []
+
+
+def test_a_band_that_ends_in_the_hole_is_no_band_through_it() -> None:
+    """Its other side is flat: nothing is held inside."""
+    hole = hard_holes.in_bevel(20, 1)
+    fade = np.clip((hole.vertices[:, 1] + 0.35) / 0.3, 0, 1)[:, None]
+    onto = np.column_stack([hole.vertices[:, 0] - hole.vertices[:, 2], hole.vertices[:, 1], np.zeros(len(fade))])
+    vertices = (1 - fade) * hole.vertices + fade * onto
+    result = fairing.fill(vertices, hole.triangles, [hole.loop])
+    assert result.converged
+    assert set(result.fixed.tolist()) == set(hole.loop.tolist())

@@ -1,0 +1,280 @@
+"""Hard edges that end at a hole run on through it; edges that were drawn across it are used as they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fairing
+import hard_holes
+from fairing import _along
+from fairing._edge_ends import EdgeEnd
+from fairing._matching import matched
+from hard_holes import FloatArray, Hole, IntArray
+
+PROFILES: dict[str, list[tuple[float, float]]] = {
+    "two edges": [(-1.0, -1.0), (-0.15, 0.0), (0.15, 0.0), (1.0, -1.0)],
+    "two edges, near each other": [(-1.0, -1.0), (-0.05, 0.0), (0.05, 0.0), (1.0, -1.0)],
+    "a convex and a concave edge": [(-1.0, 0.0), (-0.25, 0.0), (-0.25, -0.4), (1.0, -0.4)],
+    "three edges": [(-1.0, -0.5), (-0.3, 0.0), (0.0, -0.3), (0.3, 0.0), (1.0, -0.5)],
+}
+
+
+def filled(hole: Hole, **options: object) -> fairing.FillResult:
+    return fairing.fill(hole.vertices, hole.triangles, [hole.loop], **options)  # type: ignore[arg-type]
+
+
+def on_curves(hole: Hole, result: fairing.FillResult) -> FloatArray:
+    """The places of all vertices of all curves."""
+    return np.concatenate([hole.vertices, result.vertices])[np.concatenate(result.curves)]
+
+
+def least_angle(vertices: FloatArray, triangles: IntArray) -> float:
+    corners = vertices[triangles]
+    angles = []
+    for k in range(3):
+        a, b = corners[:, (k + 1) % 3] - corners[:, k], corners[:, (k + 2) % 3] - corners[:, k]
+        angles.append(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1)))
+    return float(np.degrees(np.min(angles)))
+
+
+@pytest.mark.parametrize(
+    ("make", "curves", "bound"),
+    [
+        (hard_holes.in_box_edge, 1, 1e-9),
+        (hard_holes.in_box_corner, 3, 1e-9),
+        (hard_holes.in_lid, 1, 1e-9),
+        (hard_holes.in_bent_sheet, 1, 1e-3),
+    ],
+)
+@pytest.mark.parametrize(("n", "seed"), [(8, 1), (14, 2), (22, 3)])
+def test_an_edge_runs_on(make: Callable[[int, int], Hole], curves: int, bound: float, n: int, seed: int) -> None:
+    """Flat sides, a straight edge, a circle, a cylinder come back; a parabola and its sheet to 1e-3 of the hole."""
+    hole = make(n, seed)
+    result = filled(hole)
+    assert result.converged
+    assert len(result.curves) == curves
+    assert hole.error(result.vertices) < bound
+    assert hole.edge_error(on_curves(hole, result)) < bound
+    assert least_angle(np.concatenate([hole.vertices, result.vertices]), result.triangles) > 15
+
+
+@pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES.keys())
+@pytest.mark.parametrize("n", [16, 24])
+def test_several_edges_run_through_one_hole(profile: list[tuple[float, float]], n: int) -> None:
+    hole = hard_holes.in_profile(profile, n)
+    result = filled(hole)
+    assert len(result.curves) == len(profile) - 2
+    assert hole.error(result.vertices) < 1e-9
+    assert hole.edge_error(on_curves(hole, result)) < 1e-9
+    assert not result.warnings
+
+
+def test_the_edge_is_rounded_where_that_is_asked_for() -> None:
+    hole = hard_holes.in_box_edge(14, 1)
+    result = filled(hole, edges="ignored")
+    assert result.curves == ()
+    assert hole.error(result.vertices) > 0.03
+    with pytest.raises(ValueError, match="edges: 'off' is not accepted; accepted are 'run_on', 'ignored'"):
+        filled(hole, edges="off")
+
+
+def test_the_mesh_fits_and_keeps_the_spacing() -> None:
+    """Every edge of the loop and of the curve has its two triangles, and finer wishes make finer curves."""
+    hole = hard_holes.in_box_edge(14, 1)
+    counts = []
+    for spacing in (0.03, 0.06, 0.12):
+        result = filled(hole, spacing=spacing)
+        assert hole.error(result.vertices) < 1e-9
+        whole = np.concatenate([hole.triangles, result.triangles])
+        sides = np.sort(np.concatenate([whole[:, [0, 1]], whole[:, [1, 2]], whole[:, [2, 0]]]), axis=1)
+        edges, uses = np.unique(sides, axis=0, return_counts=True)
+        inner = {tuple(edge) for edge in edges[uses == 2].tolist()}
+        (curve,) = result.curves
+        loop = np.column_stack([hole.loop, np.roll(hole.loop, -1)])
+        for pair in (*loop.tolist(), *np.column_stack([curve[:-1], curve[1:]]).tolist()):
+            assert (min(pair), max(pair)) in inner
+        counts.append(len(curve))
+    assert counts[0] > 1.6 * counts[1] > 2.2 * counts[2]
+
+
+def test_curves_move_turn_and_scale_with_the_mesh() -> None:
+    """And so does the surface, as far as its distances to the exact one tell."""
+    hole = hard_holes.in_bent_sheet(10, 1)
+    turn = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    shift = np.array([5.0, -3.0, 80.0])
+    one = filled(hole)
+    other = fairing.fill(300.0 * hole.vertices @ turn.T + shift, hole.triangles, [hole.loop])
+    back = (other.vertices - shift) @ turn / 300.0
+    new = len(one.curves[0]) - 2
+    assert np.abs(one.vertices[:new] - back[:new]).max() < 1e-9
+    assert hole.error(back) == pytest.approx(hole.error(one.vertices), abs=5e-5)
+
+
+def test_a_marked_edge_runs_on_however_flat() -> None:
+    """Across an edge of 20°, which is no hard edge unless it is marked; the curve tells."""
+    low = float(np.tan(np.radians(20.0)))
+    hole = hard_holes.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, -low)], 14)
+    x = hole.vertices[:, 0]
+    sides = np.concatenate([hole.triangles[:, [0, 1]], hole.triangles[:, [1, 2]]])
+    marked = np.unique(np.sort(sides[(np.abs(x[sides]) < 1e-9).all(axis=1)], axis=1), axis=0)
+    assert filled(hole).curves == ()
+    result = filled(hole, marked=marked)
+    assert result.marked == (True,)
+    assert hole.error(result.vertices) < 1e-9 < hole.error(filled(hole).vertices)
+    assert filled(hard_holes.in_box_edge(8, 1)).marked == (False,)
+
+
+def drawn_across(hole: Hole, places: FloatArray) -> tuple[FloatArray, IntArray]:
+    """The vertices with a wire through these places, from one end of the edge x = z = 0 to the other."""
+    on_edge = [v for v in hole.loop.tolist() if np.abs(hole.vertices[v, [0, 2]]).max() < 1e-9]
+    first, last = sorted(on_edge, key=lambda v: float(hole.vertices[v, 1]))[:: len(on_edge) - 1]
+    count = len(hole.vertices)
+    chain = [first, *range(count, count + len(places)), last]
+    return np.concatenate([hole.vertices, places]), np.column_stack([chain[:-1], chain[1:]])
+
+
+def test_a_drawn_edge_is_used_as_it_is() -> None:
+    """A wire that bulges within the plane x = 0: it stays to the bit, that side stays flat, and the other meets it."""
+    hole = hard_holes.in_box_edge(14, 1)
+    y = np.linspace(0.3, 0.7, 8)
+    places = np.column_stack([np.zeros(8), y, 0.04 * np.cos(np.pi * (y - 0.5) / 0.56)])
+    vertices, wires = drawn_across(hole, places)
+    result = fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires)
+    (curve,) = result.curves
+    assert result.marked == (False,)
+    assert {tuple(sorted(pair)) for pair in wires.tolist()} == {
+        tuple(sorted(pair)) for pair in np.column_stack([curve[:-1], curve[1:]]).tolist()
+    }
+    assert np.isin(curve, result.triangles).all()
+    assert result.vertices[:, 2].max() > 0.02  # the top rises to it
+    both = fairing.hard_edges(hole.vertices, hole.triangles)
+    assert fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires, marked=both).marked == (True,)
+    below = result.vertices[result.vertices[:, 0] > -1e-9]
+    assert len(below) > 5
+    assert np.abs(below[:, 0]).max() < 1e-9
+
+
+def test_drawn_edges_that_cross_are_refused_with_their_places() -> None:
+    hole = hard_holes.in_box_edge(14, 1)
+    vertices, wires = drawn_across(hole, np.array([[0.0, 0.5, 0.0]]))
+    a, b = (int(hole.loop[np.argmin(hole.vertices[hole.loop] @ way)]) for way in ([1.0, 0, 0.2], [0.2, 0, 1.0]))
+    with pytest.raises(fairing.MeshError, match="edges drawn across a hole cross each other") as caught:
+        fairing.fill(vertices, hole.triangles, [hole.loop], wires=[*wires.tolist(), [a, b]])
+    assert caught.value.code == "NONMANIFOLD_EDGE"
+    assert set(caught.value.elements.tolist()) == {a, b, *wires.ravel().tolist()}
+    with pytest.raises(fairing.MeshError, match="enclose a place of their own"):
+        middle = len(hole.vertices)
+        more = np.concatenate([vertices, [[-0.05, 0.45, 0.0], [-0.05, 0.55, 0.0]]])
+        ring = [[middle, middle + 1], [middle + 1, middle + 2], [middle + 2, middle]]
+        fairing.fill(more, hole.triangles, [hole.loop], wires=[*wires.tolist(), *ring])
+    with pytest.raises(fairing.MeshError, match="wires: row 0 names vertex 999999"):
+        fairing.fill(vertices, hole.triangles, [hole.loop], wires=[[0, 999999]])
+
+
+def test_a_loose_end_of_a_wire_changes_nothing() -> None:
+    hole = hard_holes.in_box_edge(10, 1)
+    vertices, wires = drawn_across(hole, np.array([[0.0, 0.5, 0.0]]))
+    result = fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires[:1])
+    assert np.array_equal(result.vertices, filled(hole).vertices)
+
+
+def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
+    """Its outline runs along a box edge: flat to roundoff, where normals from beyond the edge make a bulge."""
+    box = hard_holes.creased.box_edge(12, 1)
+    flat = (np.abs(box.vertices[box.triangles][:, :, 0]) < 1e-12).all(axis=1)
+    near = (np.linalg.norm(box.vertices - [0.0, 0.5, 0.0], axis=1) < 0.33)[box.triangles].all(axis=1)
+    kept = box.triangles[~(flat & near)]
+    gone = np.unique(box.triangles[flat & near])
+    loop = next(loop for loop in fairing.boundary_loops(kept) if np.isin(loop, gone).all())
+    beside, rounded = (fairing.fill(box.vertices, kept, [loop], edges=how).vertices for how in ("run_on", "ignored"))
+    assert np.abs(beside[:, 0]).max() < 1e-9
+    assert np.abs(rounded[:, 0]).max() > 0.01
+    assert len(fairing.fill(box.vertices, kept, [loop]).curves) == 0
+
+
+def test_where_no_surface_holds_the_edge_it_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The solve along the curve is made to fail: the smooth surface comes back, and the ends are named."""
+    hole = hard_holes.in_bent_sheet(14, 1)
+    fair = _along.fair
+    monkeypatch.setattr(_along, "fair", lambda *given, **options: replace(fair(*given, **options), converged=False))
+    result, smooth = (filled(hole, edges=how) for how in ("run_on", "ignored"))
+    (warning,) = [told for told in result.warnings if told.code == "EDGES_LEFT_ALONE"]
+    assert warning.figures["no_surface"] == 1.0
+    assert np.abs(hole.vertices[warning.elements, 0]).max() < 1e-9
+    assert result.curves == ()
+    assert result.equation == smooth.equation
+    assert len(result.vertices) == pytest.approx(len(smooth.vertices), rel=0.1)
+
+
+def test_holes_with_and_without_edges_are_filled_in_one_call() -> None:
+    """Each as by itself; triangles, fixed vertices and curves name the same places."""
+    hole = hard_holes.in_profile([(-1.0, 0.0), (0.0, 0.0), (0.0, -1.0)], 16, radius=0.25)
+    away = np.linalg.norm(hole.vertices - [-0.6, 0.5, 0.0], axis=1) < 0.2
+    kept = hole.triangles[~away[hole.triangles].all(axis=1)]
+    loops = [loop for loop in fairing.boundary_loops(kept) if len(loop) < 40]
+    assert len(loops) == 2
+    both = fairing.fill(hole.vertices, kept, loops)
+    single = [fairing.fill(hole.vertices, kept, [loop]) for loop in loops]
+    assert len(both.vertices) == sum(len(each.vertices) for each in single)
+    assert len(both.triangles) == sum(len(each.triangles) for each in single)
+    assert hole.error(both.vertices) < 1e-9
+    points = np.concatenate([hole.vertices, both.vertices])
+    assert np.abs(points[both.curves[0]][:, [0, 2]]).max() < 1e-9
+    assert set(np.concatenate([*loops, both.curves[0]]).tolist()) == set(both.fixed.tolist())
+    assert len(both.boundary_angle) == len(both.fixed) == len(both.join)
+    faces = points[both.triangles]
+    area = 0.5 * np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1).sum()
+    assert area == pytest.approx(sum(_flat_area(hole.vertices[loop]) for loop in loops), rel=1e-9)
+    assert [loop.tolist() for loop in both.loops] == [each.loops[0].tolist() for each in single]
+
+
+def _flat_area(loop: FloatArray) -> float:
+    """Over a loop on the faces z = 0 and x = 0 of a box, unfolded."""
+    u, v = loop[:, 0] - loop[:, 2], loop[:, 1]
+    return 0.5 * abs(float((u * np.roll(v, -1) - v * np.roll(u, -1)).sum()))
+
+
+def end(x: float, y: float, way: tuple[float, float], angle: float = 90.0, marked: bool = False) -> EdgeEnd:
+    direction = np.array([*way, 0.0]) / np.hypot(*way)
+    return EdgeEnd(0, 0, np.array([x, y, 0.0]), direction, np.zeros(3), angle, marked)
+
+
+def test_ends_are_joined_by_direction_and_kind() -> None:
+    """Two that face each other; not at a right angle, nor a convex with a concave one; three and four in a point."""
+    right, left, up, down = end(-1, 0, (1, 0)), end(1, 0, (-1, 0)), end(0, -1, (0, 1)), end(0, 1, (0, -1))
+    assert [joint.ends for joint in matched([right, left]).joints] == [(0, 1)]
+    assert matched([up, right]).lonely == (0, 1)
+    assert matched([right, end(1, 0, (-1, 0), -90.0)]).lonely == (0, 1)
+    for several in ([up, left, right], [up, left, down, right]):
+        (joint,) = matched(several).joints
+        assert joint.centre == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
+    slanted = matched([end(-1, 0.3, (1, 0)), end(-1, -0.3, (1, 0)), end(1, -0.3, (-1, 0)), end(1, 0.3, (-1, 0))])
+    assert sorted(joint.ends for joint in slanted.joints) == [(0, 3), (1, 2)]
+
+
+def test_ambiguous_ends_and_too_many_are_left_alone() -> None:
+    fork = matched([end(-1, 0, (1, 0)), end(1, -0.2, (-1, 0)), end(1, 0.2, (-1, 0))])
+    assert (fork.joints, fork.ambiguous) == ((), (0, 1, 2))
+    angles = np.linspace(0, 2 * np.pi, 9, endpoint=False)
+    star = matched([end(np.cos(a), np.sin(a), (-np.cos(a), -np.sin(a))) for a in angles])
+    assert (star.joints, star.too_many) == ((), tuple(range(9)))
+
+
+def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:
+    """A box edge that fades out within the hole's outline: only one end comes to it."""
+    fold = hard_holes.creased.fading_fold(16, 1, steep=1.2)
+    hole = hard_holes.cut_out(
+        fold.vertices, fold.triangles, np.linalg.norm(fold.vertices[:, :2] - [0.0, 0.5], axis=1) < 0.33, ()
+    )
+    result = filled(hole)
+    (warning,) = [told for told in result.warnings if told.code == "EDGES_LEFT_ALONE"]
+    assert warning.figures == {"ends": 1.0, "lonely": 1.0}
+    assert np.abs(hole.vertices[warning.elements, 0]).max() < 1e-9
+    assert str(warning).endswith("no other one goes on from there")
+    assert result.curves == ()
+    assert result.converged
