@@ -112,6 +112,22 @@ def test_a_boss_or_a_pocket_goes(height: float) -> None:
     assert np.abs(result.vertices[free, 2]).max() < 1e-6
 
 
+@pytest.mark.parametrize("above", [0.3, 0.5, 0.7])
+def test_a_dent_that_ends_in_a_crease_goes(above: float) -> None:
+    """A ball whose cap was pushed in: parts of its jagged outline are hard, but these edges end there."""
+    vertices, triangles = solids.box(12)
+    vertices = np.tan(vertices * np.pi / 4)
+    vertices /= np.linalg.norm(vertices, axis=1)[:, None]
+    centre = vertices[triangles].mean(axis=1)
+    inside = centre[:, 2] / np.linalg.norm(centre, axis=1) > above
+    dented = vertices.copy()
+    own = np.setdiff1d(triangles[inside], triangles[~inside])
+    dented[own, 2] -= 0.1 + 0.05 * np.cos(7 * vertices[own, 0])
+    result, found, free = faired(dented, triangles[inside], triangles[~inside])
+    assert not found.from_inside.any()
+    assert np.abs(np.linalg.norm(result.vertices[free], axis=1) - 1).max() < 1e-3
+
+
 def test_smooth_outlines_take_the_outside_to_the_bit() -> None:
     panel = solids.panel(3)
     found = fairing.boundary_normals(panel.vertices, panel.inside, panel.rim, outside=panel.outside)

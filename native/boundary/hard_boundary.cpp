@@ -51,10 +51,20 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
 
 struct HardMeeting {
     std::array<int, 2> ends;
-    Vector3 inside;  // unit normals, in the winding of the patch
-    Vector3 outside;
-    double leans_in;  // degrees by which the closing surface is nearer to the inside, times the length
+    std::array<bool, 2> goes_on;  // whether a hard edge outside begins at that end
+    double leans_in;  // degrees by which the closing surface is twice as near to the inside, times the length
 };
+
+// Marks of the patch's vertices from which hard edges lead outside.
+std::vector<char> ends_outside(const VertexPairs& edges, const PatchInMesh& mesh) {
+    std::vector<char> own(static_cast<std::size_t>(mesh.points.cols()), 0);
+    for (const int v : mesh.inside.reshaped()) own[v] = 1;
+    std::vector<char> marks(own.size(), 0);
+    for (const auto& [a, b] : edges) {
+        if (own[a] != own[b]) marks[own[a] ? a : b] = 1;
+    }
+    return marks;
+}
 
 std::vector<HardMeeting> hard_meetings(const PatchInMesh& mesh, const VertexPairs& creases,
                                        const std::vector<char>& held) {
@@ -64,34 +74,31 @@ std::vector<HardMeeting> hard_meetings(const PatchInMesh& mesh, const VertexPair
     const VertexPairs edges = hard_edges(mesh.points, both, creases);
     std::erase_if(all, [&](const Meeting& edge) { return !std::binary_search(edges.begin(), edges.end(), edge.ends); });
     if (all.empty()) return {};
+    const std::vector<char> goes_on = ends_outside(edges, mesh);
     const Points closed = closing_surface(mesh.points, mesh.whole, held);
     std::vector<HardMeeting> result;
     for (const Meeting& edge : all) {
         const bool alike = side_tail(mesh.inside, edge.inside) == side_tail(mesh.outside, edge.outside);
-        HardMeeting hard{edge.ends, normal_of(mesh.points, mesh.inside, edge.inside),
-                         (alike ? -1.0 : 1.0) * normal_of(mesh.points, mesh.outside, edge.outside), 0.0};
+        const Vector3 inside = normal_of(mesh.points, mesh.inside, edge.inside);
+        const Vector3 outside = (alike ? -1.0 : 1.0) * normal_of(mesh.points, mesh.outside, edge.outside);
         const Vector3 leaves = normal_of(closed, mesh.inside, edge.inside);
         const double length = (mesh.points.col(edge.ends[0]) - mesh.points.col(edge.ends[1])).norm();
-        hard.leans_in =
-            length * (degrees_between(leaves, hard.outside) - times_nearer * degrees_between(leaves, hard.inside));
-        result.push_back(hard);
+        const double leans_in = degrees_between(leaves, outside) - times_nearer * degrees_between(leaves, inside);
+        result.push_back({edge.ends, {goes_on[edge.ends[0]] != 0, goes_on[edge.ends[1]] != 0}, length * leans_in});
     }
     return result;
 }
 
-// Which of the edges decide together: neighbours between whose triangles there is no hard edge on either side.
+// Which of the edges decide together: those that hang together. A dent that ends in a crease leans here to the one side
+// and there to the other one.
 UnionFind rows_of(const std::vector<HardMeeting>& edges) {
-    std::map<int, Indices> at_vertex;
-    for (int k = 0; k < static_cast<int>(edges.size()); ++k) {
-        for (int v : edges[k].ends) at_vertex[v].push_back(k);
-    }
+    std::map<int, int> at_vertex;
     UnionFind rows(static_cast<int>(edges.size()));
-    for (const auto& [vertex, here] : at_vertex) {
-        if (here.size() != 2) continue;
-        const HardMeeting& a = edges[here[0]];
-        const HardMeeting& b = edges[here[1]];
-        const double turn = std::max(degrees_between(a.inside, b.inside), degrees_between(a.outside, b.outside));
-        if (turn < hard_bend) rows.join(here[0], here[1]);
+    for (int k = 0; k < static_cast<int>(edges.size()); ++k) {
+        for (int v : edges[k].ends) {
+            const auto [place, is_first] = at_vertex.try_emplace(v, k);
+            if (!is_first) rows.join(place->second, k);
+        }
     }
     return rows;
 }
@@ -107,11 +114,23 @@ VertexPairs outline_edges(const PatchInMesh& mesh) {
 VertexPairs inward_edges(const PatchInMesh& mesh, const VertexPairs& creases, const std::vector<char>& held) {
     const std::vector<HardMeeting> edges = hard_meetings(mesh, creases, held);
     UnionFind rows = rows_of(edges);
+    std::map<int, int> uses;
+    for (const HardMeeting& edge : edges) {
+        for (int v : edge.ends) ++uses[v];
+    }
     VectorX sums = VectorX::Zero(static_cast<Eigen::Index>(edges.size()));
-    for (int k = 0; k < static_cast<int>(edges.size()); ++k) sums[rows.root(k)] += edges[k].leans_in;
+    std::vector<char> ends_loose(edges.size(), 0);
+    for (int k = 0; k < static_cast<int>(edges.size()); ++k) {
+        const int row = rows.root(k);
+        sums[row] += edges[k].leans_in;
+        for (std::size_t end : {0, 1}) {
+            if (uses[edges[k].ends[end]] == 1 && !edges[k].goes_on[end]) ends_loose[row] = 1;
+        }
+    }
     VertexPairs inward;
     for (int k = 0; k < static_cast<int>(edges.size()); ++k) {
-        if (sums[rows.root(k)] > 0.0) inward.push_back(edges[k].ends);
+        const int row = rows.root(k);
+        if (sums[row] > 0.0 && !ends_loose[row]) inward.push_back(edges[k].ends);
     }
     return inward;
 }

@@ -14,8 +14,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double across_share = 0.85;  // a row of seven, with diagonals, has .09: one that bends alone is not usual
-constexpr double usual_share = 0.75;   // of the weight has less, and the same share has more than the lower bound
+constexpr double usual_share =
+    DihedralBands::half;  // of the weight has less, and the same share has more than the lower bound
 
 struct WeightedAngle {
     double angle;
@@ -207,41 +207,51 @@ double DihedralBands::weight_across(int edge, const Vector3& along) const {
     return lengths_[edge] * cosine * cosine;
 }
 
-AngleRange DihedralBands::usual_across(int edge, Walk& walk) const {
+AngleRange DihedralBands::usual_across(int edge, double share, Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
     const Vector3 along = direction(points_.col(b) - points_.col(a));
     std::vector<WeightedAngle> near;
     for (const int e : inner_edges(triangles_near(a, b, walk), walk))
         near.push_back({angles_[e], weight_across(e, along)});
-    const AngleRange half = middle(usual_share, near);
-    const AngleRange most = middle(across_share, near);
-    return angles_[edge] > 0.0 ? AngleRange{half.low, most.high} : AngleRange{most.low, half.high};
+    const AngleRange central = middle(half, near);
+    const AngleRange most = middle(share, near);
+    return angles_[edge] > 0.0 ? AngleRange{central.low, most.high} : AngleRange{most.low, central.high};
 }
 
-std::optional<double> DihedralBands::curvature_beyond(int edge, Walk& walk) const {
+std::optional<DihedralBands::Curvatures> DihedralBands::curvatures_beyond(int edge, Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
     const Vector3 start = points_.col(a);
     const Vector3 along = direction(points_.col(b) - start);
+    const Vector3 across = along.cross(Vector3(normals_.col(edges_.side(edge, 0) / 3)));
     const double height = mean_height(edge);
-    const auto is_beyond = [&](const Vector3& place) {
+    // 0 and 1: beyond on that side.
+    const auto side_of = [&](const Vector3& place) {
         const Vector3 offset = place - start;
-        const double across = (offset - along.dot(offset) * along).norm();
-        return across > std::max(1.5 * height, std::abs(along.dot(offset)));
+        const double apart = (offset - along.dot(offset) * along).norm();
+        if (apart <= std::max(1.5 * height, std::abs(along.dot(offset)))) return none;
+        return offset.dot(across) > 0.0 ? 1 : 0;
     };
-    double covered = 0.0;
+    std::array<double, 2> covered{0.0, 0.0};
+    std::array<double, 2> bend{0.0, 0.0};
     const Indices near = triangles_near(a, b, walk);
     for (const int t : near) {
         const auto corners = triangles_.col(t);
-        if (is_beyond((points_.col(corners[0]) + points_.col(corners[1]) + points_.col(corners[2])) / 3.0))
-            covered += area(t);
+        const int side = side_of((points_.col(corners[0]) + points_.col(corners[1]) + points_.col(corners[2])) / 3.0);
+        if (side != none) covered[static_cast<std::size_t>(side)] += area(t);
     }
-    if (!(covered >= lengths_[edge] * height)) return std::nullopt;
-    double bend = 0.0;
     for (const int e : inner_edges(near, walk)) {
         const auto [tail, head] = edges_.ends[e];
-        if (is_beyond(0.5 * (points_.col(tail) + points_.col(head)))) bend += angles_[e] * weight_across(e, along);
+        const int side = side_of(0.5 * (points_.col(tail) + points_.col(head)));
+        if (side != none) bend[static_cast<std::size_t>(side)] += angles_[e] * weight_across(e, along);
     }
-    return bend / covered;
+    const double row = lengths_[edge] * height;
+    if (!(covered[0] + covered[1] >= row)) return std::nullopt;
+    Curvatures result{std::abs(bend[0] + bend[1]) / (covered[0] + covered[1]), 0.0};
+    result.least = result.mean;
+    for (const std::size_t side : {0, 1}) {
+        if (covered[side] >= row) result.least = std::min(result.least, std::abs(bend[side]) / covered[side]);
+    }
+    return result;
 }
 
 }  // namespace fairing

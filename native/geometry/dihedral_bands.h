@@ -47,11 +47,16 @@ public:
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
     // What is usual of the bends across an edge's direction: others count by the squared cosine between them and it,
     // too. Round a tube of any proportions the edges along it say how it bends, those around it nothing. The middle
-    // half on the other side of zero, and .85 on the edge's own.
-    [[nodiscard]] AngleRange usual_across(int edge, Walk& walk) const;
-    // By how much it bends in that direction beyond the rows beside the edge, in degrees per length; nothing where less
-    // is near than one row's share.
-    [[nodiscard]] std::optional<double> curvature_beyond(int edge, Walk& walk) const;
+    // half on the other side of zero, and up to `share` on the edge's own.
+    [[nodiscard]] AngleRange usual_across(int edge, double share, Walk& walk) const;
+    static constexpr double half = 0.75;  // the share up to which the middle half goes
+    // By how much it bends in that direction beyond the rows beside the edge, in degrees per length: on both sides
+    // together, and on the side where it bends less. Nothing where less than one row's share is near.
+    struct Curvatures {
+        double mean;
+        double least;
+    };
+    [[nodiscard]] std::optional<Curvatures> curvatures_beyond(int edge, Walk& walk) const;
     [[nodiscard]] double mean_height(int edge) const;  // of its triangles over it
 
 private:

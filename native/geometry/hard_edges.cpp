@@ -19,7 +19,8 @@ namespace {
 constexpr double roundest_bend = 40.0;
 // Bends to the other side come from noise. The middle half ends at .67 of its standard deviation: this is twice that.
 constexpr double noise_margin = 3.0;
-constexpr double runs_on = 0.25;  // cosine of the turn at which a chain goes on: as far as a pentagon's
+constexpr double most_alike = 0.85;  // a row of seven, with diagonals, has .09: one that bends alone is not usual
+constexpr double runs_on = 0.25;     // cosine of the turn at which a chain goes on: as far as a pentagon's
 // Three rows may bend as much as a hard edge does where those beyond do not: a crease that runs between two rows.
 constexpr double rows = 3.0;
 constexpr double own_share = 0.35;  // of their bend: of three alike none is an edge
@@ -69,17 +70,38 @@ private:
         const double over_rows = std::abs(bands_.angle_over_rows(edge));
         const bool may_be_chamfer = over_rows >= hard_bend && bend >= own_share * over_rows;
         if (bend < fading_bend && !may_be_chamfer) return soft;
-        const AngleRange usual = bands_.usual_across(edge, walk);
-        const bool is_convex = bands_.angle(edge) > 0.0;
-        const double same_way = std::min(is_convex ? usual.high : -usual.low, roundest_bend);
-        const double noise = noise_margin * (is_convex ? -usual.low : usual.high);
-        const double excess = bend - std::max(same_way, noise);
-        if (excess >= hard_bend) return hard;
-        if (may_be_chamfer && over_rows - rows * noise >= hard_bend) {
-            const std::optional<double> beyond = bands_.curvature_beyond(edge, walk);
-            if (beyond && over_rows - rows * bands_.mean_height(edge) * std::abs(*beyond) >= hard_bend) return hard;
-        }
+        const Usual most = usual(edge, most_alike, walk);
+        const double excess = bend - std::max(most.bend, most.noise);
+        if (excess >= hard_bend || stands_out(edge, most.noise, walk)) return hard;
         return excess >= fading_bend ? fading : soft;
+    }
+
+    // What a surface without hard edges may bend at an edge, and three times what it bends to the other side.
+    struct Usual {
+        double bend;
+        double noise;
+    };
+
+    [[nodiscard]] Usual usual(int edge, double share, DihedralBands::Walk& walk) const {
+        const AngleRange range = bands_.usual_across(edge, share, walk);
+        const bool is_convex = bands_.angle(edge) > 0.0;
+        return {std::min(is_convex ? range.high : -range.low, roundest_bend),
+                noise_margin * (is_convex ? -range.low : range.high)};
+    }
+
+    // Whether the edge bends by itself, or the greatest part of three rows, where the mesh beyond does not. One side
+    // that does not is enough for an edge: two may run beside each other. Three rows may be a part of a fillet.
+    [[nodiscard]] bool stands_out(int edge, double noise, DihedralBands::Walk& walk) const {
+        const double bend = std::abs(bands_.angle(edge));
+        const double over_rows = std::abs(bands_.angle_over_rows(edge));
+        const bool in_chamfer = bend >= own_share * over_rows && over_rows - rows * noise >= hard_bend;
+        if (!in_chamfer && bend - noise < hard_bend) return false;
+        const auto beyond = bands_.curvatures_beyond(edge, walk);
+        if (!beyond) return false;
+        const double height = bands_.mean_height(edge);
+        if (in_chamfer && over_rows - rows * height * beyond->mean >= hard_bend) return true;
+        const double smooth = std::max(noise, height * beyond->least);
+        return bend - std::max(smooth, usual(edge, DihedralBands::half, walk).bend) >= hard_bend;
     }
 
     [[nodiscard]] std::vector<char> places_of(const VertexPairs& pairs) const {
