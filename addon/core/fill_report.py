@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .across import told
 from .border import notes_on
-from .filling import Filled, FillOptions, Piece
+from .fill_pieces import Filled, FillOptions, Piece
 from .report import MISSED, Check, Report, distortion_text, kink_checks, shape_checks
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, NotUsable, Verdict
 from .words import counted

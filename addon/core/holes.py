@@ -10,7 +10,7 @@ import fairing
 
 from .arrays import Floats, Ints, Mask
 from .border import BorderRefusal, Left, border_loops, refuse_all
-from .filling import FillOptions
+from .fill_pieces import FillOptions
 from .halves import Half, halves_of
 from .islands import islands_inside
 from .region import MeshArrays, nothing

@@ -13,8 +13,8 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Mask
+from ..core.fill_pieces import Piece
 from ..core.fill_report import Added
-from ..core.filling import Piece
 from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
 from ..core.uv_overlap import covering
 from .free_normals import renew

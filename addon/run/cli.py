@@ -16,8 +16,8 @@ import numpy as np
 from ..core.arrays import Floats
 from ..core.border import Left
 from ..core.engine import REFUSALS
+from ..core.fill_pieces import FillOptions
 from ..core.fill_report import make_fill_report
-from ..core.filling import FillOptions
 from ..core.options import FairOptions, option_names
 from ..core.report import Report, make_report, summary
 from ..core.rounding import FilletOptions

@@ -10,8 +10,9 @@ import numpy as np
 from ..core.arrays import Floats, Ints
 from ..core.border import NO_BORDER, left_by
 from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.fill_pieces import Filled, FillOptions
 from ..core.fill_report import Added, make_fill_report, writable
-from ..core.filling import Filled, FillOptions, fill
+from ..core.filling import fill
 from ..core.holes import Borders, borders_at, chosen_borders, expected_vertices
 from ..core.options import OF_CURVATURE, FairOptions
 from ..core.region import MeshArrays

@@ -13,8 +13,9 @@ import fairing
 
 from ..core.border import Left
 from ..core.engine import Progress
+from ..core.fill_pieces import Filled, FillOptions
 from ..core.fill_report import Added, is_written, refuse_unusable
-from ..core.filling import Filled, FillOptions, fill
+from ..core.filling import fill
 from ..core.holes import borders_at, chosen_borders
 from ..core.options import FairOptions
 from ..core.places import as_indices

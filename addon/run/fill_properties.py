@@ -6,7 +6,7 @@ No postponed annotations here: Blender reads them as property definitions.
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
-from ..core.filling import SHAPES
+from ..core.fill_pieces import SHAPES
 from .properties import EQUATIONS, SurfaceProperties, continuity_property, equation_property
 
 

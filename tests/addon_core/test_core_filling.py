@@ -11,9 +11,10 @@ import pytest
 from core.around import nearby
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
+from core.fill_pieces import FillOptions, Piece
 from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
-from core.filling import FillOptions, Piece, fill
+from core.filling import fill
 from core.holes import Borders, chosen_borders
 from core.neighbourhood import Neighbourhood
 from core.quality import Join

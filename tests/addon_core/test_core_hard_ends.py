@@ -10,8 +10,9 @@ import pytest
 from core.across import reported
 from core.arrays import Ints
 from core.border import border_loops
+from core.fill_pieces import FillOptions
 from core.fill_verdict import hard_ends
-from core.filling import FillOptions, fill
+from core.filling import fill
 from core.region import MeshArrays
 from core.verdict import GOOD, LOOK
 from polygon_mesh import grid_points, grid_quads, polygon_mesh

@@ -6,7 +6,8 @@ import numpy as np
 
 from core.arrays import Ints
 from core.border import border_loops
-from core.filling import FillOptions, fill
+from core.fill_pieces import FillOptions
+from core.filling import fill
 from core.holes import Borders, chosen_borders
 from core.islands import islands_inside
 from core.region import MeshArrays

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 import fairing
-from core.filling import SHAPES, FillOptions
+from core.fill_pieces import SHAPES, FillOptions
 from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions
 from fairing import _core
 

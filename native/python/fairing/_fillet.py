@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
-from fairing._fill import Patch, Spacing, refuse_made_here
 from fairing._first_mesh import FirstMesh, first_mesh, without_specks
 from fairing._interpolate import interpolate
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FilletResult, read_only, report_fields
+from fairing._patch import Patch, Spacing, refuse_made_here
 from fairing._proportion import Limit
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 from fairing._watch import Progress, Watch

@@ -8,21 +8,20 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._fill import (
+from fairing._inner_vertices import with_inner_vertices
+from fairing._new_mesh import RemeshResult, read_only, report_fields
+from fairing._patch import (
     LEAST_COUNT,
     Patch,
-    Progress,
     Spacing,
     carried,
     cut_fields,
     refuse_made_here,
     spacing_of,
 )
-from fairing._inner_vertices import with_inner_vertices
-from fairing._new_mesh import RemeshResult, read_only, report_fields
 from fairing._proportion import Limit
 from fairing._types import MeshError
-from fairing._watch import Watch
+from fairing._watch import Progress, Watch
 
 
 def remesh(

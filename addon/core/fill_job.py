@@ -1,0 +1,266 @@
+"""The surfaces of one run of Fair Fill. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import fairing
+
+from .across import Loose, Numbering, drawn_edges, marked_edges, within
+from .arrays import Floats, Ints
+from .border import BorderRefusal
+from .doubled import doubled_places, doubled_triangles
+from .engine import Progress
+from .fill_pieces import FillOptions, Piece
+from .fill_verdict import Surface, judge
+from .findings import Origin
+from .half_surface import half_surface
+from .halves import Half, symmetric_half
+from .key_surface import Surroundings
+from .neighbourhood import Neighbourhood
+from .parted import parted, stars_of
+from .passes import numbered_by_pass
+from .quality import join_at
+from .region import MeshArrays, nothing, to_local
+from .verdict import UNUSABLE, Verdict
+from .words import in_mesh_words, sentences
+
+_TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
+_TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
+_SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
+_TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE")
+
+
+@dataclass(frozen=True)
+class Job:
+    """The surfaces of one run, in world space."""
+
+    world: MeshArrays
+    matrix: Floats
+    options: FillOptions
+    near: Neighbourhood
+    loose: Loose
+
+    @classmethod
+    def of(cls, mesh: MeshArrays, matrix: Floats, options: FillOptions) -> Job:
+        """Begin with a mesh in its own coordinates."""
+        world = mesh.transformed(matrix)
+        return cls(world, matrix, options, Neighbourhood(world.positions, world.triangles), Loose.of(world))
+
+    def over(self, mesh: MeshArrays, spacing: float) -> Job:
+        """Return the same over another mesh, with other edges."""
+        return Job.of(mesh, self.matrix, replace(self.options, spacing=spacing))
+
+    def half(self, mesh: MeshArrays, half: Half, progress: Progress | None) -> Piece:
+        """Make the surface over half of a hole; mesh: in its own coordinates."""
+        found, local = half_surface(self, mesh, half, progress), self.local(half.chain)
+        triangles = found.surface.triangles
+        return Piece(
+            loops=(half.chain,),
+            points=found.surface.points,
+            positions=found.positions,
+            triangles=triangles[:, ::-1] if self.world.mirrored else triangles,
+            verdict=found.verdict,
+            result=found.surface.result,
+            join=found.surface.join,
+            around=_keyed_from(local.vertices, local.around, half.chain, self.matrix),
+            quads=self.options.quads,
+            limit_total=self.options.limit_total,
+            on_plane=found.on_plane,
+        )
+
+    def whole(self, mesh: MeshArrays, loops: list[Ints], progress: Progress | None) -> Piece:
+        """Make one surface, symmetric where the mesh asks for it and the boundary is; mesh: in its own coordinates."""
+        half = symmetric_half(mesh, loops[0]) if mesh.mirror_x and len(loops) == 1 else None
+        if half is not None:
+            try:
+                return self.symmetric(mesh, half, progress)
+            except (ValueError, fairing.SolverError):
+                pass  # the hole may have a surface all the same, which tells why where it has none
+        return self.piece(loops, progress)
+
+    def symmetric(self, mesh: MeshArrays, half: Half, progress: Progress | None) -> Piece:
+        """Make a surface that is symmetric to the last bit; mesh: in its own coordinates."""
+        found = half_surface(self, mesh, half, progress)
+        on = len(found.on_plane) - 2
+        _, loop = half.whole(mesh)
+        positions = doubled_places(found.positions, on)
+        inside = positions @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+        triangles = doubled_triangles(found.surface.triangles, len(half.chain), on)
+        local, world = self.local(loop), self.world
+        points = np.concatenate([world.positions[loop], inside])
+        rim = local.numbers(loop)
+        joined = np.concatenate([world.positions[local.vertices], inside])
+        numbers = np.concatenate([rim, len(local.vertices) + np.arange(len(inside))])
+        at = np.sort(rim)
+        join = join_at(local.vertices[at], fairing.visible_join(joined, numbers[triangles], local.around, at))
+        surface = Surface(points, triangles, found.surface.result, join, nothing())
+        return Piece(
+            loops=(loop,),
+            points=points,
+            positions=positions,
+            triangles=triangles[:, ::-1] if world.mirrored else triangles,
+            verdict=judge(world, loop, surface, local.vertices[local.around]),
+            result=surface.result,
+            join=join,
+            around=_keyed_from(local.vertices, local.around, loop, self.matrix),
+            quads=self.options.quads,
+            limit_total=self.options.limit_total,
+        )
+
+    def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
+        """Make one surface, over a loop or between several."""
+        outline = np.concatenate(loops)
+        local = self.local(outline, self._drawn(outline))
+        with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
+            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1)
+        return self._made(local, loops, result)
+
+    def small(self, groups: list[list[Ints]]) -> dict[int, Piece]:
+        """Make those over small loops in one call, by the groups' numbers; none where anything is wrong with one."""
+        loops = {k: group[0] for k, group in enumerate(groups) if len(group) == 1}
+        few = [k for k, loop in loops.items() if len(loop) <= _SMALL and len(np.unique(loop)) == len(loop)]
+        few = [k for k in few if not len(self._drawn(loops[k]))]
+        if self.options.bridge or self.options.spacing != 1.0 or len(few) < 2:
+            return {}
+        chosen = [loops[k] for k in few]
+        whole = self.local(np.unique(np.concatenate(chosen)), _no_edges())
+        try:
+            result = self.filled(whole, chosen, None)
+        except (fairing.MeshError, fairing.SolverError):
+            return {}  # each by itself tells why
+        made, stars = {}, stars_of(result)
+        for k, loop in zip(few, chosen, strict=True):
+            local = self.local(loop, _no_edges())
+            own = parted(result, stars, whole.numbers(loop), (whole.vertices, local.vertices))
+            if own is not None:
+                made[k] = self._made(local, [loop], own)
+        return made
+
+    def _drawn(self, outline: Ints) -> Ints:
+        """Return the (w, 2) edges that are drawn across a hole."""
+        runs_on = self.options.hard_edges == "RUN_ON" and not self.options.bridge
+        return drawn_edges(self.loose, outline) if runs_on and len(self.loose.edges) else _no_edges()
+
+    def local(self, outline: Ints, drawn: Ints | None = None) -> Local:
+        drawn = _no_edges() if drawn is None else drawn
+        around = self.near.around(np.unique(outline))
+        vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
+        return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
+
+    def filled(
+        self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool = False
+    ) -> fairing.FillResult:
+        options = self.options
+        return fairing.fill(
+            self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
+            bridge=bridge, spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
+            equation=options.equation.lower(), continuity="G2" if options.joins_curvature else "G1",
+            max_vertices=options.max_vertices, edges=options.hard_edges.lower(), wires=local.drawn,
+            marked=within(marked_edges(self.world), local.vertices), progress=progress,
+        )  # fmt: skip
+
+    def _made(self, local: Local, loops: list[Ints], result: fairing.FillResult) -> Piece:
+        world, vertices, around, outline = self.world, local.vertices, local.around, np.concatenate(loops)
+        number = Numbering.made(outline, vertices, result)
+        given = [local.numbers(loop) for loop in loops]
+        triangles = numbered_by_pass(number.of[result.triangles], result.triangles.astype(np.int64), given)
+        inside = number.places(world.positions, result.vertices)
+        points = np.concatenate([world.positions[outline], inside])
+        whole = np.concatenate([world.positions[vertices], result.vertices])
+        rim = np.unique(np.concatenate(given))
+        join = join_at(vertices[rim], fairing.visible_join(whole, result.triangles, around, rim))
+        across = number.across(result, local.drawn)
+        slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
+        tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
+        surface = Surface(points, triangles, result, join, tangent_only, across.edges)
+        verdict = judge(world, outline, surface, vertices[around])
+        return Piece(
+            loops=tuple(loops),
+            points=points,
+            positions=to_local(inside, self.matrix),
+            triangles=triangles[:, ::-1] if world.mirrored else triangles,
+            verdict=_advised(verdict, self.options, len(loops)),
+            result=result,
+            join=join,
+            around=_keyed_from(vertices, around, outline, self.matrix),
+            quads=self.options.quads,
+            limit_total=self.options.limit_total,
+            notes=_notes(result, slopes, local.origin),
+            across=across,
+        )
+
+
+@dataclass(frozen=True)
+class Local:
+    """The (q,) mesh vertices of some boundaries and of what is around them, ascending."""
+
+    vertices: Ints
+    around: Ints  # (o, 3) triangles, in numbers of these
+    drawn: Ints  # (w, 2) edges that are drawn across, likewise
+
+    def numbers(self, vertices: Ints) -> Ints:
+        """Return mesh vertices in local numbers."""
+        found: Ints = np.searchsorted(self.vertices, vertices)
+        return found
+
+    @property
+    def origin(self) -> Origin:
+        """Where they are in the mesh."""
+        return Origin(self.vertices, self.around, np.zeros(len(self.around), np.int64))
+
+
+def _no_edges() -> Ints:
+    return np.empty((0, 2), dtype=np.int64)
+
+
+def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:
+    """Return the surroundings with the boundary first; around: triangles in numbers of `vertices`."""
+    others = np.setdiff1d(vertices, outline)
+    order = np.concatenate([outline, others])
+    number = np.empty(len(vertices), dtype=np.int64)
+    number[np.searchsorted(vertices, order)] = np.arange(len(order))
+    return Surroundings(order, number[around], matrix)
+
+
+def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> float:
+    """Return the wanted length; 0, which stands for that of the boundary's edges, for a factor of 1."""
+    if options.spacing == 1.0:
+        return 0.0
+    edges = [world.positions[np.roll(loop, -1)] - world.positions[loop] for loop in loops]
+    return options.spacing * float(np.linalg.norm(np.concatenate(edges), axis=1).mean())
+
+
+def _notes(result: fairing.FillResult, slopes: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
+    """Report what stands in for the surface asked for, and where its curvature is not continued."""
+    warnings = [warning for warning in result.warnings if warning.code in _TOLD]
+    known = [replace(each, elements=each.elements[each.elements < len(origin.vertices)]) for each in warnings]
+    return sentences((*known, *slopes), origin)
+
+
+def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:
+    """Return the verdict with what to do about it where too many boundary loops were joined."""
+    if verdict.grade != UNUSABLE or not options.bridge or loops < 3:
+        return verdict
+    return replace(verdict, reason=f"{verdict.reason}. {joining_advice(loops)}")
+
+
+def joining_advice(loops: int) -> str:
+    """Return what to do where so many boundary loops were not joined."""
+    return _TOO_MANY.format(loops) if loops > 2 else _TWO
+
+
+@contextmanager
+def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
+    """Let the engine's MeshErrors say what to do about boundary loops that no surface joins."""
+    try:
+        yield
+    except fairing.MeshError as error:
+        tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
+        if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
+            raise
+        raise BorderRefusal(f"No surface joins these boundary loops. {joining_advice(loops)}", outline) from error

@@ -1,0 +1,193 @@
+"""What Fair Fill is asked for, and the surfaces that it makes. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+
+import fairing
+
+from .across import HARD_EDGES, Across
+from .arrays import Floats, Ints
+from .border import Left
+from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
+from .faces import Faces, faces_of, paired_faces
+from .harmonic import carried_over_half, harmonic, nearest
+from .key_surface import NewSurface, Surroundings, key_surfaces
+from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
+from .quality import Join
+from .region import nothing
+from .verdict import UNUSABLE, Verdict
+
+SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+
+
+@dataclass(frozen=True)
+class FillOptions:
+    """The properties of `mesh.fair_fill`.
+
+    Raises ValueError for a value it does not know, TypeError for one of another kind.
+    """
+
+    equation: str = "AUTOMATIC"
+    continuity: str = "G1"  # G2: the curvature around is continued, too
+    bridge: bool = False  # all loops of an object are joined
+    islands: bool = False  # loose pieces of faces inside a hole are joined with it
+    hard_edges: str = "RUN_ON"  # those that end at a hole go on through it, as edges drawn across it do; IGNORED
+    spacing: float = 1.0  # of new edges, as a factor of the boundary's
+    inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
+    quads: bool = False  # triangles are written in pairs, as far as they can be
+    longest: int = 0  # edges: longer borders stay open; 0: any number
+    longest_length: float = 0.0  # likewise by their lengths in world space
+    max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
+    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the boundary has
+    accept: str = "USABLE"  # ALL: written whatever it is worth
+
+    def __post_init__(self) -> None:
+        if self.equation not in SHAPES:
+            raise ValueError(f"equation: expected one of {', '.join(SHAPES)}, got {self.equation!r}")
+        if self.continuity not in CONTINUITIES:
+            raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
+        if self.inner not in INNER:
+            raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
+        if self.hard_edges not in HARD_EDGES:
+            raise ValueError(f"hard_edges: expected one of {', '.join(HARD_EDGES)}, got {self.hard_edges!r}")
+        if self.accept not in ACCEPT:
+            raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
+        refuse_other_kinds(self)
+        if not self.spacing >= LEAST_SPACING:
+            raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
+        for name in ("longest", "max_vertices", "limit_total"):
+            refuse_negative(self, name)
+        if not 0.0 <= self.longest_length < float("inf"):
+            raise ValueError(f"longest_length: expected 0 or a positive number, got {self.longest_length!r}")
+
+    @classmethod
+    def named(cls, properties: dict[str, Any]) -> FillOptions:
+        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
+        refuse_unknown((each.name for each in fields(cls)), properties)
+        return cls(**properties)
+
+    @classmethod
+    def of(cls, properties: Any) -> FillOptions:
+        """Read every option from an object with attributes of the same names."""
+        return cls(**{each.name: getattr(properties, each.name) for each in fields(cls)})
+
+    @property
+    def joins_curvature(self) -> bool:
+        """Whether the curvature around counts: only for the harmonic shape."""
+        return self.continuity == "G2" and self.equation in OF_CURVATURE
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One surface, over a loop or between several: r boundary vertices, k new ones."""
+
+    loops: tuple[Ints, ...]  # mesh vertices, each loop with the surface on its left
+    points: Floats  # (r + k, 3) in world space, the boundary's first, loop after loop
+    positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
+    triangles: Ints  # (m, 3) in numbers of `points`, wound like the mesh
+    verdict: Verdict
+    result: fairing.FillResult
+    join: Join
+    around: Surroundings
+    quads: bool = False  # whether triangles are written in pairs
+    limit_total: int = 0  # as FillOptions has it
+    notes: tuple[str, ...] = field(default=())
+    on_plane: Ints = field(default_factory=nothing)  # points that close a boundary which is a chain: see core.halves
+    across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
+
+    def faces(self, kinds: Ints, lines: Ints) -> Faces:
+        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
+
+        lines: (l, 2) edges that no quad runs across.
+        """
+        closes_at_once = not len(self.positions) and len(self.triangles) == 2
+        if not (self.quads or closes_at_once):
+            return faces_of(self.triangles)
+        return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is half of a surface, whose boundary is a chain."""
+        return len(self.on_plane) > 0
+
+    @property
+    def outline(self) -> Ints:
+        """The (r,) mesh vertices around it."""
+        return np.concatenate(self.loops)
+
+    @property
+    def rims(self) -> tuple[Ints, ...]:
+        """Each loop as numbers of `points`."""
+        return tuple(np.split(np.arange(len(self.outline)), np.cumsum([len(loop) for loop in self.loops])[:-1]))
+
+    @property
+    def following(self) -> Ints:
+        """For each of the r boundary vertices the next one, as numbers of `points`."""
+        return np.concatenate([np.roll(rim, -1) for rim in self.rims])
+
+    def carried(self, values: Floats) -> Floats:
+        """Return (k, c): values (r, c) of the boundary at the new vertices."""
+        if self.is_open:
+            return carried_over_half(self.points, self.triangles, values, self.on_plane)
+        return harmonic(self.points, self.triangles, values)
+
+    def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
+        """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface.
+
+        None where curves run across the surface, and over halves: there they stay where they are carried.
+        """
+        if len(self.across.edges) or self.is_open:
+            return [None] * len(places)
+        mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
+        triangles = self.triangles[:, ::-1] if mirrored else self.triangles
+        return key_surfaces(NewSurface(self.points, triangles, self.result.equation), self.around, places, carried)
+
+    def examples(self) -> tuple[Ints, Ints]:
+        """Return (k,) and (m,): boundary vertices whose data new vertices and new faces take, for what has no mean.
+
+        That of a face stands for the edge from there to the next one: at the boundary it is the face's own.
+        """
+        rim = len(self.outline)
+        near = nearest(self.triangles, len(self.points), rim)
+        of_face = near[self.triangles[:, 0]]
+        following = np.append(self.following, np.full(len(self.points) - rim, -1))
+        following[rim - 1] = -1 if self.is_open else following[rim - 1]
+        for tail, head in ((0, 1), (1, 2), (2, 0)):
+            at_edge = following[self.triangles[:, tail]] == self.triangles[:, head]
+            of_face[at_edge] = self.triangles[at_edge, tail]
+        return near[rim:], of_face
+
+
+@dataclass(frozen=True)
+class Filled:
+    """The surfaces of one mesh, and the holes that can't be filled."""
+
+    pieces: list[Piece]
+    left: tuple[Left, ...] = ()
+
+    @property
+    def left_vertices(self) -> Ints:
+        """The vertices of the holes that stay open, ascending."""
+        vertices: Ints = np.unique(np.concatenate([nothing(), *(each.vertices for each in self.left)]))
+        return vertices
+
+    def with_left(self, left: tuple[Left, ...]) -> Filled:
+        """Return it with more holes that stay open, before its own."""
+        return replace(self, left=(*left, *self.left))
+
+    def unfilled(self) -> Filled:
+        """Return it without any surface."""
+        left = (Left(np.unique(piece.outline), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
+        return Filled([], (*self.left, *left))
+
+    def settled(self, options: FillOptions) -> Filled:
+        """Return what is to be written: surfaces that are not usable are left out where others are."""
+        usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
+        if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
+            return self
+        bad = Filled([piece for piece in self.pieces if piece.verdict.grade == UNUSABLE])
+        return Filled(usable, (*self.left, *bad.unfilled().left))

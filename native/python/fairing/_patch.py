@@ -1,0 +1,136 @@
+"""Patches that are meshed anew and solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fairing import (
+    _arguments,
+    _core,
+    _options,
+)
+from fairing._fair import fair
+from fairing._measure import boundary_loops
+from fairing._new_mesh import Origin, read_only
+from fairing._types import FairResult, FloatArray, IntArray
+from fairing._watch import Progress
+
+LEAST_COUNT = 1000
+"""Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
+
+INNER = ("outline", "even")
+
+
+@dataclass(frozen=True)
+class Spacing:
+    """How long new edges are to be."""
+
+    length: float
+    even: bool
+    flat: bool = False
+    """Whether the old triangles are the surface as they are, broken along seams, and small angles may stay."""
+
+    def wanted(self, least: int) -> tuple[float, int, bool, bool]:
+        return self.length, least, self.even, self.flat
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A mesh to be solved or meshed anew, with its boundary and the normals there."""
+
+    vertices: FloatArray
+    triangles: IntArray
+    fixed: IntArray | None
+    normals: FloatArray | None
+
+    def expected_count(self, spacing: Spacing) -> float:
+        """About how many vertices a mesh of that spacing has."""
+        return _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
+
+    def expected_new(self, spacing: Spacing) -> float:
+        """About how many of these are new: by Euler's formula half as many as the outline has vertices are not."""
+        mine = self.triangles[_core.components(self.triangles, self.fixed, len(self.vertices)) >= 0]
+        return self.expected_count(spacing) - 0.5 * sum(map(len, _core.boundary_loops(mine)))
+
+    def border(self) -> IntArray:
+        """Its border vertices."""
+        border: IntArray = np.unique(np.concatenate([np.empty(0, np.int32), *boundary_loops(self.triangles)]))
+        return border
+
+    def remeshed(
+        self, old_count: int, spacing: Spacing, least: int, options: dict[str, Any], progress: Progress | None
+    ) -> tuple[Patch, Origin]:
+        """On the first ``old_count`` of these vertices and new ones."""
+        new, origin, _ = self.meshed_anew(old_count, _arguments.NO_EDGES, (spacing, least), options, progress)
+        return new, origin
+
+    def meshed_anew(
+        self,
+        old_count: int,
+        lines: IntArray,
+        wanted: tuple[Spacing, int],
+        options: dict[str, Any],
+        progress: Progress | None,
+    ) -> tuple[Patch, Origin, IntArray]:
+        """The same with edges that stay, and with the old vertex that each new one is, or −1."""
+        mesh = _core.remesh(
+            self.vertices, self.triangles, self.fixed, self.normals, lines, wanted[0].wanted(wanted[1]),
+            _arguments.whole("threads", options.get("threads", 0), 0), progress,
+        )  # fmt: skip
+        triangles = mesh["triangles"].copy()
+        triangles[triangles >= len(self.vertices)] -= len(self.vertices) - old_count
+        placed = np.concatenate([self.vertices[:old_count], mesh["vertices"]])
+        new = Patch(placed, read_only(triangles), self.fixed, self.normals)
+        return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
+
+    def with_old(self, vertices: FloatArray) -> Patch:
+        """The same with its first vertices at these places."""
+        return Patch(
+            np.concatenate([vertices, self.vertices[len(vertices) :]]), self.triangles, self.fixed, self.normals
+        )
+
+    def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
+        chosen = {"inner_fairness": "conformal", **options}
+        if outside is not None and len(outside):
+            chosen["outside"] = outside
+        return fair(
+            self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, start=start,
+            progress=progress, **chosen,
+        )  # fmt: skip
+
+
+_MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")
+
+
+def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
+    for name in _MADE_HERE:
+        if name in options:
+            raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
+    _options.continuity(
+        options.get("continuity", "G1"), options.get("equation", "harmonic"), options.get("method", "global")
+    )
+    _options.callback(progress)
+
+
+def spacing_of(value: Any, inner: str | None) -> Spacing:
+    if _arguments.finite("spacing", value) < 0:
+        raise ValueError(f"spacing: a length, or 0 for that of the boundary's edges, is needed, not {value!r}")
+    chosen = ("even" if value else "outline") if inner is None else inner
+    return Spacing(float(value), _arguments.choice("inner", chosen, INNER) == "even")
+
+
+def cut_fields(patch: Patch, old_count: int) -> dict[str, Any]:
+    """The fields of a mesh that was cut from another one's surface."""
+    return {
+        "vertices": read_only(patch.vertices[old_count:]), "triangles": patch.triangles, "polished": False,
+        "cut": True,
+    }  # fmt: skip
+
+
+def carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArray:
+    """(k,) values at vertices (n,), interpolated at places on triangles."""
+    carried: FloatArray = read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
+    return carried
