@@ -74,7 +74,7 @@ class Across:
     bands: int = 0  # bevels and rolled edges that run on, whose rows are among the edges
 
 
-def told(all_of_them: Sequence[Across]) -> str:
+def reported(all_of_them: Sequence[Across]) -> str:
     """Say what surfaces follow; nothing where they follow nothing."""
     hard, drawn, bands = (sum(getattr(each, name) for each in all_of_them) for name in ("hard", "as_drawn", "bands"))
     parts = [counted(hard, "runs on", "run on")] * bool(hard) + [f"{drawn} drawn"] * bool(drawn)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .across import told
+from .across import reported
 from .border import notes_on
 from .fill_pieces import Filled, FillOptions, Piece
 from .report import MISSED, Check, Report, distortion_text, kink_checks, shape_checks
@@ -128,7 +128,7 @@ def _on_left(filled: Filled) -> str:
 
 
 def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> tuple[Check, ...]:
-    edges = told([piece.across for piece in pieces])
+    edges = reported([piece.across for piece in pieces])
     faces = sum(each.faces for each in added) if added else sum(len(piece.triangles) for piece in pieces)
     return (
         Check("New faces", str(faces)),
