@@ -124,8 +124,8 @@ def is_current(obj: bpy.types.Object, session: Session) -> bool:
 def is_of(session: Session, mesh: bpy.types.Mesh) -> bool:
     """Return whether a session put aside is that of the mesh's region as it is now."""
     session.checked = False
-    same = session.region.options == live_mesh.region_options(mesh) and session.key == live_mesh.region_key(mesh)
-    return same and fits(session, mesh)
+    same = session.region.options == live_mesh.region_options(mesh).following()
+    return same and session.key == live_mesh.region_key(mesh) and fits(session, mesh)
 
 
 def fits(session: Session, mesh: bpy.types.Mesh) -> bool:

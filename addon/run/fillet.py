@@ -90,8 +90,7 @@ def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list
 
 
 class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
-    """Round the selected edges, or the hard edges of the selected faces,
-    with the fairest surface within a width along the surface"""
+    """Round the selected edges, or the hard edges of the selected faces, by a fair surface within a width"""
 
     bl_idname = "mesh.fair_fillet"
     bl_label = "Fair Fillet"
