@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-const Vector3 middle = Vector3::Constant(1.0 / 3.0);
+Vector3 middle() { return Vector3::Constant(1.0 / 3.0); }
 
 class Cutting {
 public:
@@ -85,7 +85,7 @@ private:
         made_.inside.push_back(inside ? 1 : 0);
     }
 
-    void keep(int t) { add(mesh_.triangles.col(t), t, distance_.reaches(t) && distance_.value(t, middle) < 0.0); }
+    void keep(int t) { add(mesh_.triangles.col(t), t, distance_.reaches(t) && distance_.value(t, middle()) < 0.0); }
 
     void cut(int t) {
         const int frame = 3 * t;
@@ -146,7 +146,7 @@ private:
             settle(pieces.at(a, b), 1);
             settle(pieces.at(b, a), 0);
         }
-        if (open.empty()) settle(0, distance_.reaches(t) && distance_.value(t, middle) < 0.0 ? 1 : 0);
+        if (open.empty()) settle(0, distance_.reaches(t) && distance_.value(t, middle()) < 0.0 ? 1 : 0);
         while (!open.empty()) {
             const int piece = open.back();
             open.pop_back();

@@ -60,6 +60,7 @@ Points drawn_to(const Points& points, const Triangles& triangles, const Indices&
     if (free.empty()) return points;
     const auto count = static_cast<Eigen::Index>(free.size());
     std::vector<Eigen::Triplet<double>> picked;
+    picked.reserve(free.size());
     for (Eigen::Index k = 0; k < count; ++k) picked.emplace_back(free[static_cast<std::size_t>(k)], k, 1.0);
     Eigen::SparseMatrix<double> choice(points.cols(), count);
     choice.setFromTriplets(picked.begin(), picked.end());

@@ -21,7 +21,7 @@ Vector2 turned_left(const Vector2& v) { return {-v[1], v[0]}; }
 }  // namespace
 
 SeamDistance::SeamDistance(const SeamMesh& mesh, const SeamWidths& widths, double reach)
-    : mesh_(mesh), reach_(reach), slack_(0.0), windows_of_(mesh.triangles.cols()), vertex_(mesh.sheet_count, infinite) {
+    : mesh_(mesh), reach_(reach), windows_of_(mesh.triangles.cols()), vertex_(mesh.sheet_count, infinite) {
     double least = infinite;
     double largest = 0.0;
     for (int h = 0; h < mesh.half_edge_count(); ++h) {

@@ -79,7 +79,7 @@ private:
 
     const SeamMesh& mesh_;
     double reach_;
-    double slack_;  // ways that are longer by less than that may lead to wider fillets
+    double slack_ = 0.0;  // ways that are longer by less than that may lead to wider fillets
     double size_ = 1.0;
     std::vector<Source> sources_;
     std::vector<Window> windows_;

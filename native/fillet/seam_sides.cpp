@@ -26,6 +26,7 @@ std::vector<double> part_areas(const SeamMesh& mesh) {
     for (int t = 0; t < static_cast<int>(part.size()); ++t)
         sum[root(part, t)] += 0.5 * mesh.length[3 * t] * mesh.apex[3 * t][1];
     std::vector<double> area;
+    area.reserve(part.size());
     for (int t = 0; t < static_cast<int>(part.size()); ++t) area.push_back(sum[root(part, t)]);
     return area;
 }

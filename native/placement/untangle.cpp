@@ -130,11 +130,12 @@ public:
           awake_(patch_.vertex_count(), 1) {}
 
     void run() {
-        for (const int rings : {3, 6, 12}) {
+        constexpr int fewest_rings = 3;
+        for (const int rings : {fewest_rings, 6, 12}) {
             const Indices folded = folded_triangles(problem_, target_, placement_);
             if (folded.empty()) return;
             // A sheet that lies turned over as a whole keeps its folds from the first sweeps on.
-            if (!spread(region(folded, rings))) return;
+            if (!spread(region(folded, rings)) && rings == fewest_rings) return;
         }
     }
 
