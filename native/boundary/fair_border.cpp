@@ -94,9 +94,10 @@ public:
         Points result = given_.middleCols(run_.first_moving(), run_.moving());
         double least = std::numeric_limits<double>::infinity();
         const double longest = 2.0 * run_.size();
-        for (double wave = finest; wave <= longest; wave *= std::exp2(1.0 / steps)) {
+        const int last = static_cast<int>(std::floor(steps * std::log2(longest / finest)));
+        for (int k = 0; k <= last; ++k) {
             checkpoint();
-            const Trial trial = smoothed(std::pow(frequency(wave), -6));
+            const Trial trial = smoothed(std::pow(frequency(finest * std::exp2(static_cast<double>(k) / steps)), -6));
             if (trial.score < least) {
                 least = trial.score;
                 result = trial.points;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <numbers>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -102,7 +103,7 @@ Pose<Scalar> moved(const Pose<Scalar>& pose, const Twist<Scalar>& twist) {
 // One step of the Magnus series of fourth order (Iserles et al. 2000): exact where the curvature is constant.
 template <typename Scalar>
 Pose<Scalar> integrated(const Pose<Scalar>& pose, const Shape<Scalar>& shape, double begin, double step) {
-    const double off = std::sqrt(3.0) / 6.0 * step;
+    const double off = std::numbers::sqrt3 / 6.0 * step;
     const Twist<Scalar> a = twist_at<Scalar>(shape, begin + 0.5 * step - off);
     const Twist<Scalar> b = twist_at<Scalar>(shape, begin + 0.5 * step + off);
     const Scalar half(0.5 * step);
@@ -262,9 +263,10 @@ void turn_end(Curve& curve, const Vector3& direction) {
         const double next = std::min(1.0, done + part);
         if (curve.end_in(Eigen::Quaterniond::Identity().slerp(next, whole) * first)) {
             done = next;
-        } else if ((part *= 0.5) < least_part) {
-            throw SolverError("no curve of least variation joins these ends: they turn too far");
+            continue;
         }
+        part *= 0.5;
+        if (part < least_part) throw SolverError("no curve of least variation joins these ends: they turn too far");
     }
 }
 

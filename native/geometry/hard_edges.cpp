@@ -178,7 +178,7 @@ private:
         return kept;
     }
 
-    UnionFind joined() const {
+    [[nodiscard]] UnionFind joined() const {
         UnionFind chains(edges().size());
         for (int v = 0; v + 1 < static_cast<int>(begin_.size()); ++v) {
             for (int i = begin_[v]; i < begin_[v + 1]; ++i) {
