@@ -19,19 +19,7 @@ USUAL = 1000
 
 def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.random.Generator]]:
     """Random patches of the real meshes, and the generator that made them."""
-    rng = np.random.default_rng(seed)
-    names = rng.permutation(real_meshes.RANDOM_MESHES)
-    found = tried = 0
-    while found < count:
-        name = str(names[tried % len(names)])
-        vertices = real_meshes.mesh(name).vertices
-        start = int(rng.integers(len(vertices)))
-        radius = float(np.ptp(vertices, axis=0).max() * rng.uniform(0.03, 0.18))
-        tried += 1
-        made = real_meshes.make_patch(f"{name}:{start}:{radius:.6g}", name, start, radius)
-        if made is not None and made.free >= 8 and len(made.fixed) and len(made.vertices) <= LARGEST.get(kind, USUAL):
-            found += 1
-            yield made, rng
+    return problems.random_patches(count, seed, LARGEST.get(kind, USUAL))
 
 
 def calls(kind: str, count: int, seed: int) -> Iterator[Call]:

@@ -52,8 +52,8 @@ class Problem:
         return 2 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
 
 
-def patches(count: int, seed: int) -> Iterator[Problem]:
-    """Random patches of the real meshes, some with other options; radii of 3 to 18 % of a mesh's extent."""
+def random_patches(count: int, seed: int, largest: int) -> Iterator[tuple[real_meshes.RealPatch, np.random.Generator]]:
+    """Random patches of the real meshes, radii of 3 to 18 % of a mesh's extent, and the generator that made them."""
     rng = np.random.default_rng(seed)
     names = rng.permutation(real_meshes.RANDOM_MESHES)
     found = tried = 0
@@ -64,10 +64,16 @@ def patches(count: int, seed: int) -> Iterator[Problem]:
         radius = float(np.ptp(vertices, axis=0).max() * rng.uniform(0.03, 0.18))
         tried += 1
         made = real_meshes.make_patch(f"{name}:{start}:{radius:.6g}", name, start, radius)
-        if made is None or made.free < 8 or len(made.vertices) > LARGEST or not len(made.fixed):
+        if made is None or made.free < 8 or len(made.vertices) > largest or not len(made.fixed):
             continue
         found += 1
-        yield _asked(made, found, rng)
+        yield made, rng
+
+
+def patches(count: int, seed: int) -> Iterator[Problem]:
+    """Random patches, some with other options."""
+    for number, (made, rng) in enumerate(random_patches(count, seed, LARGEST), 1):
+        yield _asked(made, number, rng)
 
 
 def _asked(patch: real_meshes.RealPatch, number: int, rng: np.random.Generator) -> Problem:

@@ -41,7 +41,7 @@ def joined(count: int, parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
         for part, first in zip(parts, firsts, strict=True)
         for warning in part["warnings"]
     )
-    return _once({name: _read_only(value) for name, value in result.items()})
+    return once({name: _read_only(value) for name, value in result.items()})
 
 
 def _rank(order: Sequence[str], name: str) -> int:
@@ -65,7 +65,7 @@ def _sums(seconds: Sequence[dict[str, float]]) -> dict[str, float]:
     return {name: sum(each.get(name, 0.0) for each in seconds) for name in names}
 
 
-def _once(values: dict[str, Any]) -> dict[str, Any]:
+def once(values: dict[str, Any]) -> dict[str, Any]:
     """Each fixed vertex once, with its largest angles: loops may share some."""
     fixed, place = np.unique(values["fixed"], return_inverse=True)
     if len(fixed) == len(values["fixed"]):

@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
+from fairing._joined import once
 from fairing._loops import Outline
+from fairing._new_mesh import read_only
 from fairing._types import FloatArray, IntArray
 
 _AWAY = 0.1  # of the shorter edge there: enough to tell two passes apart, and too little to reach another edge
@@ -46,14 +47,14 @@ class Split:
             replace(each, elements=self._named(each.elements)) if each.kind == "vertex" else each
             for each in values["warnings"]
         )
-        result = {**values, "triangles": _read_only(triangles), "warnings": warnings}
-        fixed, place = np.unique(self._named(values["fixed"]), return_inverse=True)
-        result["fixed"] = _read_only(fixed)
-        for name in ("boundary_angle", "join"):
-            worst = np.zeros(len(fixed))
-            np.maximum.at(worst, place, values[name])
-            result[name] = _read_only(worst)
-        return result
+        return once(
+            {
+                **values,
+                "triangles": read_only(triangles),
+                "fixed": read_only(self._named(values["fixed"])),
+                "warnings": warnings,
+            }
+        )
 
     def _named(self, elements: IntArray) -> IntArray:
         of_old = elements < self.count
@@ -99,8 +100,3 @@ def _whole_turn(angles: FloatArray) -> FloatArray:
     """In (0, 2π]."""
     turned: FloatArray = np.where(angles > 0.0, angles, angles + 2.0 * np.pi)
     return turned
-
-
-def _read_only(array: npt.NDArray[Any]) -> Any:
-    array.flags.writeable = False
-    return array
