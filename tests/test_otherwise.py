@@ -204,6 +204,30 @@ def test_a_wing_whose_shape_is_not_known_is_a_loft() -> None:
     assert (made.faired(equation="harmonic", seed=1).vertices == result.vertices).all()
 
 
+def neck(aside: float) -> tubes.Tube:
+    """From a hole of radius 1.6 in a plane to a tube of radius 0.6, 2.4 above and `aside` of its middle."""
+    made = tubes.pipe(2.4, seed=3)
+    share = made.vertices[:, 2:] / 2.4
+    vertices = made.vertices * np.hstack([1.6 - share, 1.6 - share, np.ones_like(share)])
+    vertices[:, 0] += aside * share[:, 0]
+    normals = np.where(vertices[made.fixed, 2:] < 1.2, [[0.0, 0.0, 1.0]], made.normals)
+    return tubes.Tube(vertices, made.triangles, made.fixed, normals)
+
+
+@pytest.mark.parametrize("aside", [0.5, 1.0])
+def test_a_neck_on_a_plane_keeps_its_slopes_without_an_equation(aside: float) -> None:
+    """The least bent surface stands in, and least variation is not tried: it takes seconds there."""
+    made = neck(aside)
+    inside = np.setdiff1d(np.arange(len(made.vertices)), made.fixed)
+    made.vertices[inside] *= np.random.default_rng(0).uniform(-1.0, 1.0, (len(inside), 3))
+    result = made.faired(equation="harmonic")
+    assert result.converged
+    assert (result.equation, result.provenance) == ("loft", "least_bent")
+    assert "least variation" not in [name for name, _ in result.way]
+    assert np.percentile(result.boundary_angle, 90) < 6
+    assert not {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"} & codes(result)
+
+
 def test_stop_makes_no_loft() -> None:
     result = wing().faired(equation="harmonic", otherwise="stop")
     assert not result.converged

@@ -42,13 +42,16 @@ std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, b
 }
 
 // None of least variation was found between loops as jagged as those of scans: of 570 random patches it decides none.
+// Between loops that are no tubes' ends it takes up to 17 s, and crumples (a neck moved aside on a sphere), where the
+// least bent of the lofts takes a tenth of a second.
 std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     const SolverOptions& options = problem.options;
     const bool wanted = options.otherwise == Otherwise::least_variation && options.equation != Equation::minimal &&
                         options.equation != Equation::least_variation;
     std::vector<Step> steps;
     if (!wanted) return steps;
-    if (!traits.is_jagged) steps.push_back(Step::least_variation);
+    const bool may_vary_least = problem.patch.loop_count() == 1 || traits.is_between_tubes;
+    if (!traits.is_jagged && may_vary_least) steps.push_back(Step::least_variation);
     if (traits.has_old_shape) steps.push_back(Step::old_shape);
     if (problem.patch.loop_count() > 1) steps.push_back(Step::loft);
     return steps;

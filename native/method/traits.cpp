@@ -4,6 +4,7 @@
 #include "boundary/low_passed_boundary.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
+#include "shape/girth.h"
 #include "start/several_outlines.h"
 
 namespace fairing {
@@ -24,11 +25,15 @@ constexpr int smallest_smooth = 500;
 
 OutlineData boundary_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
 
-bool is_short(const Problem& problem) {
-    const Patch& patch = problem.patch;
-    Points points = Points::Zero(3, patch.vertex_count());
+// 3 × local vertices, of which the fixed ones count.
+Points fixed_alone(const Problem& problem) {
+    Points points = Points::Zero(3, problem.patch.vertex_count());
     points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    return straight_length_between(patch, points) <= longest_single;
+    return points;
+}
+
+bool is_short(const Problem& problem) {
+    return straight_length_between(problem.patch, fixed_alone(problem)) <= longest_single;
 }
 
 }  // namespace
@@ -36,6 +41,7 @@ bool is_short(const Problem& problem) {
 Traits::Traits(const Problem& problem)
     : is_large(problem.options.nested && problem.patch.free_count > smallest_large),
       is_tube(problem.patch.loop_count() == 2),
+      is_between_tubes(fairing::is_between_tubes(problem.patch, fixed_alone(problem), problem.fixed_normals)),
       has_old_shape(joins_outlines(problem) && problem.before->cols() == problem.patch.vertex_count()),
       poor_share_([&problem] { return share_of_poor_triangles(problem.patch, proxy_membrane(problem, Progress())); }),
       low_passed_([&problem] { return fairing::low_passed(problem); }) {

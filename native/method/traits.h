@@ -26,6 +26,9 @@ public:
     // Over smooth short loops a far coarser level begins.
     bool begins_small;
 
+    // Several loops, each of them the end of a tube (shape/girth): their surface of least variation keeps its girth.
+    bool is_between_tubes;
+
     // Several loops and nothing else hold the patch, and the shape before is known: it stands in for a surface that is
     // not found.
     bool has_old_shape;

@@ -47,6 +47,7 @@ enum class Provenance {
     low_passed,  // the same between loops without their short waves, beside which the real ones lie (method/own_mesh)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
+    least_bent,  // where the descent of the bending energy ended (start/globalisation)
     swept_tube,  // cross-sections swept along a bend (start/swept_start)
     old_shape,   // the shape before, as smooth as it can be (stand_in/smoothed)
 };
@@ -54,9 +55,10 @@ enum class Provenance {
 // Whether another surface than the equation's was taken.
 constexpr bool stands_in(Provenance provenance) { return provenance > Provenance::low_passed; }
 
-// Whether curves join the loops, without an equation.
+// Whether the loops are joined without an equation (stand_in/lofted).
 constexpr bool is_loft(Provenance provenance) {
-    return provenance == Provenance::loft || provenance == Provenance::swept_tube;
+    return provenance == Provenance::loft || provenance == Provenance::least_bent ||
+           provenance == Provenance::swept_tube;
 }
 
 // A way that was tried (method/solve), and how long it took.

@@ -9,7 +9,9 @@
 #include "placement/folds.h"
 #include "placement/refill.h"
 #include "problem/surface_state.h"
+#include "start/globalisation.h"
 #include "start/loft.h"
+#include "start/membrane.h"
 #include "start/swept_start.h"
 
 namespace fairing {
@@ -20,6 +22,17 @@ constexpr double largest_growth = 2.0;  // of the area, by the bulge: beyond, it
 
 // Of 60 random patches between several loops 58 have a loft that is accepted; with 0.6 alone, and none repaired, 50.
 constexpr std::array roundnesses{0.6, 1.5, 4.0};
+
+// The membrane, bent until its energy falls no further; nothing where that is a balloon.
+std::optional<Points> least_bent(const Problem& problem, const Progress& progress) {
+    Workspace work{make_normal_operator(problem),
+                   make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
+    const Points start = membrane(problem, work);
+    Points points = globalise(problem, work, start, progress);
+    const Triangles& triangles = problem.patch.triangles;
+    if (total_area(points, triangles) > largest_growth * total_area(start, triangles)) return std::nullopt;
+    return points;
+}
 
 // A share of the bulge; nothing where it is a balloon.
 std::optional<Points> surface(const Problem& problem, const Fill& fill, double share) {
@@ -55,6 +68,8 @@ std::vector<Candidate> candidates(const Problem& problem, const Progress& progre
                 found.push_back(candidate(problem, std::move(*points), Provenance::loft));
         }
     }
+    if (auto points = least_bent(problem, progress))
+        found.push_back(candidate(problem, std::move(*points), Provenance::least_bent));
     const auto tube = tube_between(problem);
     auto swept = tube && tube->turn() > wide_bend ? swept_start(problem, *tube, progress) : std::nullopt;
     if (swept) found.push_back(candidate(problem, std::move(*swept), Provenance::swept_tube));

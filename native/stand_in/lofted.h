@@ -10,9 +10,9 @@
 namespace fairing {
 
 // The loft (start/loft) with as much of its bulge as makes neither folds nor crossings nor a balloon; its slopes are
-// let go as far as that takes. Nothing for one outline, or where no share is accepted.
-// Where both outlines face each other along a wide bend, the sections swept along it (start/swept_start), where these
-// are bent less.
+// let go as far as that takes. Nothing for one outline, or where no share is accepted. Instead of it, where these are
+// bent less: the membrane after descent of its bending energy (start/globalisation), and where both outlines face each
+// other along a wide bend, the sections swept along it (start/swept_start).
 std::optional<Solution> lofted(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

@@ -84,6 +84,13 @@ TEST_CASE("between several loops the shape before stands in, and a loft where th
     CHECK(plan() == "direct, own mesh | old shape, loft");
 }
 
+TEST_CASE("between loops that are no tubes' ends least variation does not stand in") {
+    test::Pipe steep(8, 1.2);  // a ball between two small caps
+    CHECK(text_of(plan_for(steep.problem, Traits(steep.problem), false)) == "direct, own mesh | loft");
+    steep.problem.before = steep.single.points;
+    CHECK(text_of(plan_for(steep.problem, Traits(steep.problem), false)) == "direct, own mesh | old shape, loft");
+}
+
 TEST_CASE("between jagged loops far apart, whose membrane is poor, no mesh of the engine's own is made") {
     test::Pipe pipe(200);
     pipe.problem.before = pipe.single.points;

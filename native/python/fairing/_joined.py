@@ -9,7 +9,15 @@ import numpy as np
 
 from fairing._types import Diagnostic, IntArray
 
-_ORDER = ("equation", "low_passed", "least_variation", "swept_tube", "old_shape", "loft")  # the last one is named
+_ORDER = (
+    "equation",
+    "low_passed",
+    "least_variation",
+    "least_bent",
+    "swept_tube",
+    "old_shape",
+    "loft",
+)  # the last one is named
 _WORST = ("converged", "iteration_limit", "stalled", "folded")
 
 

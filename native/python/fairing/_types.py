@@ -82,7 +82,7 @@ class FairResult:
     provenance: str
     """Where the surface comes from: "equation"; "low_passed", the same between boundary loops without their short
     waves, beside which the real ones lie; or what stands in for a surface that the equation does not have:
-    "least_variation", "loft", "swept_tube" or "old_shape". Of several components the last in this
+    "least_variation", "loft", "least_bent", "swept_tube" or "old_shape". Of several components the last in this
     order. All but the first come with the warning NO_SOLUTION."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
