@@ -7,7 +7,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .outline import two_sided_edges
+from .outline import edges_inside
 from .region import MeshArrays, nothing
 
 
@@ -15,9 +15,7 @@ def _faired(mesh: MeshArrays) -> tuple[Ints, fairing.FairEdges | None]:
     """Return which vertices of the mesh the marked edges have (q,), and these edges as fair curves."""
     if mesh.sharp is None:
         return nothing(), None
-    sides = two_sided_edges(mesh, np.ones(len(mesh.edges), dtype=bool))
-    inside = np.zeros(len(mesh.edges), dtype=bool)
-    inside[sides.edges] = mesh.in_patch[sides.faces].all(axis=1)
+    inside = edges_inside(mesh)
     inner, onward = mesh.edges[mesh.sharp & inside], mesh.edges[mesh.sharp & ~inside]
     finite = np.isfinite(mesh.positions[onward]).all(axis=(1, 2))
     pairs = np.concatenate([inner, onward[finite]])

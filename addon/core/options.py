@@ -148,7 +148,7 @@ class FairOptions:
     @property
     def fairs_pinned_edges(self) -> bool:
         """Whether pinned edges move."""
-        return self.pins_sharp and self.pin_curve == "FAIRED" and self.mesh == "KEEP" and self.method == "GLOBAL"
+        return self.pins_sharp and self.pin_curve == "FAIRED" and self.method == "GLOBAL"
 
     @property
     def pins_sharp(self) -> bool:
@@ -158,8 +158,8 @@ class FairOptions:
     @property
     def pins_running_through(self) -> bool:
         """Whether those are held that run through the selection."""
-        keeps = self.mesh == "KEEP" and self.method == "GLOBAL" and self.outline == "GIVEN"
-        return self.pin_edges == "AUTOMATIC" and keeps
+        may = self.method == "GLOBAL" and self.outline == "GIVEN"
+        return self.pin_edges == "AUTOMATIC" and may
 
     def following(self) -> FairOptions:
         """Return the options for a region that follows its boundary: edges that run through have no place of theirs."""
@@ -216,7 +216,7 @@ class FairOptions:
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,
-            "pin_curve": self.pins_sharp and self.mesh == "KEEP" and self.method == "GLOBAL",
+            "pin_curve": self.pins_sharp and self.method == "GLOBAL",
             "pin_slope": self.pin_edges != "NONE",
             "open_border": self.mesh == "KEEP",
         }

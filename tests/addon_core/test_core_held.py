@@ -10,14 +10,17 @@ import pytest
 from core import solve
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
+from core.remeshing import remesh_arrays
 from polygon_mesh import grid, grid_points
 
 SIZE = 8
 
 
 def marked(mesh: MeshArrays) -> np.ndarray:  # type: ignore[type-arg]
-    """(e,) edges of the middle column x = 0."""
-    return np.abs(mesh.positions[mesh.edges][:, :, 0]).max(axis=1) < 1e-9
+    """(e,) edges of the grid's middle column."""
+    rows = round(float(np.sqrt(len(mesh.positions))))
+    on_column: np.ndarray = (mesh.edges % rows == rows // 2).all(axis=1)  # type: ignore[type-arg]
+    return on_column
 
 
 def with_curve(mesh: MeshArrays, kind: str) -> MeshArrays:
@@ -83,6 +86,44 @@ def test_both_sides_of_a_fold_come_back_and_no_fit_looks_across_it() -> None:
     flat = np.where(grid_points(16)[inside, 0] < 0, np.abs(result[:, 2]), np.abs(result[:, 0]))
     assert solved.result.converged
     assert flat.max() < 1e-9
+
+
+@pytest.mark.parametrize("spacing", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("matrix", [np.eye(4), np.diag([2.0, 2.0, -2.0, 1.0])], ids=["as it is", "mirrored"])
+def test_a_new_mesh_makes_a_dented_edge_fair_and_both_sides_flat(
+    spacing: float,
+    matrix: np.ndarray,  # type: ignore[type-arg]
+) -> None:
+    """What is written are the edge's own vertices, straight again, and new ones on the two sides."""
+    mesh = with_curve(grid(16, 0.55, folded), "creases")
+    mesh = replace(mesh, sharp=mesh.creases)
+    inside = make_patch(replace(mesh, pinned=np.zeros_like(mesh.pinned)))
+    moving = inside.vertices[inside.free]
+    noisy = mesh.positions.copy()
+    noisy[moving] += 0.02 * np.random.default_rng(2).normal(size=(len(moving), 3))
+    done = remesh_arrays(replace(mesh, positions=noisy), matrix, FairOptions(mesh="NEW", spacing=spacing))
+    off = lambda points: np.minimum(np.abs(points[:, 0]), np.abs(points[:, 2]))  # noqa: E731
+    on_edge = np.abs(grid_points(16)[moving, 0]) < 1e-9
+    assert set(done.vertices.tolist()) == set(moving[on_edge].tolist())
+    assert np.abs(done.positions[:, [0, 2]]).max() < 1e-9
+    assert off(done.new_positions).max() < 1e-9
+    assert done.verdict.grade == "GOOD"
+    number = {int(v): k for k, v in enumerate(done.part.stay)}
+    kept = mesh.edges[marked(mesh) & np.isin(mesh.edges, moving).any(axis=1)]
+    sides = {tuple(sorted(pair)) for t in done.part.triangles.tolist() for pair in (t[:2], t[1:], t[::2])}
+    assert {tuple(sorted((number[a], number[b]))) for a, b in kept.tolist()} <= sides
+
+
+def test_half_a_factor_takes_a_new_mesh_and_its_edge_half_way() -> None:
+    mesh = with_curve(grid(16, 0.55, folded), "creases")
+    mesh = replace(mesh, sharp=mesh.creases)
+    dent = mesh.positions.copy()
+    on_edge = np.flatnonzero((np.abs(grid_points(16)[:, 0]) < 1e-9) & (np.abs(grid_points(16)[:, 1]) < 0.3))
+    dent[on_edge] += [0.03, 0.0, 0.03]
+    done = remesh_arrays(replace(mesh, positions=dent), np.eye(4), FairOptions(mesh="NEW", factor=0.5))
+    half = np.isin(done.vertices, on_edge)
+    assert np.count_nonzero(half) == len(on_edge)
+    np.testing.assert_allclose(done.positions[half][:, [0, 2]], 0.015, atol=1e-9)
 
 
 def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_outline() -> None:
