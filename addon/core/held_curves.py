@@ -10,8 +10,10 @@ from .arrays import Floats, Ints, Mask
 from .outline import edges_inside
 from .region import MeshArrays, nothing
 
+ALONG = 5  # edges beyond the outline that tell where a hard edge goes
 
-def _faired(mesh: MeshArrays) -> tuple[Ints, fairing.FairEdges | None]:
+
+def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.FairEdges | None]:
     """Return which vertices of the mesh the marked edges have (q,), and these edges as fair curves."""
     if mesh.sharp is None:
         return nothing(), None
@@ -21,15 +23,19 @@ def _faired(mesh: MeshArrays) -> tuple[Ints, fairing.FairEdges | None]:
     pairs = np.concatenate([inner, onward[finite]])
     used, numbered = np.unique(pairs, return_inverse=True)
     numbered = numbered.reshape(-1, 2)
-    return used, fairing.fair_edges(mesh.positions[used], numbered[: len(inner)], numbered[len(inner) :])
+    shares = None if reference is None else reference[used]
+    return used, fairing.fair_edges(
+        mesh.positions[used], numbered[: len(inner)], numbered[len(inner) :], reference=shares
+    )  # fmt: skip
 
 
-def faired_curves(mesh: MeshArrays) -> tuple[Ints, Floats]:
+def faired_curves(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, Floats]:
     """Return which vertices (k,) of marked edges inside the patch move, ascending, and where to (k, 3).
 
-    Those move that run through between marked edges outside.
+    Those move that run through between marked edges outside. reference: (n, 3) positions, whose shares of an edge's
+    length its vertices keep; None: the mesh's own.
     """
-    used, result = _faired(mesh)
+    used, result = _faired(mesh, reference)
     if result is None:
         return used, np.empty((0, 3))
     return used[result.moved].astype(np.int64), result.vertices[result.moved]

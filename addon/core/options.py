@@ -161,10 +161,6 @@ class FairOptions:
         may = self.method == "GLOBAL" and self.outline == "GIVEN"
         return self.pin_edges == "AUTOMATIC" and may
 
-    def following(self) -> FairOptions:
-        """Return the options for a region that follows its boundary: edges that run through have no place of theirs."""
-        return replace(self, pin_edges="NONE") if self.pin_edges == "AUTOMATIC" else self
-
     @property
     def fairs_border(self) -> bool:
         """Whether open borders move."""
