@@ -68,6 +68,20 @@ def test_dented_edges_that_run_through_become_straight(pins: str) -> None:
     assert after[outside].tobytes() == before[outside].tobytes()
 
 
+@pytest.mark.parametrize("spacing", [0.6, 2.0])
+def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
+    """The box corner again: three straight edges, marked as before, between three flat sides."""
+    obj, faces = box()
+    bumpy(obj, meshes.free_vertices(obj, faces))
+    marked = sum(edge.use_edge_sharp for edge in obj.data.edges)
+    meshes.fair(obj, faces, mesh="NEW", spacing=spacing)
+    points = meshes.positions(obj)
+    sharp = [list(edge.vertices) for edge in obj.data.edges if edge.use_edge_sharp]
+    assert len(sharp) == marked
+    assert np.sort(np.abs(points[np.unique(sharp)]), axis=1)[:, 1].max() < 1e-6
+    assert off_box(points) < 1e-5
+
+
 def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:
     """By default they move, with Factor one half half of the way; marks that end inside are not held."""
     results = {}
