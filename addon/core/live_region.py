@@ -33,7 +33,7 @@ def surroundings(mesh: MeshArrays, patch: Patch) -> Surroundings:
     near = np.zeros(len(mesh.positions), dtype=bool)
     near[patch.vertices] = True
     faces = mesh.in_patch.copy()
-    for _ in range(RINGS if mesh.sharp is None else max(RINGS, ALONG)):
+    for _ in range(RINGS if mesh.hard is None else max(RINGS, ALONG)):
         faces[mesh.corner_faces[near[mesh.corner_vertices]]] = True
         near[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
     vertices = np.flatnonzero(near)
@@ -76,7 +76,9 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         corner_normals=None if normals is None else normals[corners],
         sample=None,
         parts=None,
-        sharp=None if mesh.sharp is None else mesh.sharp[used_edges],
+        sharp=None,
+        hard=None if mesh.hard is None else mesh.hard[used_edges],
+        held_by_angle=None,
     )
 
 

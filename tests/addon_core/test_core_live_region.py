@@ -11,7 +11,7 @@ import fairing
 from core.around import outside_triangles
 from core.arrays import Floats, Ints, Mask
 from core.boundary import boundary
-from core.held_curves import beyond, running_through
+from core.held_curves import none, with_pinned_edges
 from core.live_region import LiveRegion, Surroundings, surroundings
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
@@ -157,10 +157,7 @@ def test_an_edge_that_runs_through_follows_its_ends(steps: int) -> None:
     exact = mesh.positions.copy()
     free = make_patch(mesh).vertices[make_patch(mesh).free]
     mesh.positions[free] += 0.01 * np.random.default_rng(3).normal(size=(len(free), 3))
-    through = running_through(replace(mesh, sharp=edge))
-    pinned = mesh.pinned.copy()
-    pinned[mesh.edges[through]] = True
-    mesh = replace(mesh, sharp=edge, creases=edge & (through | beyond(mesh)), pinned=pinned)
+    mesh = with_pinned_edges(replace(mesh, sharp=edge), FairOptions(), none(mesh))
     region = LiveRegion(mesh, EYE, FairOptions())
     assert set(region.free.tolist()) == set(free.tolist())
     whole = np.array([[1.2, 0.3, 0.1], [-0.2, 0.9, 0.4], [0.1, -0.5, 1.1]])
