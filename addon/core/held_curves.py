@@ -83,8 +83,11 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
     inside = len(triangles) - len(outside)
     edges = np.flatnonzero(np.isin(mesh.edges, used).all(axis=1))
     ends = np.sort(np.searchsorted(used, mesh.edges[edges]), axis=1)
-    found = fairing.edges_through(mesh.positions[used], numbered[:inside], numbered[inside:], neighbours=ends)
     hard = none(mesh)
+    try:
+        found = fairing.edges_through(mesh.positions[used], numbered[:inside], numbered[inside:], neighbours=ends)
+    except fairing.MeshError:  # the patch has no outline: its solve says why, with the mesh's own numbers
+        return hard
     if len(found.edges):
         wanted = {tuple(pair) for pair in np.concatenate([found.edges, found.onward]).tolist()}
         hard[edges] = [tuple(pair) in wanted for pair in ends.tolist()]

@@ -12,7 +12,7 @@ from core.held_curves import none, released, with_pinned_edges
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
 from core.remeshing import remesh_arrays
-from polygon_mesh import grid, grid_points
+from polygon_mesh import grid, grid_points, polygon_mesh
 
 SIZE = 8
 
@@ -185,3 +185,10 @@ def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_out
     with pytest.raises(ValueError, match="Boundary: Smooth would round off the creases"):
         solve.solve(mesh, np.eye(4), options)
     assert solve.solve(replace(mesh, creases=None), np.eye(4), options).result.converged
+
+
+def test_a_patch_without_an_outline_has_no_edges() -> None:
+    """Three faces meet at an edge: that is for the solve to say."""
+    points = np.array([[0.0, 0, 0], [0, 1, 0], [1, 0, 0], [-1, 0, 0], [0, 0, 1]])
+    fan = polygon_mesh(points, [[0, 2, 1], [0, 1, 3], [0, 1, 4]], [True, True, True])
+    assert with_pinned_edges(fan, FairOptions(), none(fan)).hard is None
