@@ -9,8 +9,6 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
-from .bends import bends
-from .hard_chains import chains
 from .looks import STAND_INS, girth_reason, kink_reason, slope_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
@@ -74,14 +72,9 @@ def hard_ends(world: MeshArrays, outline: Ints, around: Ints) -> Ints:
     around: (o, 3) the triangles near the boundary.
     """
     vertices, numbers = np.unique(around, return_inverse=True)
-    rim = np.isin(vertices, outline)
-    with np.errstate(invalid="ignore", over="ignore"):
-        near = bends(world.positions[vertices], numbers.reshape(-1, 3))
-    found = [nothing()]
-    for chain in chains(world.positions[vertices], near):
-        ends = near.edges[chain]
-        found.append(vertices[ends[(rim[ends].sum(axis=1) == 1)[:, None] & rim[ends]]])
-    ending: Ints = np.unique(np.concatenate(found))
+    hard = vertices[fairing.hard_edges(world.positions[vertices], numbers.reshape(-1, 3))]
+    on_rim = np.isin(hard, outline)
+    ending: Ints = np.unique(hard[(on_rim.sum(axis=1) == 1)[:, None] & on_rim])
     return ending
 
 

@@ -53,6 +53,7 @@ from fairing._shape import (
     seam_kinks,
 )
 from fairing._solver import Solver
+from fairing._subdivided import SubdividedEdges, subdivide_edges
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
 __all__ = [
@@ -78,6 +79,7 @@ __all__ = [
     "RemeshResult",
     "Solver",
     "SolverError",
+    "SubdividedEdges",
     "SurroundingNormals",
     "VisibleJoin",
     "__version__",
@@ -115,6 +117,7 @@ __all__ = [
     "rounded_edges",
     "seam_kinks",
     "self_intersections",
+    "subdivide_edges",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",
