@@ -81,6 +81,7 @@ class FairOptions:
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
     spacing: float = 1.0  # of a new mesh, as a factor of the boundary's edges
     inner: str = "OUTLINE"  # new edges are in proportion to the boundary's nearby; EVEN: of one length
+    subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as those of a new mesh
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
     max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
@@ -206,6 +207,7 @@ class FairOptions:
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",
+            "subdivide_boundary": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
             "max_vertices": self.mesh == "NEW",
             "limit_total": self.mesh == "NEW",

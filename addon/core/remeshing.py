@@ -23,6 +23,7 @@ from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
 from .solve import pose, reported_by
+from .subdivided import Subdivided, with_subdivided_patch
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
 from .words import in_mesh_words
@@ -40,6 +41,7 @@ class Remeshed(Fairing):
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
     quads: bool  # whether triangles are written in pairs
     limit_total: int  # as FairOptions has it
+    parted: Subdivided | None = None  # the mesh whose numbers these are; None: as it was read
     unselected: int = 0  # faces at the beginning that are not to be selected
 
     def faces(self, kinds: Ints) -> Faces:
@@ -72,6 +74,8 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     refuse_options(options)
+    if options.subdivide_boundary:
+        return _subdivided(mesh, matrix, options, progress)
     options = replace(options, inner_fairness="CONFORMAL")  # new vertices take values from where they were
     lines = inner_lines(mesh) | inner_curves(mesh)
     problem, warnings = pose(mesh, matrix, options)
@@ -117,6 +121,25 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         quads=options.quads,
         limit_total=options.limit_total,
     )
+
+
+def _subdivided(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Remeshed:
+    """Fair a patch on a new mesh with the long edges of its boundary parted, and of curves that are held."""
+    whole = replace(options, subdivide_boundary=False)
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite elsewhere
+        places = mesh.transformed(matrix).positions
+        parted = with_subdivided_patch(mesh, places, options.spacing)
+    if not len(parted.ends):
+        return remesh_arrays(mesh, matrix, whole, progress)
+    fine = replace(whole, spacing=max(1.0, options.spacing))  # its edges are as long as wanted now
+    try:
+        found = remesh_arrays(parted.mesh, matrix, fine, progress)
+    except (ValueError, fairing.SolverError) as error:
+        if hasattr(error, "elements"):
+            error.elements = parted.named(error.elements)
+        raise
+    spots = parted.named(found.verdict.spots)
+    return replace(found, parted=parted, verdict=replace(found.verdict, spots=spots))
 
 
 def squeezed(before: Floats, after: Floats, lines: Ints) -> Ints:

@@ -166,6 +166,12 @@ class SurfaceProperties:
         items=_INNER,
         default="OUTLINE",
     )
+    subdivide_boundary: BoolProperty(
+        name="Subdivide Boundary",
+        description="Long edges of the boundary are subdivided, to be as long as the new edges; faces beside them "
+        "become polygons with more corners",
+        default=False,
+    )
     max_vertices: IntProperty(
         name="Vertex Limit",
         description="More new vertices than that are refused; 0: twenty times as many as a flat surface would have, "

@@ -42,20 +42,23 @@ class SubdividedEdges:
 
 
 def subdivide_edges(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, edges: npt.ArrayLike, length: float
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, edges: npt.ArrayLike, length: npt.ArrayLike
 ) -> SubdividedEdges:
     """Part long edges in equal pieces, each about as long as wanted, so that new meshes may have that length there.
 
     vertices: (n, 3); triangles: (m, 3), those beside the edges are cut into pieces in their planes; edges: (e, 2), of
-    any number of triangles; those shorter than one and a half times the ``length`` stay whole. Nothing moves.
+    any number of triangles; those shorter than one and a half times the ``length``, a number or (e,), stay whole.
+    Nothing moves.
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))
     pairs = _arguments.indices_within("edges", _arguments.integers("edges", edges, 2), len(points))
-    wanted = _arguments.positive("length", length)
-    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
+    wanted = np.broadcast_to(np.asarray(length, dtype=np.float64), (len(pairs),))
+    if not (np.isfinite(wanted) & (wanted > 0.0)).all():
+        raise ValueError(f"length: positive numbers are needed, not {length!r}")
+    pairs, chosen = np.unique(np.sort(pairs, axis=1), axis=0, return_index=True)
     lengths = np.linalg.norm(points[pairs[:, 0]] - points[pairs[:, 1]], axis=1)
-    counts = np.maximum(1, np.floor(lengths / wanted + 0.5).astype(np.int64))
+    counts = np.maximum(1, np.floor(lengths / wanted[chosen] + 0.5).astype(np.int64))
     ends = np.repeat(pairs, counts - 1, axis=0)
     shares = np.concatenate([np.empty(0), *(np.arange(1, count) / count for count in counts.tolist())])
     places = points[ends[:, 0]] + shares[:, None] * (points[ends[:, 1]] - points[ends[:, 0]])
