@@ -21,8 +21,8 @@ def parted_edges(bm: Any, parted: Subdivided | None) -> Iterator[list[Any]]:
     try:
         yield [*table, *new]
     except Exception:
-        for vertex in new:
-            bmesh.utils.vert_dissolve(vertex)
+        for vertex in new[::-1]:
+            bmesh.utils.vert_collapse_edge(vertex, vertex.link_edges[0])
         raise
 
 
