@@ -53,38 +53,45 @@ def edges_through(
     points = _arguments.floats("vertices", vertices)
     own, around = (_arguments.triangles_within(triangles, len(points)) for triangles in (inside, outside))
     marks = _arguments.integers("marked", [] if marked is None else marked, 2)
-    loops = boundary_loops(own)
     found: set[tuple[int, int]] = set()
     edges, uses = edges_with_uses(own)
     inner = edges[uses == 2]
-    onward, joined, _ = _joined(points, (_near(own, loops), around), loops, inner, marks)
-    if joined:
-        onward, joined, within = _joined(points, (own, around), loops, inner, marks)
+    onward, _ = _hard(points, (_near(own, edges[uses == 1]), around), inner, marks)
+    loops = boundary_loops(own) if len(onward) else []
+    if _joined(points, around, loops, onward, marks):
+        onward, within = _hard(points, (own, around), inner, marks)
         graph = _Graph.of(points, _counted(inner, neighbours, len(points)), within)
-        found = {edge for at in joined for edge in graph.way(at)}
+        found = {edge for at in _joined(points, around, loops, onward, marks) for edge in graph.way(at)}
     result = np.array(sorted(found), dtype=np.int32).reshape(-1, 2)
     return EdgesThrough(read_only(result), read_only(onward))
 
 
-def _joined(
-    points: FloatArray, sides: tuple[IntArray, IntArray], loops: Sequence[IntArray], inner: IntArray, marks: IntArray
-) -> tuple[IntArray, list[list[int]], IntArray]:
-    """Hard edges outside and along the loops, ends of them that belong together, and hard ones among the `inner`."""
+def _hard(
+    points: FloatArray, sides: tuple[IntArray, IntArray], inner: IntArray, marks: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Hard edges outside and along the boundary of both sides, and those among the `inner` ones."""
     hard = hard_edges(points, np.concatenate(sides), marked=marks)
     is_inner = _among(hard, inner)
+    return hard[~is_inner], hard[is_inner]
+
+
+def _joined(
+    points: FloatArray, around: IntArray, loops: Sequence[IntArray], hard: IntArray, marks: IntArray
+) -> list[list[int]]:
+    """The vertices of the loops at which hard edges end that belong together."""
     pairs = {(min(a, b), max(a, b)) for a, b in marks.tolist()}
     joined = []
     for loop in loops:
-        ends = ends_at(loop, points, sides[1], hard[~is_inner], pairs).ends
+        ends = ends_at(loop, points, around, hard, pairs).ends
         joined += [[ends[k].vertex for k in joint.ends] for joint in matched(ends).joints]
-    return hard[~is_inner], joined, hard[is_inner]
+    return joined
 
 
-def _near(triangles: IntArray, loops: Sequence[IntArray]) -> IntArray:
-    """Those that hard edges at the loops are compared with."""
+def _near(triangles: IntArray, border: IntArray) -> IntArray:
+    """Those that hard edges at the border edges are compared with."""
     reached = np.zeros(int(triangles.max(initial=-1)) + 1, dtype=bool)
     near = np.zeros(len(triangles), dtype=bool)
-    reached[np.concatenate([np.empty(0, np.int32), *loops])] = True
+    reached[border] = True
     for _ in range(_COMPARED):
         near = reached[triangles].any(axis=1)
         reached[triangles[near]] = True
