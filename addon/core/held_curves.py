@@ -22,7 +22,7 @@ def with_pinned_edges(mesh: MeshArrays, options: FairOptions, marked: Mask) -> M
     """Return the mesh with the edges that the options hold; marked: the (e,) mask of those that `pin_edges` names."""
     if not options.pins_running_through:
         return _pinned(replace(mesh, hard=mesh.sharp if options.pins_sharp else None), options, marked, none(mesh))
-    hard = _hard_by_angle(mesh)
+    hard = _hard_by_angle(mesh) if options.finds_edges else none(mesh)
     sharp = none(mesh) if mesh.sharp is None else mesh.sharp
     found = replace(mesh, hard=hard | sharp if (hard | sharp).any() else None)
     held = _pinned(found, options, running_through(found), sharp)

@@ -163,6 +163,11 @@ class FairOptions:
         return self.pin_edges == "AUTOMATIC" and may
 
     @property
+    def finds_edges(self) -> bool:
+        """Whether edges that nobody has marked count among these: a surface along edges has no load, nor given H."""
+        return self.pins_running_through and self.equation not in ("CONSTANT", "MINIMAL") and not self.joins_curvature
+
+    @property
     def fairs_border(self) -> bool:
         """Whether open borders move."""
         return self.open_border == "FAIRED" and self.method == "GLOBAL"

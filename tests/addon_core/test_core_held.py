@@ -154,6 +154,14 @@ def test_an_edge_that_nobody_has_marked_is_held_by_its_angle() -> None:
     assert off_fold(solve.solve(rounded, np.eye(4), FairOptions(pin_edges="NONE")).result.vertices) > 0.01
 
 
+@pytest.mark.parametrize(
+    "options", [{"equation": "CONSTANT"}, {"equation": "MINIMAL"}, {"continuity": "G2"}, {"outline": "MENDED"}]
+)
+def test_shapes_that_know_no_edges_are_not_changed_by_unmarked_ones(options: dict[str, str]) -> None:
+    mesh, _ = dented_fold()
+    assert with_pinned_edges(mesh, FairOptions(**options), none(mesh)).held_by_angle is None  # type: ignore[arg-type]
+
+
 def test_edges_held_by_their_angle_can_be_let_go_and_marked_ones_stay() -> None:
     mesh, _ = dented_fold()
     let_go = released(with_pinned_edges(mesh, FairOptions(), none(mesh)))
