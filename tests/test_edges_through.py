@@ -76,6 +76,18 @@ def test_an_edge_that_is_lost_inside_is_none() -> None:
     assert len(found.edges) == 0
 
 
+def test_an_edge_of_which_most_is_lost_is_none() -> None:
+    """A third of it is as it was, the rest is smooth."""
+    exact, inside, outside, _ = patch_of(creased.box_edge(24, 1), (0.0, 0.5, 0.0), 0.4)
+    outline = np.unique(np.concatenate(fairing.boundary_loops(inside)))
+    normals = fairing.surrounding_normals(exact.vertices, outside, outline).normals
+    smooth = fairing.fair(exact.vertices, inside, fixed=outline, fixed_normals=normals).vertices
+    mixed = np.where(exact.vertices[:, 1:2] < 0.35, exact.vertices, smooth)
+    hard = fairing.hard_edges(mixed, np.concatenate([inside, outside]))
+    assert np.count_nonzero(np.isin(hard, inner_vertices(inside)).all(axis=1)) > 5
+    assert len(fairing.edges_through(mixed, inside, outside).edges) == 0
+
+
 def test_an_edge_around_a_boss_inside_is_none() -> None:
     """It leads nowhere."""
     exact, inside, outside, _ = patch_of(creased.lid(14, 1), (0.0, 0.0, 0.0), 0.8)
