@@ -108,3 +108,19 @@ def test_a_coarse_outline_has_more_new_faces_the_less_the_spacing() -> None:
     assert counts[0] == 2
     assert all(b > 1.5 * a for a, b in pairwise(counts))
     assert counts[-1] > 2.0 * counts[-2]
+
+
+@pytest.mark.parametrize("equation", ["minimal", "harmonic"])
+@pytest.mark.parametrize("width", [0.001, 0.01, 0.05])
+@pytest.mark.parametrize("aside", [0.0, 0.3])
+def test_a_slit_of_four_edges_is_filled(width: float, aside: float, equation: str) -> None:
+    """Its only diagonal cuts off sharp corners at both ends: a vertex has to come in all the same."""
+    slit = np.array([[0.0, 0, 0], [0.5 - aside, -width, 0], [1, 0, 0], [0.5 + aside, 0.5 * width, 0]])
+    result = fairing.fill(
+        slit, np.empty((0, 3), int), [[0, 1, 2, 3]], normals=[[0, 0, 1]] * 4, spacing=0.3, equation=equation
+    )  # fmt: skip
+    assert result.converged
+    assert np.abs(result.vertices[:, 2]).max() < 1e-9
+    corners = np.concatenate([slit, result.vertices])[result.triangles]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2].sum() / 2
+    assert area == pytest.approx(0.75 * width)

@@ -116,3 +116,43 @@ def test_a_vertex_is_pulled_out_by_its_height_in_edges(sides: int, size: float, 
     fan = np.array([[k, (k + 1) % sides, sides] for k in range(sides)])
     outside = np.array([[(k + 1) % sides, k, sides + 1] for k in range(sides)])
     assert fairing.is_spoilt(points, fan, outside) == spoilt
+
+
+def plate_and_arc(rows: int, degrees: float, columns: int, kink: float = 0.0) -> tuple[FloatArray, IntArray, IntArray]:
+    """A plate of `rows` rows of rectangles, and as many that turn by `degrees` each; triangles before and after.
+
+    Rectangles are one long and far narrower along the line where both meet. The first row turns by half of that, and by
+    `kink` more.
+    """
+    turn = np.radians(np.concatenate([[0.5 * degrees + kink], np.full(rows - 1, degrees)])).cumsum()
+    x = np.concatenate([np.arange(-rows, 1.0), np.cos(turn).cumsum()])
+    z = np.concatenate([np.zeros(rows + 1), np.sin(turn).cumsum()])
+    y = 0.2 * np.arange(columns + 1.0)
+    vertices = np.column_stack([np.repeat(x, len(y)), np.tile(y, len(x)), np.repeat(z, len(y))])
+    number = np.arange(len(vertices)).reshape(len(x), len(y))
+    a, b, c, d = (part.ravel() for part in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
+    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    plate = vertices[triangles][:, :, 0].mean(axis=1) < 0
+    return vertices, triangles[plate], triangles[~plate]
+
+
+@pytest.mark.parametrize("degrees", [4.0, 12.0, 25.0])
+def test_an_arc_that_begins_on_a_plate_is_no_kink(degrees: float) -> None:
+    """The first row turns by half of what each other one does: tangent, though most edges around bend by nothing."""
+    vertices, plate, arc = plate_and_arc(6, degrees, 30)
+    line = np.intersect1d(plate, arc)
+    join = fairing.visible_join(vertices, arc, plate, line)
+    assert join.degrees.max() < 1e-6
+    assert len(join.seen) == 0
+
+
+@pytest.mark.parametrize("kink", [3.0, 20.0])
+def test_a_kink_before_an_arc_shows_beyond_its_rows(kink: float) -> None:
+    """By what it bends more than they do, and between two plates by all of it."""
+    vertices, plate, arc = plate_and_arc(6, 4.0, 30, kink)
+    line = np.intersect1d(plate, arc)[3:-3]
+    np.testing.assert_allclose(
+        fairing.visible_join(vertices, arc, plate, line).degrees, max(0.0, kink - 2.0), atol=1e-6
+    )
+    vertices, plate, other = plate_and_arc(6, 0.0, 30, kink)
+    np.testing.assert_allclose(fairing.visible_join(vertices, other, plate, line).degrees, kink, atol=1e-6)

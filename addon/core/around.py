@@ -68,11 +68,11 @@ def _usable(mesh: MeshArrays) -> Ints:
     return usable
 
 
-def nearby(triangles: Ints, start: Mask) -> Ints:
-    """Return the triangles within RINGS steps of the vertices in `start`."""
+def nearby(triangles: Ints, start: Mask, rings: int = RINGS) -> Ints:
+    """Return the triangles within so many steps of the vertices in `start`."""
     reached = start.copy()
     near = np.zeros(len(triangles), dtype=bool)
-    for _ in range(RINGS):
+    for _ in range(rings):
         near = reached[triangles].any(axis=1)
         reached[triangles[near]] = True
     found: Ints = triangles[near]

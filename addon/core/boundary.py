@@ -9,11 +9,12 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .hard_chains import MOST_MARKED
 from .outline import face_normals, turned_over
 from .region import MeshArrays, Patch
 from .vectors import sum_at, unit
 from .words import counted
+
+MOST_MARKED = 0.25  # of the edges around: importers mark nearly all of them, which sets none apart
 
 
 def average_normals(mesh: MeshArrays, at: Ints) -> Floats:

@@ -19,6 +19,7 @@ from .key_surface import NewSurface, Surroundings, key_surfaces
 from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
 from .quality import Join
 from .region import nothing
+from .subdivided import Subdivided
 from .verdict import UNUSABLE, Verdict
 
 SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
@@ -38,6 +39,7 @@ class FillOptions:
     hard_edges: str = "RUN_ON"  # those that end at a hole go on through it, as edges drawn across it do; IGNORED
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
+    subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as new ones
     quads: bool = False  # triangles are written in pairs, as far as they can be
     longest: int = 0  # edges: longer borders stay open; 0: any number
     longest_length: float = 0.0  # likewise by their lengths in world space
@@ -168,6 +170,7 @@ class Filled:
 
     pieces: list[Piece]
     left: tuple[Left, ...] = ()
+    parted: Subdivided | None = None  # the mesh that the pieces' numbers are those of; None: as it was read
 
     @property
     def left_vertices(self) -> Ints:
@@ -190,4 +193,4 @@ class Filled:
         if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
             return self
         bad = Filled([piece for piece in self.pieces if piece.verdict.grade == UNUSABLE])
-        return Filled(usable, (*self.left, *bad.unfilled().left))
+        return replace(self, pieces=usable, left=(*self.left, *bad.unfilled().left))

@@ -8,15 +8,16 @@ import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints
-from .bends import bends
-from .hard_chains import chains
+from .arrays import Floats, Ints, Mask
 from .looks import STAND_INS, girth_reason, kink_reason, slope_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
+from .vectors import unit
 from .verdict import GOOD, LOOK, UNUSABLE, Verdict
 from .words import counted
+
+ONWARD = 40.0  # degrees from an edge's direction within which a surface takes it up: as far as edges run on
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> V
     if len(surface.join.seen) and result.equation != "minimal":  # which meets its boundary with a crease
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
     joined = np.unique(surface.across)
-    ends = np.setdiff1d(hard_ends(world, outline, around), outline[joined[joined < len(outline)]])
+    ends = np.setdiff1d(hard_ends(world, outline, around, surface), outline[joined[joined < len(outline)]])
     if len(ends):
         text = counted(len(ends), "vertex", "vertices")
         return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
@@ -68,21 +69,33 @@ def _outlines(count: int, edges: str) -> str:
     return f"a boundary of {edges}" if count == 1 else f"{count} boundary loops of {edges} in all"
 
 
-def hard_ends(world: MeshArrays, outline: Ints, around: Ints) -> Ints:
+def hard_ends(world: MeshArrays, outline: Ints, around: Ints, surface: Surface | None = None) -> Ints:
     """Return the vertices of the boundary at which hard edges of the mesh end, ascending.
 
-    around: (o, 3) the triangles near the boundary.
+    around: (o, 3) the triangles near the boundary. surface: only ends count from which edges of it lead on.
     """
     vertices, numbers = np.unique(around, return_inverse=True)
-    rim = np.isin(vertices, outline)
-    with np.errstate(invalid="ignore", over="ignore"):
-        near = bends(world.positions[vertices], numbers.reshape(-1, 3))
-    found = [nothing()]
-    for chain in chains(world.positions[vertices], near):
-        ends = near.edges[chain]
-        found.append(vertices[ends[(rim[ends].sum(axis=1) == 1)[:, None] & rim[ends]]])
-    ending: Ints = np.unique(np.concatenate(found))
-    return ending
+    hard = vertices[fairing.hard_edges(world.positions[vertices], numbers.reshape(-1, 3))]
+    on_rim = np.isin(hard, outline)
+    ending = on_rim.sum(axis=1) == 1
+    ends = hard[ending][on_rim[ending]]
+    if surface is not None and len(ends):
+        ways = unit(world.positions[ends] - world.positions[hard[ending][~on_rim[ending]]])
+        ends = ends[_leads_on(outline, surface, ends, ways)]
+    found: Ints = np.unique(ends)
+    return found
+
+
+def _leads_on(outline: Ints, surface: Surface, ends: Ints, ways: Floats) -> Mask:
+    """Return (k,) whether edges of the surface lead on from the ends (k,) of edges with these directions (k, 3)."""
+    sides = surface.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    sides = np.concatenate([sides, sides[:, ::-1]])
+    sides = sides[sides[:, 0] < len(outline)]
+    onward = unit(surface.points[sides[:, 1]] - surface.points[sides[:, 0]])
+    at = outline[sides[:, 0]]
+    leads = [(onward[at == end] @ way).max(initial=-1.0) for end, way in zip(ends.tolist(), ways, strict=True)]
+    found: Mask = np.array(leads) > np.cos(np.radians(ONWARD))
+    return found
 
 
 def _crossing(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints) -> int:

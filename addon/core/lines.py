@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import Floats, Mask
-from .outline import two_sided_edges
+from .outline import edges_inside
 from .region import MeshArrays, free_vertices
 
 WIRES = "edges without faces"  # in MeshArrays.lines
@@ -61,15 +61,23 @@ def edges_at_wires(mesh: MeshArrays) -> Mask:
 
 def inner_lines(mesh: MeshArrays) -> Mask:
     """Return those of mesh.lines that lie inside the patch, as an (e,) mask; raises ValueError where most edges do."""
-    inside = np.zeros(len(mesh.edges), dtype=bool)
-    sides = two_sided_edges(mesh, np.ones(len(mesh.edges), dtype=bool))
-    inside[sides.edges] = mesh.in_patch[sides.faces].all(axis=1)
+    inside = edges_inside(mesh)
     lines = np.zeros(len(mesh.edges), dtype=bool)
     for of_one_kind in mesh.lines.values():
         lines |= of_one_kind & inside
     if np.count_nonzero(lines) > MOST * np.count_nonzero(inside):
         raise ValueError(_refusal(mesh, lines, inside))
     return lines
+
+
+def inner_curves(mesh: MeshArrays) -> Mask:
+    """Return the (e,) mask of pinned edges inside the patch with free slopes, which its new mesh is cut along."""
+    curves = np.zeros(len(mesh.edges), dtype=bool)
+    for of_one_kind in (mesh.creases, mesh.smooth_curves):
+        if of_one_kind is not None:
+            curves |= of_one_kind
+    result: Mask = curves & edges_inside(mesh)
+    return result
 
 
 def _refusal(mesh: MeshArrays, lines: Mask, inside: Mask) -> str:

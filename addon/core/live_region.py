@@ -13,8 +13,9 @@ from .arrays import Floats, Ints, Mask
 from .boundary import boundary
 from .carrier import Carrier
 from .engine import Problem, Progress, RepeatedSolve, solve
+from .held_curves import ALONG, faired_curves
 from .options import FairOptions
-from .region import MeshArrays, Patch, make_patch, to_local
+from .region import MeshArrays, Patch, make_patch, nothing, to_local
 from .symmetry import mirror_map, symmetrised
 
 
@@ -28,11 +29,11 @@ class Surroundings:
 
 
 def surroundings(mesh: MeshArrays, patch: Patch) -> Surroundings:
-    """Cut the patch and the faces around it out of a mesh, as far as normals are fitted to them."""
+    """Cut the patch and the faces around it out of a mesh, as far as normals and curves are fitted to them."""
     near = np.zeros(len(mesh.positions), dtype=bool)
     near[patch.vertices] = True
     faces = mesh.in_patch.copy()
-    for _ in range(RINGS):
+    for _ in range(RINGS if mesh.hard is None else max(RINGS, ALONG)):
         faces[mesh.corner_faces[near[mesh.corner_vertices]]] = True
         near[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
     vertices = np.flatnonzero(near)
@@ -76,6 +77,8 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         sample=None,
         parts=None,
         sharp=None,
+        hard=None if mesh.hard is None else mesh.hard[used_edges],
+        held_by_angle=None,
     )
 
 
@@ -95,7 +98,12 @@ class LiveRegion:
         self._patch = patch  # in the numbers of the whole mesh, which refusals name
         self._reference = world.positions[patch.vertices]
         self._solve = RepeatedSolve(patch, options, self._reference)
-        self._good = Carrier(mesh.positions[patch.vertices[patch.fixed]], mesh.positions[patch.vertices[patch.free]])
+        self._start = world.positions[self._around.vertices]
+        part = replace(self._around.mesh, positions=self._start)
+        curve = faired_curves(part)[0] if options.fairs_pinned_edges else nothing()
+        self._moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
+        self._still = np.setdiff1d(self._around.patch.fixed, self._moving)
+        self._good = Carrier(mesh.positions[patch.vertices[self._still]], mesh.positions[patch.vertices[self._moving]])
 
     @property
     def vertices(self) -> Ints:
@@ -104,9 +112,8 @@ class LiveRegion:
 
     @property
     def free(self) -> Ints:
-        """Mesh indices of the vertices that answers are for, ascending."""
-        patch = self._around.patch
-        free: Ints = self._around.vertices[patch.vertices[patch.free]]
+        """Mesh indices of the vertices that answers are for, ascending: those of edges that become fair, too."""
+        free: Ints = self._around.vertices[self._around.patch.vertices[self._moving]]
         return free
 
     @property
@@ -139,8 +146,7 @@ class LiveRegion:
 
     def carried(self, positions: Floats) -> Floats:
         """Return the last good answer (k, 3), carried along by the motion of the fixed vertices since then."""
-        patch = self._around.patch
-        return self._good.carried(positions[patch.vertices[patch.fixed]])
+        return self._good.carried(positions[self._around.patch.vertices[self._still]])
 
     def _problem(self, positions: Floats, matrix: Floats) -> Problem:
         patch = self._around.patch
@@ -148,8 +154,19 @@ class LiveRegion:
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             outside = outside_triangles(world, patch)
             known = boundary(world, patch, self._options.boundary_normals, outside)
+            points = self._posed(world)
         curvatures = known.curvatures if self._options.joins_curvature else None
-        return Problem.of(self._patch, world.positions[patch.vertices], known.normals, curvatures)
+        return Problem.of(self._patch, points, known.normals, curvatures)
+
+    def _posed(self, world: MeshArrays) -> Floats:
+        """Return the patch's points (p, 3) with edges that run through where they go."""
+        points: Floats = world.positions[self._around.patch.vertices]
+        if self._options.fairs_pinned_edges:
+            curve, places = faired_curves(world, self._start)
+            at = np.searchsorted(self._around.patch.vertices, curve)
+            follows = np.isin(at, self._moving)
+            points[at[follows]] = places[follows]
+        return points
 
     def _kept(self, positions: Floats, matrix: Floats, result: fairing.FairResult) -> Floats | None:
         """Return the result where it is good, and remember it."""
@@ -159,6 +176,6 @@ class LiveRegion:
         if self._image is not None:
             fair = symmetrised(fair, self._image)
         patch = self._around.patch
-        self._good = Carrier(positions[patch.vertices[patch.fixed]], fair[patch.free])
-        answer: Floats = fair[patch.free]
+        self._good = Carrier(positions[patch.vertices[self._still]], fair[self._moving])
+        answer: Floats = fair[self._moving]
         return answer

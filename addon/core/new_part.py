@@ -10,6 +10,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .engine import Problem
 from .faces import inner_edges
 from .region import MeshArrays, Patch
 
@@ -40,7 +41,8 @@ class NewPart:
     """Faces between r vertices of the mesh and k new ones, in this order; all other indices are those of the mesh."""
 
     stay: Ints  # (r,)
-    fixed_count: int  # of `stay`: those that don't move; the others are on lines
+    fixed_count: int  # of `stay`: those that don't move,
+    held_count: int  # and those that hold the surface: on fair curves, too; the others are on lines
     triangles: Ints  # (m, 3)
     lines: Ints  # (l, 2) edges that stay, or that part two triangles that would make an old quad again
     vertices: Stencil  # of vertices: at the k new ones
@@ -50,14 +52,17 @@ class NewPart:
     gone_vertices: Ints
 
 
-def new_part(mesh: MeshArrays, patch: Patch, result: fairing.RemeshResult, lines: Mask) -> NewPart:
-    """Make it of the engine's answer for the patch; lines: the (e,) mask of edges that were kept.
+def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, lines: Mask) -> NewPart:
+    """Make it of the engine's answer; lines: the (e,) mask of edges that were kept.
 
     mesh: as it was solved, a mirrored one wound the other way round.
     """
+    patch = problem.patch
     triangles, gone = _replaced(patch, result)
     count = len(patch.vertices)
-    fixed = np.unique(triangles[triangles < count])
+    held = np.unique(triangles[triangles < count])
+    moving = np.isin(held, problem.curve)
+    fixed = np.concatenate([held[~moving], held[moving]])
     on_line = np.flatnonzero(result.old >= 0)
     new = np.flatnonzero(result.old < 0)
     stay = np.concatenate([fixed, result.old[on_line]]).astype(np.int64)
@@ -72,7 +77,8 @@ def new_part(mesh: MeshArrays, patch: Patch, result: fairing.RemeshResult, lines
     corner_of = _corner_numbers(mesh, patch)
     return NewPart(
         stay=patch.vertices[stay],
-        fixed_count=len(fixed),
+        fixed_count=int(np.count_nonzero(~moving)),
+        held_count=len(fixed),
         triangles=numbered,
         lines=np.concatenate([_wall_edges(numbered, stay, walls), _diagonals_of_old_quads(patch, numbered, stay)]),
         vertices=Stencil(patch.vertices[patch.triangles[origin[0]]], origin[1]),

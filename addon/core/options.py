@@ -81,6 +81,7 @@ class FairOptions:
     mesh: str = "KEEP"  # NEW: other vertices and triangles for the same surface
     spacing: float = 1.0  # of a new mesh, as a factor of the boundary's edges
     inner: str = "OUTLINE"  # new edges are in proportion to the boundary's nearby; EVEN: of one length
+    subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as those of a new mesh
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
     max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
@@ -148,7 +149,7 @@ class FairOptions:
     @property
     def fairs_pinned_edges(self) -> bool:
         """Whether pinned edges move."""
-        return self.pins_sharp and self.pin_curve == "FAIRED" and self.mesh == "KEEP" and self.method == "GLOBAL"
+        return self.pins_sharp and self.pin_curve == "FAIRED" and self.method == "GLOBAL"
 
     @property
     def pins_sharp(self) -> bool:
@@ -158,12 +159,13 @@ class FairOptions:
     @property
     def pins_running_through(self) -> bool:
         """Whether those are held that run through the selection."""
-        keeps = self.mesh == "KEEP" and self.method == "GLOBAL" and self.outline == "GIVEN"
-        return self.pin_edges == "AUTOMATIC" and keeps
+        may = self.method == "GLOBAL" and self.outline == "GIVEN"
+        return self.pin_edges == "AUTOMATIC" and may
 
-    def following(self) -> FairOptions:
-        """Return the options for a region that follows its boundary: edges that run through have no place of theirs."""
-        return replace(self, pin_edges="NONE") if self.pin_edges == "AUTOMATIC" else self
+    @property
+    def finds_edges(self) -> bool:
+        """Whether edges that nobody has marked count among these: a surface along edges has no load, nor given H."""
+        return self.pins_running_through and self.equation not in ("CONSTANT", "MINIMAL") and not self.joins_curvature
 
     @property
     def fairs_border(self) -> bool:
@@ -210,13 +212,14 @@ class FairOptions:
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",
+            "subdivide_boundary": self.mesh == "NEW",
             "quads": self.mesh == "NEW",
             "max_vertices": self.mesh == "NEW",
             "limit_total": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,
-            "pin_curve": self.pins_sharp and self.mesh == "KEEP" and self.method == "GLOBAL",
+            "pin_curve": self.pins_sharp and self.method == "GLOBAL",
             "pin_slope": self.pin_edges != "NONE",
             "open_border": self.mesh == "KEEP",
         }

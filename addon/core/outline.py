@@ -35,6 +35,14 @@ def two_sided_edges(mesh: MeshArrays, wanted: Mask) -> Sides:
     return Sides(edges[counts == 2], mesh.corner_faces[pairs], origins[:, 0] == origins[:, 1])
 
 
+def edges_inside(mesh: MeshArrays) -> Mask:
+    """Return the (e,) mask of edges between two faces of the patch."""
+    sides = two_sided_edges(mesh, np.ones(len(mesh.edges), dtype=bool))
+    inside = np.zeros(len(mesh.edges), dtype=bool)
+    inside[sides.edges] = mesh.in_patch[sides.faces].all(axis=1)
+    return inside
+
+
 def face_normals(mesh: MeshArrays, faces: Ints) -> Floats:
     """Return the (k, 3) unit normals of the faces (k,); zero where a face has no area."""
     used = np.isin(mesh.triangle_faces, faces)

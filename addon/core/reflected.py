@@ -127,6 +127,8 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
         creases=_twice(mesh.creases, apart),
         smooth_curves=_twice(mesh.smooth_curves, apart),
         sharp=_twice(mesh.sharp, apart),
+        hard=_twice(mesh.hard, apart),
+        held_by_angle=_twice(mesh.held_by_angle, off),
         corner_normals=normals,
     )
     return both, image

@@ -55,6 +55,8 @@ class MeshArrays:
     mirror_x: bool = False  # the mesh asks for symmetric results
     textured: bool = False  # the patch has a UV map, and a shape that is worth keeping
     sharp: Mask | None = None  # (e,) edges marked sharp; None: none is
+    hard: Mask | None = None  # (e,) edges that may run through the patch: marked, or by their angle; None: none
+    held_by_angle: Mask | None = None  # (n,) pinned vertices on edges that nobody has marked; None: none
     hidden: Mask | None = None  # (f,); None: nothing is
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
     # (e,) edges that a new mesh keeps, by the attribute that says so; none where that is not asked for

@@ -14,7 +14,7 @@ from .engine import Problem, Progress
 from .evidence import Evidence
 from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
-from .lines import inner_lines
+from .lines import inner_curves, inner_lines
 from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
@@ -23,6 +23,7 @@ from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
 from .solve import pose, reported_by
+from .subdivided import Subdivided, with_subdivided_patch
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
 from .words import in_mesh_words
@@ -40,6 +41,7 @@ class Remeshed(Fairing):
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
     quads: bool  # whether triangles are written in pairs
     limit_total: int  # as FairOptions has it
+    parted: Subdivided | None = None  # the mesh whose numbers these are; None: as it was read
     unselected: int = 0  # faces at the beginning that are not to be selected
 
     def faces(self, kinds: Ints) -> Faces:
@@ -72,14 +74,16 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     refuse_options(options)
+    if options.subdivide_boundary:
+        return _subdivided(mesh, matrix, options, progress)
     options = replace(options, inner_fairness="CONFORMAL")  # new vertices take values from where they were
-    lines = inner_lines(mesh)
+    lines = inner_lines(mesh) | inner_curves(mesh)
     problem, warnings = pose(mesh, matrix, options)
     kept = _kept_edges(problem, mesh.edges[lines])
     result = _solved(problem, kept, options, progress)
-    part = new_part(mesh, problem.patch, result, lines)
-    place = _places(problem)
-    after = _new_problem(problem, part, result, place)
+    part = new_part(mesh, problem, result, lines)
+    place, posed = _places(problem, problem.points), _places(problem, problem.posed)
+    after = _new_problem(problem, part, result, posed)
     before = np.concatenate([place[part.stay], part.vertices.mean(place)])
     points = before + options.factor * (after.own_points - before)
     measured = quality.measure(problem.patch, problem.own_points), quality.measure(after.patch, points)
@@ -110,13 +114,32 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
         curvature=_largest_curvatures(result),
         join=join,
         verdict=verdict,
-        free_count=len(points) - part.fixed_count,
+        free_count=len(points) - part.held_count,
         part=_wound_back(part) if mesh.transformed(matrix).mirrored else part,
         new_positions=local[stay:],
         points=points,
         quads=options.quads,
         limit_total=options.limit_total,
     )
+
+
+def _subdivided(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Remeshed:
+    """Fair a patch on a new mesh with the long edges of its boundary parted, and of curves that are held."""
+    whole = replace(options, subdivide_boundary=False)
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite elsewhere
+        places = mesh.transformed(matrix).positions
+        parted = with_subdivided_patch(mesh, places, options.spacing)
+    if not len(parted.ends):
+        return remesh_arrays(mesh, matrix, whole, progress)
+    fine = replace(whole, spacing=max(1.0, options.spacing))  # its edges are as long as wanted now
+    try:
+        found = remesh_arrays(parted.mesh, matrix, fine, progress)
+    except (ValueError, fairing.SolverError) as error:
+        if hasattr(error, "elements"):
+            error.elements = parted.named(error.elements)
+        raise
+    spots = parted.named(found.verdict.spots)
+    return replace(found, parted=parted, verdict=replace(found.verdict, spots=spots))
 
 
 def squeezed(before: Floats, after: Floats, lines: Ints) -> Ints:
@@ -158,14 +181,14 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, part: NewPart, 
 
 def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
     patch = problem.patch
-    arguments = options.engine_arguments()
+    arguments = {**options.engine_arguments(), "creases": patch.creases, "smooth_curves": patch.smooth_curves}
     for name in ("method", "levels", "detail", "detail_size"):
         del arguments[name]
     if problem.curvatures is not None:
         arguments["fixed_curvatures"] = problem.curvatures
     with in_mesh_words(problem.origin):
         return fairing.remesh(
-            problem.own_points, patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
+            problem.posed[: len(patch.vertices)], patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
             kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(),
             max_vertices=options.max_vertices, progress=progress, **arguments,
         )  # fmt: skip
@@ -193,18 +216,18 @@ def _spacing(problem: Problem, options: FairOptions) -> float:
     return options.spacing * float(np.linalg.norm(np.concatenate(edges), axis=1).mean())
 
 
-def _places(problem: Problem) -> Floats:
-    """Return the problem's points by their numbers in the mesh; 0 for all others."""
+def _places(problem: Problem, points: Floats) -> Floats:
+    """Return the points (q, 3) of the problem by their numbers in the mesh; 0 for all others."""
     place = np.zeros((int(problem.vertices.max()) + 1, 3))
-    place[problem.vertices] = problem.points
+    place[problem.vertices] = points
     return place
 
 
 def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, place: Floats) -> Problem:
     """Return the new part as a patch: its own r + k points, then those of the faces around.
 
-    place: of the old points, by their numbers in the mesh. A new vertex goes by the number of the old one that it is
-    next to.
+    place: of the old points with curves where they go, by their numbers in the mesh. A new vertex goes by the number of
+    the old one that it is next to.
     """
     own = np.concatenate([part.stay, part.vertices.heaviest])
     outside = problem.vertices[problem.outside]
@@ -213,15 +236,15 @@ def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, 
     number[others] = len(own) + np.arange(len(others))
     number[part.stay] = np.arange(len(part.stay))
     lines, new = np.flatnonzero(result.old >= 0), np.flatnonzero(result.old < 0)
-    fixed = part.stay[: part.fixed_count]
+    fixed = part.stay[: part.held_count]
     points = np.concatenate([place[fixed], result.vertices[lines], result.vertices[new], place[others]])
     count = len(problem.patch.vertices)
     patch = Patch(
         vertices=own,
         triangles=part.triangles,
         faces=count + np.arange(len(part.triangles)) + int(problem.patch.faces.max(initial=-1)) + 1,
-        free=np.arange(part.fixed_count, len(own)),
-        fixed=np.arange(part.fixed_count),
+        free=np.arange(part.held_count, len(own)),
+        fixed=np.arange(part.held_count),
         outline=np.unique(np.concatenate([np.empty(0, np.int64), *fairing.boundary_loops(part.triangles)])),
         neighbours=None,
     )

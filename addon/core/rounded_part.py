@@ -51,6 +51,7 @@ def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
     part = NewPart(
         stay=stay,
         fixed_count=len(stay),
+        held_count=len(stay),
         triangles=numbered,
         lines=np.empty((0, 2), dtype=np.int64),
         vertices=Stencil(sources, result.origin[1]),

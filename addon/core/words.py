@@ -38,6 +38,8 @@ _CROSSING_WIRES = (
 )
 _DISSOLVE = "dissolve it, or split that edge there and use Merge by Distance"
 SPREAD_UNIFORMLY = "Spread Vertices would turn faces over here: Uniform was used instead"
+EDGES_HELD = "Hard edges run through the selection and are held, though not marked: Pin Edges: None rounds them off"
+EDGES_LET_GO = "Hard edges that run through the selection are not marked and were let go: no usable surface holds them"
 _SLOPE_ONLY = (
     "{vertices:.0f} of the boundary's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
 )

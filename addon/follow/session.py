@@ -78,7 +78,6 @@ def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | N
     mesh_io.writable_key(obj)
     if options.boundary_normals == "CUSTOM":
         raise ValueError("Custom normals along the boundary can't be followed: choose Surroundings or Average")
-    options = options.following()
     mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
     if not free_vertices(mesh).any():
         raise ValueError("No vertex inside the region is free to move")
@@ -124,7 +123,7 @@ def is_current(obj: bpy.types.Object, session: Session) -> bool:
 def is_of(session: Session, mesh: bpy.types.Mesh) -> bool:
     """Return whether a session put aside is that of the mesh's region as it is now."""
     session.checked = False
-    same = session.region.options == live_mesh.region_options(mesh).following()
+    same = session.region.options == live_mesh.region_options(mesh)
     return same and session.key == live_mesh.region_key(mesh) and fits(session, mesh)
 
 

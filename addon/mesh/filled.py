@@ -13,13 +13,15 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Mask
-from ..core.fill_pieces import Piece
+from ..core.fill_pieces import Filled, Piece
 from ..core.fill_report import Added
 from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
 from ..core.uv_overlap import covering
+from .columns import elements_of
 from .free_normals import renew
 from .layers import OF_CORNERS, MeanLayers, Shapes
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
+from .parted_edges import parted_edges
 from .selecting import select_new_faces
 from .target import Target, in_edit_mode, in_object_mode
 from .texture import triangles_near
@@ -41,24 +43,32 @@ def border_seeds(mesh: bpy.types.Mesh) -> Mask:
     return seeds
 
 
-def add_to_edit_mesh(obj: bpy.types.Object, pieces: list[Piece]) -> Added:
+def add_to_edit_mesh(obj: bpy.types.Object, filled: Filled) -> Added:
     """Add the surfaces to a mesh in edit mode and select them alone; nothing else about the mesh changes."""
     with in_edit_mode(obj) as target:
-        return _add(target, pieces)
+        return _add(target, filled)
 
 
-def add_to_mesh(mesh: bpy.types.Mesh, pieces: list[Piece]) -> Added:
+def add_to_mesh(mesh: bpy.types.Mesh, filled: Filled) -> Added:
     """Add the surfaces to a mesh in object mode, to its Basis where it has shape keys."""
     with in_object_mode(mesh) as target:
-        return _add(target, pieces)
+        return _add(target, filled)
 
 
-def _add(target: Target, pieces: list[Piece]) -> Added:
+def _add(target: Target, filled: Filled) -> Added:
+    if filled.parted is not None:
+        target.open()
+    with parted_edges(target.bm, filled.parted) as vertices:
+        rims, new = _read(target, filled.pieces, vertices)
+    if filled.parted is None and target.open():
+        with parted_edges(target.bm, None) as vertices:
+            rims, new = _read(target, filled.pieces, vertices)
+    return _made(target, rims, new)
+
+
+def _made(target: Target, rims: list[_Rim], new: list[FaceData]) -> Added:
     bm = target.bm
-    rims, new = _read(target, pieces)
     covered = _covering(bm, rims)
-    if target.open():
-        rims, new = _read(target, pieces)
     made = [rim.fill(target, data) for rim, data in zip(rims, new, strict=True)]
     faces = [face for _, of_one in made for face in of_one]
     select_new_faces(bm, faces)
@@ -73,12 +83,11 @@ def _add(target: Target, pieces: list[Piece]) -> Added:
     )
 
 
-def _read(target: Target, pieces: list[Piece]) -> tuple[list[_Rim], list[FaceData]]:
+def _read(target: Target, pieces: list[Piece], vertices: list[Any]) -> tuple[list[_Rim], list[FaceData]]:
     """Read all before the first is written, as tables of vertices don't last; raises MeshRefusal."""
     bm = target.bm
-    bm.verts.ensure_lookup_table()
     bm.faces.index_update()
-    rims = [_Rim(bm, piece) for piece in pieces]
+    rims = [_Rim(bm, piece, vertices) for piece in pieces]
     new = [rim.data(target) for rim in rims]
     for data in new:
         refuse_doubles(bm, data)
@@ -102,11 +111,11 @@ def _covering(bm: Any, rims: list[_Rim]) -> int:
 class _Rim:
     """The boundary of one surface, in a mesh that it is on its way into."""
 
-    def __init__(self, bm: Any, piece: Piece) -> None:
+    def __init__(self, bm: Any, piece: Piece, vertices: list[Any]) -> None:
         self._piece = piece
-        self._vertices = [bm.verts[vertex] for vertex in piece.outline.tolist()]
-        self._drawn = [bm.verts[vertex] for vertex in piece.across.drawn.tolist()]
-        self._around = [bm.verts[vertex] for vertex in piece.around.vertices.tolist()]
+        self._vertices = elements_of(vertices, piece.outline)
+        self._drawn = elements_of(vertices, piece.across.drawn)
+        self._around = elements_of(vertices, piece.around.vertices)
         following, before = piece.following.tolist(), np.argsort(piece.following).tolist()
         if piece.is_open:  # the last edge is none: the one before it, or after it, stands for it
             following[-1], before[0] = -1, 0

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints, Mask
-from ..core.held_curves import beyond, running_through
+from ..core.held_curves import with_pinned_edges
 from ..core.options import FairOptions
 from ..core.quality import is_spoilt
 from ..core.region import MeshArrays, free_vertices
@@ -200,24 +200,16 @@ def _triangles(mesh: bpy.types.Mesh, sizes: Ints, corner_vertices: Ints) -> tupl
 
 def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
     """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
-    pinned = arrays.pinned.copy()
-    through = options.pins_running_through
-    marked = running_through(arrays) if through else _marked_edges(mesh, options.pin_edges)
-    pinned[arrays.edges[marked]] = True
-    if through and arrays.sharp is not None:
-        marked = marked | (arrays.sharp & beyond(arrays))  # no fit looks across them
-    slope = options.slope_at_pinned_edges
-    arrays = replace(
-        arrays,
-        creases=marked if slope == "CREASE" and marked.any() else None,
-        smooth_curves=marked if slope == "SMOOTH" and marked.any() else None,
-        fair_border=options.fairs_border,
-    )
+    arrays = with_pinned_edges(arrays, options, _marked_edges(mesh, options.pin_edges))
+    arrays = replace(arrays, fair_border=options.fairs_border)
     if group is None:
-        return replace(arrays, pinned=pinned)
+        return arrays
     touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
+    pinned = arrays.pinned.copy()
     pins = members(mesh, np.arange(len(pinned)) if options.moves_band else touched, group)
     pinned[pins] = True
+    if arrays.held_by_angle is not None:
+        arrays = replace(arrays, held_by_angle=arrays.held_by_angle & ~np.isin(np.arange(len(pinned)), pins))
     if not len(touched) or free_vertices(arrays)[pins].any():
         return replace(arrays, pinned=pinned)
     note = (

@@ -15,6 +15,7 @@ from ..core.rounding import Rounded
 from .columns import elements_of
 from .free_normals import renew
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
+from .parted_edges import parted_edges
 from .selecting import select_new_faces
 from .target import Target, in_edit_mode, in_object_mode
 
@@ -37,13 +38,12 @@ def write_edit_mesh(obj: bpy.types.Object, outcome: Remeshed | Rounded) -> Writt
 def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed | Rounded) -> None:
     """Replace the patch of a mesh in object mode: that of its Basis, which the keys relative to it follow."""
     with in_object_mode(mesh) as target:
-        bm, shapes = target.bm, target.shapes
-        bm.verts.ensure_lookup_table()
-        moved = elements_of(bm.verts, outcome.vertices)
-        offsets = shapes.offsets(moved)
-        _replace(target, outcome)
-        if shapes.follow:
-            shapes.write(moved, offsets, np.array([vertex.co[:] for vertex in moved]).reshape(-1, 3))
+        old = _looked_up(target, outcome)
+        offsets = target.shapes.offsets(old.moved)
+        _written(target, outcome, old)
+        if target.shapes.follow:
+            places = np.array([vertex.co[:] for vertex in old.moved]).reshape(-1, 3)
+            target.shapes.write(old.moved, offsets, places)
 
 
 @dataclass(frozen=True)
@@ -55,41 +55,59 @@ class _Old:
     edges: set[Any]  # of these
     lost: list[Any]  # vertices
     stay: list[Any]  # vertices
+    moved: list[Any]  # of these
+    sources: list[Any]  # vertices that new ones are made of,
+    examples: list[Any]  # and those that each is like
     new: FaceData
 
 
-def _read(target: Target, outcome: Remeshed | Rounded) -> _Old:
+def _read(target: Target, outcome: Remeshed | Rounded, vertices: list[Any]) -> _Old:
     """Look all of them up; raises MeshRefusal."""
     bm, part = target.bm, outcome.part
-    for table in (bm.verts, bm.faces):
-        table.ensure_lookup_table()
-        table.index_update()
-    gone, stay = elements_of(bm.faces, part.gone_faces), elements_of(bm.verts, part.stay)
+    bm.faces.ensure_lookup_table()
+    bm.faces.index_update()
+    gone, stay = elements_of(bm.faces, part.gone_faces), elements_of(vertices, part.stay)
     new = _face_data(target, outcome, stay)
     refuse_doubles(bm, new)
     return _Old(
-        spots=elements_of(bm.verts, np.setdiff1d(outcome.verdict.spots, part.gone_vertices)),
+        spots=elements_of(vertices, np.setdiff1d(outcome.verdict.spots, part.gone_vertices)),
         gone=gone,
         edges={edge for face in gone for edge in face.edges},
-        lost=elements_of(bm.verts, part.gone_vertices),
+        lost=elements_of(vertices, part.gone_vertices),
         stay=stay,
+        moved=stay[part.fixed_count :],
+        sources=elements_of(vertices, np.unique(part.vertices.sources)),
+        examples=elements_of(vertices, part.vertices.heaviest),
         new=new,
     )
 
 
+def _looked_up(target: Target, outcome: Remeshed | Rounded) -> _Old:
+    parted = outcome.parted if isinstance(outcome, Remeshed) else None
+    if parted is not None:
+        target.open()
+    with parted_edges(target.bm, parted) as vertices:
+        old = _read(target, outcome, vertices)
+    if parted is None and target.open():
+        with parted_edges(target.bm, None) as vertices:
+            old = _read(target, outcome, vertices)
+    return old
+
+
 def _replace(target: Target, outcome: Remeshed | Rounded) -> Written:
-    bm, old = target.bm, _read(target, outcome)
-    if target.open():
-        old = _read(target, outcome)
-    on_lines = old.stay[outcome.part.fixed_count :]
-    vertices = make_vertices(target, _vertex_data(bm, outcome))
-    for vertex, place in zip(on_lines, outcome.positions.tolist(), strict=True):
+    return _written(target, outcome, _looked_up(target, outcome))
+
+
+def _written(target: Target, outcome: Remeshed | Rounded, old: _Old) -> Written:
+    bm = target.bm
+    vertices = make_vertices(target, _vertex_data(old, outcome))
+    for vertex, place in zip(old.moved, outcome.positions.tolist(), strict=True):
         vertex.co = place
     faces = make_faces(target, vertices, old.new)
     _delete(bm, old)
     select_new_faces(bm, faces[outcome.unselected :])
     bm.normal_update()
-    renew(bm, [*vertices, *on_lines], faces)
+    renew(bm, [*vertices, *old.moved], faces)
     bm.verts.index_update()
     bm.faces.index_update()
     numbers = np.array([face.index for face in faces], dtype=np.int64)
@@ -103,15 +121,15 @@ def _delete(bm: Any, old: _Old) -> None:
     bmesh.ops.delete(bm, geom=bare, context="EDGES")
 
 
-def _vertex_data(bm: Any, outcome: Remeshed | Rounded) -> VertexData:
+def _vertex_data(old: _Old, outcome: Remeshed | Rounded) -> VertexData:
     """Return what the new vertices are made of: the vertices of the triangles that they lie on."""
     part = outcome.part
-    used, local = np.unique(part.vertices.sources, return_inverse=True)
+    _, local = np.unique(part.vertices.sources, return_inverse=True)
     stencil = type(part.vertices)(local.reshape(part.vertices.sources.shape), part.vertices.weights)
-    sources = elements_of(bm.verts, used)
-    before = stencil.mean(np.array([vertex.co[:] for vertex in sources]).reshape(-1, 3))
-    examples = elements_of(bm.verts, part.vertices.heaviest)
-    return VertexData(outcome.new_positions, sources, stencil.mean, examples, before, limit=outcome.limit_total)
+    before = stencil.mean(np.array([vertex.co[:] for vertex in old.sources]).reshape(-1, 3))
+    return VertexData(
+        outcome.new_positions, old.sources, stencil.mean, old.examples, before, limit=outcome.limit_total
+    )  # fmt: skip
 
 
 def _face_data(target: Target, outcome: Remeshed | Rounded, stay: list[Any]) -> FaceData:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ..core.arrays import Floats
 from ..core.engine import Progress
+from ..core.held_curves import released
 from ..core.options import FairOptions
 from ..core.outcome import Fairing, outcome
 from ..core.reflected import whole_of
@@ -13,7 +14,7 @@ from ..core.region import MeshArrays
 from ..core.remeshing import remesh_arrays
 from ..core.solve import Kept, solve
 from ..core.verdict import UNUSABLE
-from ..core.words import SPREAD_UNIFORMLY
+from ..core.words import EDGES_HELD, EDGES_LET_GO, SPREAD_UNIFORMLY
 
 
 def fair_arrays(
@@ -25,8 +26,21 @@ def fair_arrays(
 ) -> Fairing:
     """Fair the patch of `mesh` in the space that the 4×4 `matrix` leads to; kept: what former calls left.
 
-    Raises what `solve` and `outcome` do. `mesh` is never changed. Any thread will do.
+    Where edges are held for their angle alone and nothing usable comes out, they are let go. Raises what `solve` and
+    `outcome` do. `mesh` is never changed. Any thread will do.
     """
+    found = _faired(mesh, matrix, options, progress, kept)
+    if mesh.held_by_angle is None:
+        return found
+    if found.verdict.grade != UNUSABLE:
+        return replace(found, warnings=(EDGES_HELD, *found.warnings))
+    found = _faired(released(mesh), matrix, options, progress, kept)
+    return replace(found, warnings=(EDGES_LET_GO, *found.warnings))
+
+
+def _faired(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
+) -> Fairing:
     if options.mesh == "NEW":
         return remesh_arrays(mesh, matrix, options, progress)
     whole = whole_of(mesh)

@@ -120,6 +120,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             "hard_edges",
             "spacing",
             "inner",
+            "subdivide_boundary",
             "longest",
             "longest_length",
             "max_vertices",
@@ -184,7 +185,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
 
     def _write(self, context: bpy.types.Context, named: list[tuple[str, Filled]]) -> list[Added]:
         objects = objects_in_mode(context)
-        added = [filled.add_to_edit_mesh(objects[name], of_one.pieces) for name, of_one in named if of_one.pieces]
+        added = [filled.add_to_edit_mesh(objects[name], of_one) for name, of_one in named if of_one.pieces]
         for name, of_one in named:
             self._show(context, name, of_one.left_vertices)
         return added

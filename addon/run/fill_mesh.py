@@ -84,4 +84,4 @@ def fill_borders(
     borders = chosen_borders(arrays, world, found, options, vertices is None)
     filled = fill(arrays, world, borders.loops, options, progress, borders.halves).with_left(borders.left)
     written = is_written([(mesh.name, filled)], options)
-    return Done(filled, filled_mesh.add_to_mesh(mesh, filled.pieces) if written else None, borders.notes)
+    return Done(filled, filled_mesh.add_to_mesh(mesh, filled) if written else None, borders.notes)

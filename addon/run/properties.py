@@ -124,7 +124,7 @@ _INNER = (
     ("EVEN", "Equal", "All of one length, but for those beside a boundary that is finer or coarser"),
 )
 _PIN_EDGES = (
-    ("AUTOMATIC", "Automatic", "Edges marked sharp that run through the selection, from marked edges to marked edges"),
+    ("AUTOMATIC", "Automatic", "Hard edges that run through the selection, marked sharp or by their angle"),
     ("NONE", "None", "No edge inside the selection is held"),
     ("SHARP", "Sharp", "The surface passes through edges marked sharp; closed loops of them divide it"),
     ("SEAM", "Seam", "The surface passes through UV seams; closed loops of them divide it"),
@@ -165,6 +165,12 @@ class SurfaceProperties:
         description="How the lengths of new edges vary",
         items=_INNER,
         default="OUTLINE",
+    )
+    subdivide_boundary: BoolProperty(
+        name="Subdivide Boundary",
+        description="Long edges of the boundary are subdivided, to be as long as the new edges; faces beside them "
+        "become polygons with more corners",
+        default=False,
     )
     max_vertices: IntProperty(
         name="Vertex Limit",
@@ -287,7 +293,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
     )
     pin_curve: EnumProperty(
         name="Pinned Edges",
-        description="Whether edges marked sharp that run through the selection become fair themselves",
+        description="Whether hard edges that run through the selection become fair themselves",
         items=_PIN_CURVES,
         default="FAIRED",
     )

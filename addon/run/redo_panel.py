@@ -49,6 +49,7 @@ def _draw_vertices(group: Any, options: Any) -> None:
     if options.mesh == "NEW":  # new edges are equally long
         group.prop(options, "spacing")
         group.prop(options, "inner")
+        group.prop(options, "subdivide_boundary")
         group.prop(options, "max_vertices")
         group.prop(options, "quads")
         group.prop(options, "limit_total")

@@ -9,6 +9,7 @@
 #include "api/component.h"
 #include "base/errors.h"
 #include "base/parallel.h"
+#include "boundary/surrounding_fit.h"
 #include "fill/even_mesh.h"
 #include "fill/first_surface.h"
 #include "mesh/pieces.h"
@@ -87,6 +88,17 @@ struct OldSurface {
         FaceGeometry faces;
         faces.update(points, patch.triangles);
         normals = vertex_normals(patch, points, faces, mesh.normals.gather(fixed_vertices(patch)), NormalKind::fitted);
+        fit_at_creases(mesh.roles.free_slope);
+    }
+
+    // At creases the normals are those of the patch's own side.
+    void fit_at_creases(const std::vector<char>& free_slope) {
+        Indices creases;
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            if (free_slope[patch.to_input[v]]) creases.push_back(v);
+        }
+        if (!creases.empty())
+            normals(Eigen::all, creases) = surrounding_normals(points, patch.triangles, creases).normals;
     }
 
     [[nodiscard]] VectorX lengths(const WantedLengths& wanted, const KeptEdges& kept = {}) const {

@@ -3,6 +3,7 @@
 
 #include "api/fair.h"
 #include "fill/edge_lengths.h"
+#include "geometry/hard_edges.h"
 
 namespace fairing {
 
@@ -35,9 +36,6 @@ struct NewMesh {
     Points weights;       // and its barycentric coordinates there
     Indices old;          // the old vertex that it is, one at a kept edge, or `none`
 };
-
-// Pairs of the caller's vertices.
-using VertexPairs = std::vector<std::array<int, 2>>;
 
 // A new mesh for the surface of the old one, whose fixed and border vertices stay, and the edges `kept` with the
 // vertices there. Vertices lie on curved triangles (geometry/target_surface) over the old ones. `wanted.least_count`

@@ -51,11 +51,16 @@ MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const
             to_optional(fixed_normals, to_points)};
 }
 
+// Fixed vertices on creases, and on smooth curves.
+using FreeSlopes = std::pair<IntArray, IntArray>;
+
 py::dict remesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,
-                       const std::optional<DoubleArray>& fixed_normals, const VertexPairs& kept, const Wanted& wanted,
-                       int threads, const py::object& callback) {
+                       const std::optional<DoubleArray>& fixed_normals, const FreeSlopes& free_slopes,
+                       const VertexPairs& kept, const Wanted& wanted, int threads, const py::object& callback) {
     PythonRun run(callback);
-    const MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
+    MeshInput input = to_input(vertices, triangles, fixed, fixed_normals);
+    input.held.creases = to_indices(free_slopes.first);
+    input.held.smooth_curves = to_indices(free_slopes.second);
     const NewMesh result = run.without_gil(
         [&](const ProgressCallback& progress) { return remesh(input, kept, to_lengths(wanted), threads, progress); });
     py::dict dict;
@@ -119,7 +124,8 @@ void bind_fill(py::module_& module) {
     module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
                py::arg("equation"), py::arg("progress"));
     module.def("remesh", &remesh_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("kept"), py::arg("wanted"), py::arg("threads"), py::arg("progress"));
+               py::arg("fixed_normals"), py::arg("free_slopes"), py::arg("kept"), py::arg("wanted"), py::arg("threads"),
+               py::arg("progress"));
     module.def("expected_count", &expected_count_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("wanted"));
 }

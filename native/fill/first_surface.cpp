@@ -13,6 +13,7 @@
 #include "fill/joined_loops.h"
 #include "fill/limits.h"
 #include "fill/tube_start.h"
+#include "geometry/face_geometry.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
@@ -78,18 +79,6 @@ Triangles triangulated(const OpenOutline& outline, Equation equation) {
     return agreement(outline, along) > before + better && is_surface(along) ? along : least;
 }
 
-// The triangulation. A lone triangle has no chord to split: it gets a vertex in its middle.
-ProxyMesh outline_mesh(const OpenOutline& outline, Equation equation) {
-    const Triangles triangles = triangulated(outline, equation);
-    if (triangles.cols() > 1) return {made_patch(0, triangles, outline.points.cols()), outline.points};
-    const Eigen::Vector3i corners = triangles.col(0) + Eigen::Vector3i::Ones();
-    Triangles fan(3, 3);
-    for (int k = 0; k < 3; ++k) fan.col(k) << corners[k], corners[(k + 1) % 3], 0;
-    Points points(3, outline.points.cols() + 1);
-    points << outline.points.rowwise().mean(), outline.points;
-    return {made_patch(1, std::move(fan), points.cols()), points};
-}
-
 // A mesh whose first patch.free_count vertices are free.
 struct Meshed {
     Patch patch;
@@ -104,9 +93,25 @@ Meshed meshed(const EqualEdgeMesh& mesh, const Points& outline) {
     return {made_patch(free_count, std::move(made.triangles), points.cols()), std::move(points)};
 }
 
-// Coarse and flat, no two vertices of the outline joined across it.
+// With a vertex in the middle of the largest triangle, where no vertex is free: between chords at sharp corners.
+Meshed with_free_vertex(const Triangles& triangles, const Points& outline) {
+    FaceGeometry faces;
+    faces.update(outline, triangles);
+    Eigen::Index largest = 0;
+    faces.areas.maxCoeff(&largest);
+    Triangles fan(3, triangles.cols() + 2);
+    fan << triangles, triangles.col(largest), triangles.col(largest);
+    fan.array() += 1;
+    fan(0, largest) = fan(1, triangles.cols()) = fan(2, triangles.cols() + 1) = 0;
+    Points points(3, outline.cols() + 1);
+    points << outline(Eigen::all, triangles.col(largest)).rowwise().mean(), outline;
+    return {made_patch(1, std::move(fan), points.cols()), std::move(points)};
+}
+
+// Coarse and flat, no two vertices of the outline joined across it but at sharp corners.
 Meshed first_mesh(const OpenOutline& outline, Equation equation) {
-    ProxyMesh mesh = outline_mesh(outline, equation);
+    const Triangles triangles = triangulated(outline, equation);
+    ProxyMesh mesh(made_patch(0, triangles, outline.points.cols()), outline.points);
     mesh.adapt(sizing);
     const auto snapshot = mesh.snapshot();
     const Points flat = Points::Zero(3, snapshot.points.cols());
@@ -114,7 +119,8 @@ Meshed first_mesh(const OpenOutline& outline, Equation equation) {
     const VectorX lengths = VectorX::Ones(snapshot.points.cols());
     EqualEdgeMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
     chordless.split_chords(outline.normals);
-    return meshed(chordless, outline.points);
+    Meshed made = meshed(chordless, outline.points);
+    return made.patch.free_count > 0 ? made : with_free_vertex(made.patch.triangles, outline.points);
 }
 
 Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverOptions& options) {

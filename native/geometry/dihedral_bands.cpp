@@ -14,13 +14,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double usual_share =
-    DihedralBands::half;  // of the weight has less, and the same share has more than the lower bound
-
-struct WeightedAngle {
-    double angle;
-    double weight;
-};
+using WeightedAngle = DihedralBands::WeightedAngle;
 
 // The angle that this share of the weight doesn't exceed. `sorted` isn't empty.
 double quantile(const std::vector<WeightedAngle>& sorted, double share) {
@@ -183,10 +177,17 @@ Indices DihedralBands::inner_edges(const Indices& triangles, Walk& walk) const {
     return found;
 }
 
-AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
+std::vector<DihedralBands::WeightedAngle> DihedralBands::across(int a, int b, Walk& walk) const {
+    const Vector3 along = direction(points_.col(b) - points_.col(a));
     std::vector<WeightedAngle> near;
-    for (const int e : inner_edges(triangles_near(a, b, walk), walk)) near.push_back({angles_[e], lengths_[e]});
-    return middle(usual_share, near);
+    for (const int e : inner_edges(triangles_near(a, b, walk), walk))
+        near.push_back({angles_[e], weight_across(e, along)});
+    return near;
+}
+
+AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
+    std::vector<WeightedAngle> near = across(a, b, walk);
+    return middle(half, near);
 }
 
 double DihedralBands::mean_height(int edge) const {
@@ -209,10 +210,7 @@ double DihedralBands::weight_across(int edge, const Vector3& along) const {
 
 AngleRange DihedralBands::usual_across(int edge, double share, Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
-    const Vector3 along = direction(points_.col(b) - points_.col(a));
-    std::vector<WeightedAngle> near;
-    for (const int e : inner_edges(triangles_near(a, b, walk), walk))
-        near.push_back({angles_[e], weight_across(e, along)});
+    std::vector<WeightedAngle> near = across(a, b, walk);
     const AngleRange central = middle(half, near);
     const AngleRange most = middle(share, near);
     return angles_[edge] > 0.0 ? AngleRange{central.low, most.high} : AngleRange{most.low, central.high};

@@ -24,6 +24,11 @@ double dihedral_angle(const Vector3& first, const Vector3& second, const Vector3
 
 class DihedralBands {
 public:
+    struct WeightedAngle {
+        double angle;
+        double weight;
+    };
+
     // Precondition: three different indices in each triangle. Keeps references.
     DihedralBands(const Points& points, const Triangles& triangles);
 
@@ -43,11 +48,11 @@ public:
     };
     [[nodiscard]] Walk walk() const;
     static constexpr int rings = 3;  // of triangles around an edge
-    // The middle half, by the edges' lengths, of the angles within these rings around an edge (a, b), and zero.
+    // What is usual of the bends across an edge (a, b): the middle half of the angles within these rings, by the edges'
+    // lengths and the squared cosines between them and it, and zero. Round a tube of any proportions the edges along it
+    // say how it bends, those around it nothing.
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
-    // What is usual of the bends across an edge's direction: others count by the squared cosine between them and it,
-    // too. Round a tube of any proportions the edges along it say how it bends, those around it nothing. The middle
-    // half on the other side of zero, and up to `share` on the edge's own.
+    // The middle half likewise on the other side of zero, and up to `share` on the edge's own.
     [[nodiscard]] AngleRange usual_across(int edge, double share, Walk& walk) const;
     static constexpr double half = 0.75;  // the share up to which the middle half goes
     // By how much it bends in that direction beyond the rows beside the edge, in degrees per length: on both sides
@@ -64,6 +69,7 @@ private:
     void measure(int edge);
     [[nodiscard]] double area(int triangle) const;
     [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
+    [[nodiscard]] std::vector<WeightedAngle> across(int a, int b, Walk& walk) const;  // of the edges around
     [[nodiscard]] Vector3 normal_beyond(int side) const;
     [[nodiscard]] Indices inner_edges(const Indices& triangles, Walk& walk) const;  // with two triangles, each once
     [[nodiscard]] Indices triangles_near(int a, int b, Walk& walk) const;

@@ -22,9 +22,10 @@ struct VisibleJoin {
     Indices seen;        // places in the outline where one does, ascending
 };
 
-// Degrees: by how much the signed dihedral angles of the outline edges at a vertex exceed what is usual within three
-// rings inside and outside, and what the same edge had before. The mean over these edges, weighted by length; 0 where
-// no outline edge ends. Triangles that name a vertex twice are left out. `outline`: each vertex once.
+// Degrees: by how much the signed dihedral angles of the outline edges at a vertex exceed what is usual across their
+// direction within three rings inside and outside, and what the same edge had before. The mean over these edges,
+// weighted by length; 0 where no outline edge ends. Triangles that name a vertex twice are left out. `outline`: each
+// vertex once.
 VisibleJoin visible_join(const JoinedMesh& mesh, const Indices& outline);
 
 // The degrees from the patch's side alone, at its fixed vertices (local order): the surroundings are taken for the

@@ -133,11 +133,3 @@ def test_noise_around_a_hole_has_no_hard_edges(noise: float) -> None:
     mesh = roof(0.0, 0.0)
     rough = mesh.positions + np.random.default_rng(3).normal(scale=noise, size=mesh.positions.shape)
     assert len(hard_ends(replace(mesh, positions=rough), rim(mesh, 0.0), mesh.triangles)) == 0
-
-
-def test_a_knob_at_a_hole_is_no_hard_edge() -> None:
-    """Edges that meet in one lifted vertex reach no farther than two of their lengths."""
-    mesh = roof(0.0, 0.0)
-    lifted = mesh.positions.copy()
-    lifted[np.argmin(np.linalg.norm(lifted - [0.25 + 2.0 / SIZE, 0.0, 0.0], axis=1)), 2] = 0.3
-    assert len(hard_ends(replace(mesh, positions=lifted), rim(mesh, 0.0), mesh.triangles)) == 0

@@ -8,16 +8,20 @@ import numpy as np
 import pytest
 
 from core import solve
+from core.held_curves import none, released, with_pinned_edges
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
-from polygon_mesh import grid, grid_points
+from core.remeshing import remesh_arrays
+from polygon_mesh import grid, grid_points, polygon_mesh
 
 SIZE = 8
 
 
 def marked(mesh: MeshArrays) -> np.ndarray:  # type: ignore[type-arg]
-    """(e,) edges of the middle column x = 0."""
-    return np.abs(mesh.positions[mesh.edges][:, :, 0]).max(axis=1) < 1e-9
+    """(e,) edges of the grid's middle column."""
+    rows = round(float(np.sqrt(len(mesh.positions))))
+    on_column: np.ndarray = (mesh.edges % rows == rows // 2).all(axis=1)  # type: ignore[type-arg]
+    return on_column
 
 
 def with_curve(mesh: MeshArrays, kind: str) -> MeshArrays:
@@ -25,6 +29,11 @@ def with_curve(mesh: MeshArrays, kind: str) -> MeshArrays:
     pinned = mesh.pinned.copy()
     pinned[mesh.edges[edges]] = True
     return replace(mesh, pinned=pinned, **{kind: edges})
+
+
+def with_marks(mesh: MeshArrays) -> MeshArrays:
+    """The middle column marked sharp, and read as Pin Edges: Automatic does."""
+    return with_pinned_edges(replace(mesh, sharp=marked(mesh)), FairOptions(), none(mesh))
 
 
 def test_a_crease_reaches_the_outline_and_a_smooth_curve_stops_before_it() -> None:
@@ -85,9 +94,109 @@ def test_both_sides_of_a_fold_come_back_and_no_fit_looks_across_it() -> None:
     assert flat.max() < 1e-9
 
 
+@pytest.mark.parametrize("spacing", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("matrix", [np.eye(4), np.diag([2.0, 2.0, -2.0, 1.0])], ids=["as it is", "mirrored"])
+def test_a_new_mesh_makes_a_dented_edge_fair_and_both_sides_flat(
+    spacing: float,
+    matrix: np.ndarray,  # type: ignore[type-arg]
+) -> None:
+    """What is written are the edge's own vertices, straight again, and new ones on the two sides."""
+    mesh = with_marks(grid(16, 0.55, folded))
+    inside = make_patch(replace(mesh, pinned=np.zeros_like(mesh.pinned)))
+    moving = inside.vertices[inside.free]
+    noisy = mesh.positions.copy()
+    noisy[moving] += 0.02 * np.random.default_rng(2).normal(size=(len(moving), 3))
+    done = remesh_arrays(replace(mesh, positions=noisy), matrix, FairOptions(mesh="NEW", spacing=spacing))
+    on_edge = np.abs(grid_points(16)[moving, 0]) < 1e-9
+    assert set(done.vertices.tolist()) == set(moving[on_edge].tolist())
+    assert np.abs(done.positions[:, [0, 2]]).max() < 1e-9
+    assert off_fold(done.new_positions) < 1e-9
+    assert done.verdict.grade == "GOOD"
+    number = {int(v): k for k, v in enumerate(done.part.stay)}
+    kept = mesh.edges[marked(mesh) & np.isin(mesh.edges, moving).any(axis=1)]
+    sides = {tuple(sorted(pair)) for t in done.part.triangles.tolist() for pair in (t[:2], t[1:], t[::2])}
+    assert {tuple(sorted((number[a], number[b]))) for a, b in kept.tolist()} <= sides
+
+
+def test_half_a_factor_takes_a_new_mesh_and_its_edge_half_way() -> None:
+    mesh = with_marks(grid(16, 0.55, folded))
+    dent = mesh.positions.copy()
+    on_edge = np.flatnonzero((np.abs(grid_points(16)[:, 0]) < 1e-9) & (np.abs(grid_points(16)[:, 1]) < 0.3))
+    dent[on_edge] += [0.03, 0.0, 0.03]
+    done = remesh_arrays(replace(mesh, positions=dent), np.eye(4), FairOptions(mesh="NEW", factor=0.5))
+    half = np.isin(done.vertices, on_edge)
+    assert np.count_nonzero(half) == len(on_edge)
+    np.testing.assert_allclose(done.positions[half][:, [0, 2]], 0.015, atol=1e-9)
+
+
+def dented_fold() -> tuple[MeshArrays, np.ndarray]:  # type: ignore[type-arg]
+    """A fold that nobody has marked, thrown about inside the patch, and what is free of it."""
+    mesh = grid(16, 0.55, folded)
+    patch = make_patch(mesh)
+    inside = patch.vertices[patch.free]
+    mesh.positions[inside] += 0.02 * np.random.default_rng(2).normal(size=(len(inside), 3))
+    return mesh, inside
+
+
+def off_fold(points: np.ndarray) -> float:  # type: ignore[type-arg]
+    return float(off_fold_each(points).max())
+
+
+def test_an_edge_that_nobody_has_marked_is_held_by_its_angle() -> None:
+    """Its vertices are those of the middle column; with Pin Edges: None the fold is rounded."""
+    mesh, inside = dented_fold()
+    held = with_pinned_edges(mesh, FairOptions(), none(mesh))
+    on_edge = np.intersect1d(inside, mesh.edges[marked(mesh)])
+    assert np.flatnonzero(held.held_by_angle).tolist() == [int(on_edge[0]) - 17, *on_edge, int(on_edge[-1]) + 17]
+    assert off_fold(solve.solve(held, np.eye(4), FairOptions()).result.vertices) < 1e-9
+    rounded = with_pinned_edges(mesh, FairOptions(pin_edges="NONE"), none(mesh))
+    assert rounded.held_by_angle is None
+    assert off_fold(solve.solve(rounded, np.eye(4), FairOptions(pin_edges="NONE")).result.vertices) > 0.01
+
+
+@pytest.mark.parametrize(
+    "options", [{"equation": "CONSTANT"}, {"equation": "MINIMAL"}, {"continuity": "G2"}, {"outline": "MENDED"}]
+)
+def test_shapes_that_know_no_edges_are_not_changed_by_unmarked_ones(options: dict[str, str]) -> None:
+    mesh, _ = dented_fold()
+    assert with_pinned_edges(mesh, FairOptions(**options), none(mesh)).held_by_angle is None  # type: ignore[arg-type]
+
+
+def test_edges_held_by_their_angle_can_be_let_go_and_marked_ones_stay() -> None:
+    mesh, _ = dented_fold()
+    let_go = released(with_pinned_edges(mesh, FairOptions(), none(mesh)))
+    for name in ("pinned", "creases", "hard", "held_by_angle"):
+        assert np.array_equal(getattr(let_go, name), getattr(mesh, name)), name
+    both = with_marks(mesh)
+    assert both.held_by_angle is None
+    assert np.array_equal(released(both).pinned, both.pinned)
+
+
+def test_a_patch_of_nothing_but_an_edge_is_not_held() -> None:
+    """Two rows of faces at the fold: held, nothing would be left to move."""
+    mesh = grid(16, 2.0, folded)
+    centres = mesh.positions[mesh.corner_vertices.reshape(-1, 4)].mean(axis=1)
+    narrow = (off_fold_each(centres) < 1e-9) & (np.abs(centres).max(axis=1) < 0.5)
+    narrow &= (np.abs(centres[:, 0]) < 0.1) & (np.abs(centres[:, 2]) < 0.1)
+    strip = with_pinned_edges(replace(mesh, in_patch=narrow), FairOptions(), none(mesh))
+    assert strip.held_by_angle is None
+    assert len(make_patch(strip).free) > 0
+
+
+def off_fold_each(points: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
+    return np.minimum(np.abs(points[:, 0]), np.abs(points[:, 2]))
+
+
 def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_outline() -> None:
     mesh = with_curve(grid(16, 0.55, folded), "creases")
     options = FairOptions(pin_edges="SHARP", outline="MENDED")
     with pytest.raises(ValueError, match="Boundary: Smooth would round off the creases"):
         solve.solve(mesh, np.eye(4), options)
     assert solve.solve(replace(mesh, creases=None), np.eye(4), options).result.converged
+
+
+def test_a_patch_without_an_outline_has_no_edges() -> None:
+    """Three faces meet at an edge: that is for the solve to say."""
+    points = np.array([[0.0, 0, 0], [0, 1, 0], [1, 0, 0], [-1, 0, 0], [0, 0, 1]])
+    fan = polygon_mesh(points, [[0, 2, 1], [0, 1, 3], [0, 1, 4]], [True, True, True])
+    assert with_pinned_edges(fan, FairOptions(), none(fan)).hard is None

@@ -11,6 +11,7 @@ import fairing
 from core.around import outside_triangles
 from core.arrays import Floats, Ints, Mask
 from core.boundary import boundary
+from core.held_curves import none, with_pinned_edges
 from core.live_region import LiveRegion, Surroundings, surroundings
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
@@ -141,3 +142,44 @@ def test_the_skin_that_the_region_had_stays_on_it() -> None:
     kept = np.linalg.norm(first, axis=1) - 1.0
     assert np.corrcoef(kept, heights[:, 0])[0, 1] > 0.9
     assert kept.std() == pytest.approx(heights.std(), rel=0.25)
+
+
+@pytest.mark.parametrize("steps", [1, 12])
+def test_an_edge_that_runs_through_follows_its_ends(steps: int) -> None:
+    """A dented fold whose surroundings are turned, stretched and sheared: a straight edge between two planes.
+
+    Its vertices keep their shares of the edge, in however many steps it gets there.
+    """
+    fold = lambda points: np.column_stack([np.minimum(points[:, 0], 0), points[:, 1], -np.maximum(points[:, 0], 0)])  # noqa: E731
+    mesh = grid(SIZE, 0.35, fold)
+    rows = SIZE + 1
+    edge = (mesh.edges % rows == SIZE // 2).all(axis=1)
+    exact = mesh.positions.copy()
+    free = make_patch(mesh).vertices[make_patch(mesh).free]
+    mesh.positions[free] += 0.01 * np.random.default_rng(3).normal(size=(len(free), 3))
+    mesh = with_pinned_edges(replace(mesh, sharp=edge), FairOptions(), none(mesh))
+    region = LiveRegion(mesh, EYE, FairOptions())
+    assert set(region.free.tolist()) == set(free.tolist())
+    whole = np.array([[1.2, 0.3, 0.1], [-0.2, 0.9, 0.4], [0.1, -0.5, 1.1]])
+    positions = mesh.positions.copy()
+    for step in range(1, steps + 1):
+        map_now = EYE[:3, :3] + step / steps * (whole - EYE[:3, :3])
+        outside = np.setdiff1d(region.vertices, free)
+        positions[outside] = exact[outside] @ map_now.T
+        answer = region.answer(positions[region.vertices], EYE)
+        assert answer is not None
+        positions[region.free] = answer
+    back = np.linalg.solve(whole, positions[region.free].T).T
+    on_edge = np.isin(region.free, mesh.edges[edge])
+    assert np.minimum(np.abs(back[:, 0]), np.abs(back[:, 2])).max() < 1e-6
+    start = places_on_edge(mesh.positions, exact, np.sort(region.free[on_edge]), rows)
+    np.testing.assert_allclose(np.sort(back[on_edge, 1]), start, atol=1e-6)
+
+
+def places_on_edge(dented: Floats, exact: Floats, inner: Ints, rows: int) -> Floats:
+    """Where the vertices of an edge lie on it when they keep their shares of the dented one's length."""
+    path = np.concatenate([[inner[0] - rows], inner, [inner[-1] + rows]])
+    lengths = np.linalg.norm(np.diff(dented[path], axis=0), axis=1).cumsum()
+    ends = exact[path[[0, -1]], 1]
+    places: Floats = ends[0] + lengths[:-1] / lengths[-1] * (ends[1] - ends[0])
+    return places

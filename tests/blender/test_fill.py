@@ -494,7 +494,7 @@ def test_operator_has_the_documented_properties() -> None:
     assert {p.identifier: p.default for p in found} == {
         "equation": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "inner": "OUTLINE",
         "quads": False, "longest": 0, "longest_length": 0.0, "max_vertices": 0, "limit_total": 0, "accept": "USABLE",
-        "hard_edges": "RUN_ON", "islands": False,
+        "hard_edges": "RUN_ON", "islands": False, "subdivide_boundary": False,
     }  # fmt: skip
     assert all(p.description for p in found)
 

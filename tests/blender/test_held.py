@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import bpy
 import meshes
 import numpy as np
 import pytest
+from extension import module
 
 
 def box(size: int = 10) -> tuple[bpy.types.Object, meshes.Mask]:
@@ -66,6 +70,53 @@ def test_dented_edges_that_run_through_become_straight(pins: str) -> None:
     assert off_box(after) < 1e-5
     outside = ~meshes.free_vertices(obj, faces)
     assert after[outside].tobytes() == before[outside].tobytes()
+
+
+def unmarked_box() -> tuple[bpy.types.Object, meshes.Mask]:
+    obj, faces = box()
+    obj.data.edges.foreach_set("use_edge_sharp", [False] * len(obj.data.edges))
+    bumpy(obj, meshes.free_vertices(obj, faces))
+    return obj, faces
+
+
+@pytest.mark.parametrize(("properties", "flat"), [({}, True), ({"mesh": "NEW"}, True), ({"pin_edges": "NONE"}, False)])
+def test_edges_that_nobody_has_marked_are_found_by_their_angle(properties: dict[str, str], flat: bool) -> None:
+    """The report says so; Pin Edges: None rounds them off."""
+    obj, faces = unmarked_box()
+    meshes.fair(obj, faces, **properties)
+    assert (off_box(meshes.positions(obj)) < 1e-5) == flat
+    assert ("Hard edges run through" in meshes.report().warnings) == flat
+
+
+def test_unmarked_edges_that_no_usable_surface_holds_are_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The solve with the edge is made to be not usable: the rounded one is written, and the report says why."""
+    fair_arrays = module("run.fair_arrays")
+    solve = fair_arrays._faired
+
+    def spoiled(mesh: Any, *given: Any) -> Any:
+        found = solve(mesh, *given)
+        bad = mesh.held_by_angle is not None
+        return replace(found, verdict=replace(found.verdict, grade="UNUSABLE")) if bad else found
+
+    monkeypatch.setattr(fair_arrays, "_faired", spoiled)
+    obj, faces = unmarked_box()
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert off_box(meshes.positions(obj)) > 1e-3
+    assert "were let go" in meshes.report().warnings
+
+
+@pytest.mark.parametrize("spacing", [0.6, 2.0])
+def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
+    """The box corner again: three straight edges, marked as before, between three flat sides."""
+    obj, faces = box()
+    bumpy(obj, meshes.free_vertices(obj, faces))
+    marked = sum(edge.use_edge_sharp for edge in obj.data.edges)
+    meshes.fair(obj, faces, mesh="NEW", spacing=spacing)
+    points = meshes.positions(obj)
+    sharp = [list(edge.vertices) for edge in obj.data.edges if edge.use_edge_sharp]
+    assert len(sharp) == marked
+    assert np.sort(np.abs(points[np.unique(sharp)]), axis=1)[:, 1].max() < 1e-6
+    assert off_box(points) < 1e-5
 
 
 def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:

@@ -42,6 +42,7 @@ DEFAULTS = {
     "mesh": "KEEP",
     "spacing": 1.0,
     "inner": "OUTLINE",
+    "subdivide_boundary": False,
     "quads": False,
     "max_vertices": 0,
     "limit_total": 0,

@@ -4,6 +4,7 @@ from fairing._borders import expected_vertices, outer_borders
 from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
+from fairing._edges_through import EdgesThrough, edges_through
 from fairing._fair import fair
 from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
@@ -52,6 +53,7 @@ from fairing._shape import (
     seam_kinks,
 )
 from fairing._solver import Solver
+from fairing._subdivided import SubdividedEdges, subdivide_edges
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 
 __all__ = [
@@ -60,6 +62,7 @@ __all__ = [
     "BoundaryNormals",
     "Cancelled",
     "Diagnostic",
+    "EdgesThrough",
     "FairEdges",
     "FairResult",
     "FillResult",
@@ -76,6 +79,7 @@ __all__ = [
     "RemeshResult",
     "Solver",
     "SolverError",
+    "SubdividedEdges",
     "SurroundingNormals",
     "VisibleJoin",
     "__version__",
@@ -86,6 +90,7 @@ __all__ = [
     "conformal_distortion",
     "conformal_map",
     "cotan_laplacian",
+    "edges_through",
     "edges_with_uses",
     "expected_vertices",
     "fair",
@@ -112,6 +117,7 @@ __all__ = [
     "rounded_edges",
     "seam_kinks",
     "self_intersections",
+    "subdivide_edges",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",

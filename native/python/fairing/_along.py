@@ -70,7 +70,11 @@ class _Along:
         """A mesh as it is wanted on the film."""
         points, triangles = film
         threads = _arguments.whole("threads", self.options.get("threads", 0), 0)
-        mesh = _core.remesh(points, triangles, self._held[0], None, _arguments.NO_EDGES, self.wanted, threads, progress)
+        fixed, _, creases = self._held
+        slopes = creases, np.empty(0, np.int32)
+        mesh = _core.remesh(
+            points, triangles, fixed, None, slopes, _arguments.NO_EDGES, self.wanted, threads, progress
+        )  # fmt: skip
         count = len(self.curves.points)
         made = mesh["triangles"].copy()
         made[made >= len(points)] -= len(points) - count

@@ -153,6 +153,7 @@ def remesh(
     triangles: _Ints,
     fixed: _Ints | None,
     fixed_normals: _Floats | None,
+    free_slopes: tuple[_Ints, _Ints],
     kept: _Ints,
     wanted: tuple[float, int, bool, bool],
     threads: int,

@@ -31,13 +31,16 @@ class FairEdges:
     """The vertices of each chain that is fair now, from end to end."""
 
 
-def fair_edges(vertices: npt.ArrayLike, edges: npt.ArrayLike, onward: npt.ArrayLike) -> FairEdges:
+def fair_edges(
+    vertices: npt.ArrayLike, edges: npt.ArrayLike, onward: npt.ArrayLike, *, reference: npt.ArrayLike | None = None
+) -> FairEdges:
     """Make chains of edges fair between the edges that they continue.
 
     Each chain of ``edges`` (e, 2) between two ends at which edges of ``onward`` (o, 2) go on becomes the curve of least
     variation with their tangents (docs/hard_surfaces.md): a straight line between straight edges, an arc between those
     of a circle. Three chains and more that meet do so in the point nearest to the straight lines of their other ends.
-    Vertices keep their shares of a chain's length. Vertices of ``onward`` stay. So do chains that end anywhere else,
+    Vertices keep their shares of a chain's length in ``reference`` (n, 3), by default ``vertices``. Vertices of
+    ``onward`` stay. So do chains that end anywhere else,
     and closed ones. No argument is changed.
     """
     points = _arguments.floats("vertices", vertices)
@@ -46,6 +49,7 @@ def fair_edges(vertices: npt.ArrayLike, edges: npt.ArrayLike, onward: npt.ArrayL
         for name, value in (("edges", edges), ("onward", onward))
     )
     inner, outer = (_links(each) for each in pairs)
+    before = points if reference is None else _arguments.floats("reference", reference, len(points))
     result = points.copy()
     paths = _paths(inner, outer)
     tangents = {(path[0], path[1]): _tangent(path, outer, points) for each in paths for path in (each, each[::-1])}
@@ -60,7 +64,7 @@ def fair_edges(vertices: npt.ArrayLike, edges: npt.ArrayLike, onward: npt.ArrayL
         if not all(known):
             continue
         if len(path) > 2:
-            result[path[1:-1]] = _curve(result[[path[0], path[-1]]], ways, points[path])
+            result[path[1:-1]] = _curve(result[[path[0], path[-1]]], ways, before[path])
         moved |= set(path[1:-1])
         curves.append(np.array(path, dtype=np.int32))
     return FairEdges(read_only(result), np.array(sorted(moved), dtype=np.int32), tuple(curves))
@@ -129,7 +133,7 @@ def _centres(
 
 
 def _curve(ends: FloatArray, ways: tuple[FloatArray | None, FloatArray | None], before: FloatArray) -> FloatArray:
-    """Places of the inner vertices of a chain (k, 3); ways: of the edges that come to its ends."""
+    """Places of the inner vertices of a chain; ways: of the edges that come to its ends; before: its (k, 3) points."""
     lengths = np.linalg.norm(np.diff(before, axis=0), axis=1).cumsum()
     begin = np.zeros(3) if ways[0] is None else ways[0]
     end = np.zeros(3) if ways[1] is None else -ways[1]

@@ -140,12 +140,12 @@ def visible_join(
 ) -> VisibleJoin:
     """How visible the join of the two lists of triangles is at the vertices of ``outline`` (k,), each named once.
 
-    ``degrees``: by how much the signed dihedral angles of the outline's edges exceed what is usual within three rings
-    on either side (the middle half of the angles, by length), and what the same edge had in ``before`` (n, 3), the
-    positions before fairing; the mean over the outline's edges at the vertex. 0 on a sphere or tube however coarse,
-    and on a crease that goes on on either side. ``limit``: of nine tenths of the edges outside the range of bends,
-    as far as it lies between 5 and ``LIMITS["visible_kink"]`` = 12, or half of it where that is more, up to 30. 12
-    without triangles outside.
+    ``degrees``: by how much the signed dihedral angles of the outline's edges exceed what is usual across their
+    direction within three rings on either side (the middle half of the angles, by length and direction), and what the
+    same edge had in ``before`` (n, 3), the positions before fairing; the mean over the outline's edges at the vertex. 0
+    on a sphere or tube however coarse, and on a crease that goes on on either side. ``limit``: of nine tenths of the
+    edges outside the range of bends, as far as it lies between 5 and ``LIMITS["visible_kink"]`` = 12, or half of it
+    where that is more, up to 30. 12 without triangles outside.
     """
     points, within, where = _bounded(vertices, ("inside", inside), ("outline", outline))
     _, beyond, _ = _bounded(vertices, ("outside", outside), ("outline", outline))

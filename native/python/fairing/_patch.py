@@ -77,7 +77,8 @@ class Patch:
     ) -> tuple[Patch, Origin, IntArray]:
         """The same with edges that stay, and with the old vertex that each new one is, or −1."""
         mesh = _core.remesh(
-            self.vertices, self.triangles, self.fixed, self.normals, lines, wanted[0].wanted(wanted[1]),
+            self.vertices, self.triangles, self.fixed, self.normals, _free_slopes(options), lines,
+            wanted[0].wanted(wanted[1]),
             _arguments.whole("threads", options.get("threads", 0), 0), progress,
         )  # fmt: skip
         triangles = mesh["triangles"].copy()
@@ -100,6 +101,13 @@ class Patch:
             self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, start=start,
             progress=progress, **chosen,
         )  # fmt: skip
+
+
+def _free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:
+    """Fixed vertices on creases, and on smooth curves."""
+    given = {name: options.get(name) for name in ("creases", "smooth_curves")}
+    creases, curves = (_arguments.integers(name, [] if at is None else at, None) for name, at in given.items())
+    return creases, curves
 
 
 _MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")

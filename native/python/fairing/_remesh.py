@@ -48,6 +48,9 @@ def remesh(
     ``kept``, (e, 2): edges of the old mesh that the new one has, too, between new vertices at the same places of the
     surface, which ``result.old`` names: seams of a texture.
 
+    ``creases``, some of the fixed vertices: as in :func:`fairing.fair`, each side of a curve of them finds its slope.
+    Hard edges through the patch are such curves, made fair by :func:`fairing.fair_edges`. They keep their vertices.
+
     ``max_vertices``: more new vertices than that are refused (OUT_OF_PROPORTION), by the old surface before anything is
     solved, and by the faired one. 0: 20 times as many as the old surface would have with that spacing, or 50 000 where
     that is less, 4 000 000 at most.
