@@ -17,7 +17,6 @@
 #include "start/best_fill.h"
 #include "start/membrane.h"
 #include "start/swept_start.h"
-#include "variation/inflate.h"
 #include "variation/lift.h"
 #include "variation/own_mesh.h"
 
@@ -48,20 +47,18 @@ constexpr std::array beginnings{Beginning{1.4, raised_damping}, Beginning{1.0, r
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
 constexpr Beginning near_beginning{1.8, 1e-2, 0.05};
-constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
 }
 
-// A bulge that meets the outline's tangent planes, its collapsed tubes opened.
+// A bulge that meets the outline's tangent planes.
 Points start_of(const Problem& problem, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());
     const Problem uniform = with_slopes_of(given, membrane(given, work));
-    const Points fill = best_fill(uniform, work, progress.here());
-    return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
+    return best_fill(uniform, work, progress);
 }
 
 // The interior needs the outline's resolution only where it bends.
@@ -84,7 +81,7 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
-        NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
+        NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : 0.0, 0.05};
         limits.settled = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
         if (std::abs(last->result.merit - merit) <= beginning.settled * merit || last->result.merit < tolerance) break;
@@ -92,7 +89,7 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
         merit = last->result.merit;
     }
     mesh.adapt(sizing);
-    NewtonLimits limits{tolerance, 30, near_damping};
+    NewtonLimits limits{tolerance, 30};
     limits.settled = enough_for_fine;
     return solve_on(mesh, problem, last, Measure::scale_free, limits, progress.range(0.8, 1.0));
 }
@@ -224,7 +221,7 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
                                      const Progress& progress) {
     // Bridges, elbows and S-bends end in 40 at most; where they don't, along wide bends, 300 end nowhere, too, in 12 s.
     constexpr int most_steps = 60;
-    const FineStart begin{.damping = near_damping, .most_steps = most_steps};
+    const FineStart begin{.most_steps = most_steps};
     Stopwatch watch;
     ProxyMesh mesh(problem.patch, near.points);
     SolvedSheet solved = near.roughly
