@@ -10,10 +10,11 @@ import numpy as np
 import fairing
 import problems
 import real_meshes
+import tubes
 from real_meshes import RealPatch
 
 Call = tuple[str, Callable[[], Any], Any]  # name, the call, the exact surface where one is known
-LARGEST = {"fill": 700, "least variation": 300, "paper": 900}  # vertices of a patch; of other kinds:
+LARGEST = {"fill": 700, "remesh": 700, "least variation": 300, "paper": 900}  # vertices of a patch; of other kinds:
 USUAL = 1000
 
 
@@ -23,7 +24,10 @@ def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.ra
 
 
 def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
-    """Of a kind: KINDS, or "patches" with the closed forms and options of problems.py."""
+    """Of a kind: KINDS, "tubes", or "patches" with the closed forms and options of problems.py."""
+    if kind == "tubes":
+        yield from _tubes(count, seed)
+        return
     if kind != "patches":
         for patch, rng in patches(kind, count, seed):
             call = KINDS[kind](patch, rng)
@@ -33,6 +37,38 @@ def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
     for problem in [*problems.exact(seed, (300,)), *problems.patches(count, seed)]:
         if len(problem.vertices) <= USUAL:
             yield problem.name + problem.kind, _faired(problem), problem
+
+
+def _tubes(count: int, seed: int) -> Iterator[Call]:
+    """Pipes, elbows and S-bends in turns, of least variation, by the automatic choice, and as bridges."""
+    rng = np.random.default_rng(seed)
+    for number in range(count):
+        around, style = int(rng.integers(10, 17)), int(rng.integers(1000))
+        if number % 3 == 0:
+            lean = float(rng.uniform(-15.0, 15.0))
+            name, tube = "pipe", tubes.pipe(float(rng.uniform(2.0, 9.0)), lean, around=around, seed=style)
+        else:
+            make = (tubes.elbow, tubes.s_bend)[number % 3 - 1]
+            name = make.__name__
+            tube = make(float(rng.uniform(1.5, 4.0)), float(rng.uniform(30.0, 180.0 / (number % 3))), around=around,
+                        seed=style)  # fmt: skip
+        equation = ("least_variation", "automatic", "harmonic")[number // 3 % 3]
+        if number % 4 == 3:
+            yield f"bridge {name} {number}", _bridged(tube), None
+        else:
+            yield f"{equation} {name} {number}", _along(tube, equation), None
+
+
+def _along(tube: tubes.Tube, equation: str) -> Callable[[], Any]:
+    return lambda: tube.faired(equation=equation)
+
+
+def _bridged(tube: tubes.Tube) -> Callable[[], Any]:
+    normals = np.zeros_like(tube.vertices)
+    normals[tube.fixed] = tube.normals
+    loops = fairing.boundary_loops(tube.triangles)
+    none = np.zeros((0, 3), dtype=np.int64)
+    return lambda: fairing.fill(tube.vertices, none, loops, bridge=True, normals=normals, threads=1)
 
 
 def _faired(problem: problems.Problem) -> Callable[[], Any]:
@@ -61,6 +97,27 @@ def _within(patch: RealPatch, noise: float, rng: np.random.Generator, **options:
 def _filled(patch: RealPatch, _: np.random.Generator) -> Callable[[], Any]:
     loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
     return lambda: fairing.fill(patch.whole, patch.outside, loops, bridge=len(loops) > 1, threads=1)
+
+
+def _jagged(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    """With a boundary that hardly any surface meets."""
+    edge = np.linalg.norm(patch.vertices[patch.triangles[:, 0]] - patch.vertices[patch.triangles[:, 1]], axis=1).mean()
+    vertices, size = patch.vertices.copy(), (len(patch.fixed), 3)
+    vertices[patch.fixed] += rng.normal(scale=0.4 * edge, size=size)
+    normals = patch.normals + rng.normal(scale=0.6, size=size)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    return lambda: fairing.fair(vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals, threads=1)
+
+
+def _remeshed(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    spacing = float(rng.choice([0.0, 0.03, 0.06]))
+    return lambda: fairing.remesh(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, spacing=spacing, threads=1
+    )
+
+
+def _feathered(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    return _within(patch, 0.1, rng, detail=float(rng.choice([0.0, 1.0])), feather=0.15)
 
 
 def _pinned(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | None:
@@ -95,6 +152,9 @@ KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | 
     "fill": _filled,
     "pins": _pinned,
     "detail": _sampled,
+    "jagged": _jagged,
+    "remesh": _remeshed,
+    "feather": _feathered,
     "G2": lambda patch, rng: _within(patch, 0.0, rng, continuity="G2"),
     "mended": lambda patch, rng: _within(patch, 0.1, rng, outline="mended"),
     "least variation": lambda patch, _: _fair(patch, equation="least_variation"),
