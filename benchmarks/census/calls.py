@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 import fairing
+import joints
 import problems
 import real_meshes
 import tubes
+from joints import flat_arm
 from real_meshes import RealPatch
 
 Call = tuple[str, Callable[[], Any], Any]  # name, the call, the exact surface where one is known
@@ -40,23 +42,39 @@ def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
 
 
 def _tubes(count: int, seed: int) -> Iterator[Call]:
-    """Pipes, elbows and S-bends in turns, of least variation, by the automatic choice, and as bridges."""
+    """Pipes, elbows, S-bends and joints of three arms in turns; of three equations, or bridged."""
     rng = np.random.default_rng(seed)
+    makers = (_pipe, _elbow, _s_bend, _joint)
     for number in range(count):
-        around, style = int(rng.integers(10, 17)), int(rng.integers(1000))
-        if number % 3 == 0:
-            lean = float(rng.uniform(-15.0, 15.0))
-            name, tube = "pipe", tubes.pipe(float(rng.uniform(2.0, 9.0)), lean, around=around, seed=style)
+        make = makers[number % 4]
+        tube = make(rng)
+        equation = ("least_variation", "automatic", "harmonic")[number // 4 % 3]
+        if make is not _joint and number % 5 == 4:
+            yield f"bridge{make.__name__} {number}", _bridged(tube), None
         else:
-            make = (tubes.elbow, tubes.s_bend)[number % 3 - 1]
-            name = make.__name__
-            tube = make(float(rng.uniform(1.5, 4.0)), float(rng.uniform(30.0, 180.0 / (number % 3))), around=around,
-                        seed=style)  # fmt: skip
-        equation = ("least_variation", "automatic", "harmonic")[number // 3 % 3]
-        if number % 4 == 3:
-            yield f"bridge {name} {number}", _bridged(tube), None
-        else:
-            yield f"{equation} {name} {number}", _along(tube, equation), None
+            yield f"{equation}{make.__name__} {number}", _along(tube, equation), None
+
+
+def _style(rng: np.random.Generator) -> dict[str, int]:
+    return {"around": int(rng.integers(10, 17)), "seed": int(rng.integers(1000))}
+
+
+def _pipe(rng: np.random.Generator) -> tubes.Tube:
+    return tubes.pipe(float(rng.uniform(2.0, 9.0)), float(rng.uniform(-15.0, 15.0)), **_style(rng))
+
+
+def _elbow(rng: np.random.Generator) -> tubes.Tube:
+    return tubes.elbow(float(rng.uniform(1.5, 4.0)), float(rng.uniform(30.0, 180.0)), **_style(rng))
+
+
+def _s_bend(rng: np.random.Generator) -> tubes.Tube:
+    return tubes.s_bend(float(rng.uniform(1.5, 4.0)), float(rng.uniform(30.0, 90.0)), **_style(rng))
+
+
+def _joint(rng: np.random.Generator) -> tubes.Tube:
+    angles = np.array([0.0, 120.0, 240.0]) + rng.uniform(-30.0, 30.0, 3)
+    arms = [flat_arm(float(angle), float(rng.uniform(0.5, 1.0)), float(rng.uniform(2.5, 4.0))) for angle in angles]
+    return joints.joint(arms, seed=int(rng.integers(1000)))
 
 
 def _along(tube: tubes.Tube, equation: str) -> Callable[[], Any]:

@@ -17,6 +17,7 @@
 #include "start/best_fill.h"
 #include "start/membrane.h"
 #include "start/swept_start.h"
+#include "variation/inflate.h"
 #include "variation/lift.h"
 #include "variation/own_mesh.h"
 
@@ -53,12 +54,13 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
 }
 
-// A bulge that meets the outline's tangent planes.
+// A bulge that meets the outline's tangent planes, its collapsed tubes opened: arms that meet need it.
 Points start_of(const Problem& problem, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());
     const Problem uniform = with_slopes_of(given, membrane(given, work));
-    return best_fill(uniform, work, progress);
+    const Points fill = best_fill(uniform, work, progress.here());
+    return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
 
 // The interior needs the outline's resolution only where it bends.
