@@ -1,6 +1,7 @@
 #include "continuity/joined.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -58,11 +59,11 @@ std::optional<Solution> acceptable(const Problem& problem, const KnownCurvature&
 // does not settle: long waves do, and meet what is smooth of H as well.
 std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
                                        const Progress& progress) {
+    constexpr std::array vertices_per_wave{fastest_wave, 2 * fastest_wave, 4 * fastest_wave};
     std::optional<Solution> found;
-    for (int k = 0; k < 3 && !found; ++k) {
-        const double begin = 1.0 - std::ldexp(1.0, -k);
-        const int vertices_per_wave = fastest_wave << k;
-        found = acceptable(problem, known, tangent, vertices_per_wave, progress.range(begin, 0.5 * (1.0 + begin)));
+    for (std::size_t k = 0; k < vertices_per_wave.size() && !found; ++k) {
+        const double begin = 1.0 - std::pow(0.5, static_cast<double>(k));
+        found = acceptable(problem, known, tangent, vertices_per_wave[k], progress.range(begin, 0.5 * (1.0 + begin)));
     }
     return found;
 }

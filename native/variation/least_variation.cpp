@@ -48,6 +48,7 @@ constexpr std::array beginnings{Beginning{1.4, raised_damping}, Beginning{1.0, r
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
 constexpr Beginning near_beginning{1.8, 1e-2, 0.05};
+constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
     return {std::make_unique<BiharmonicOperator>(problem.patch),
@@ -83,7 +84,7 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
-        NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : 0.0, 0.05};
+        NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
         limits.settled = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
         if (std::abs(last->result.merit - merit) <= beginning.settled * merit || last->result.merit < tolerance) break;
@@ -91,7 +92,7 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
         merit = last->result.merit;
     }
     mesh.adapt(sizing);
-    NewtonLimits limits{tolerance, 30};
+    NewtonLimits limits{tolerance, 30, near_damping};
     limits.settled = enough_for_fine;
     return solve_on(mesh, problem, last, Measure::scale_free, limits, progress.range(0.8, 1.0));
 }
@@ -223,7 +224,7 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
                                      const Progress& progress) {
     // Bridges, elbows and S-bends end in 40 at most; where they don't, along wide bends, 300 end nowhere, too, in 12 s.
     constexpr int most_steps = 60;
-    const FineStart begin{.most_steps = most_steps};
+    const FineStart begin{.damping = near_damping, .most_steps = most_steps};
     Stopwatch watch;
     ProxyMesh mesh(problem.patch, near.points);
     SolvedSheet solved = near.roughly
