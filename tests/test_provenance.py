@@ -12,7 +12,7 @@ import pytest
 import fairing
 import shapes
 import tubes
-from test_eased import rough_cap
+from test_low_passed import rough_cap
 from test_otherwise import wing
 
 Case = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]  # vertices, triangles, fixed, normals

@@ -16,7 +16,7 @@ from .feather import naming_the_band
 from .findings import Origin
 from .options import FairOptions
 from .region import Patch, nothing
-from .words import in_mesh_words
+from .sentences import in_mesh_words
 
 Progress = Callable[[float, str], "bool | None"]
 

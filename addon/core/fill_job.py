@@ -26,8 +26,8 @@ from .parted import parted, stars_of
 from .passes import numbered_by_pass
 from .quality import join_at
 from .region import MeshArrays, nothing, to_local
+from .sentences import in_mesh_words, sentences
 from .verdict import UNUSABLE, Verdict
-from .words import in_mesh_words, sentences
 
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"

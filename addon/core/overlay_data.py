@@ -11,7 +11,7 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .findings import Origin
 from .region import MeshArrays
-from .words import in_mesh_words
+from .sentences import in_mesh_words
 
 RINGS = 2  # around what is shown, so that its border is measured from both sides
 

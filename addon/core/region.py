@@ -11,8 +11,8 @@ import fairing
 
 from .arrays import Floats, Ints, Mask
 from .findings import Finding, Origin
+from .sentences import refusal
 from .triangulation import split_quads, zigzag
-from .words import refusal
 
 
 @dataclass(frozen=True)

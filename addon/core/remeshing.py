@@ -22,11 +22,11 @@ from .piercing import Sheet, pierced, places
 from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
+from .sentences import in_mesh_words
 from .solve import pose, reported_by
 from .subdivided import Subdivided, with_subdivided_patch
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
-from .words import in_mesh_words
 
 MOST_SQUEEZED = 0.25  # of the old length of an edge that stays: below, it counts as squeezed,
 LEAST_SQUEEZED = 4  # where so many are

@@ -19,8 +19,8 @@ from .options import CONTINUITIES
 from .outline import two_sided_edges
 from .region import MeshArrays, nothing, to_local
 from .rounded_part import rounded_part
+from .sentences import in_mesh_words, sentences
 from .verdict import GOOD, LOOK, UNUSABLE, Verdict
-from .words import in_mesh_words, sentences
 
 LEAST_WEIGHT = 0.01  # of a vertex group: a fillet needs a width
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")

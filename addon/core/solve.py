@@ -20,8 +20,8 @@ from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
 from .region import MeshArrays, make_patch, nothing
+from .sentences import sentences
 from .winding import winding_note, with_one_winding
-from .words import sentences
 
 NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
 HINTS = ("SHARP_BOUNDARY",)  # codes that explain a bad result, and nothing where it is good

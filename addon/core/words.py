@@ -1,20 +1,8 @@
-"""The engine's errors and warnings as sentences for a person in front of a mesh. Plain Python, no bpy.
-
-The engine reports a code, elements and figures; every sentence is made here. Codes and the engine's own
-numbers, those of the patch and its triangles, don't show.
-"""
+"""The words for the engine's errors and warnings, by code and case. Plain Python, no bpy."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-
-import numpy as np
-
-import fairing
-
-from .findings import Finding, Origin, found
+from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
@@ -29,9 +17,7 @@ class Words:
     when: str = ""  # the figure that only this case has; the last case of a code has none
 
 
-_DOUBLED = (
-    "The new surface doubles back onto faces that stick out into the boundary: delete these first, or select them"
-)
+DOUBLED = "The new surface doubles back onto faces that stick out into the boundary: delete these first, or select them"
 _CROSSING_WIRES = (
     "Edges that were drawn across the hole cross each other, or enclose a place of their own, at vertex {first}: give "
     "them a common vertex, or delete some"
@@ -59,7 +45,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "INDEX_RANGE": (Words("A face has a corner that does not exist: the mesh is damaged"),),
     "NONMANIFOLD_EDGE": (
         Words("Two faces lie on the same vertices at the edge {ends}: delete one of them", when="doubled_triangles"),
-        Words(_DOUBLED, when="doubles"),
+        Words(DOUBLED, when="doubles"),
         Words(_CROSSING_WIRES, when="wires"),
         Words("More than two faces meet at the edge {ends}: delete the extra ones, or pin both ends"),
     ),
@@ -352,78 +338,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
 }
 
-# Of several islands: the figures of which the largest stands for all. Others are added.
-_LARGEST = ("degrees", "load_share", "spacing", "edge", "distance", "largest_coordinate")
-
-
-class MeshRefusal(fairing.MeshError):
-    """A mesh that can't be faired. Reads as a sentence; `elements` are vertices of the mesh."""
-
-    def __str__(self) -> str:
-        return self.diagnostic.message
-
 
 def counted(count: int, one: str, many: str) -> str:
     """Return the number with the phrase that goes with it."""
     return f"{count} {one if count == 1 else many}"
-
-
-def doubled(vertices: Sequence[int]) -> MeshRefusal:
-    """Return the exception for a new face with the corners of one that stays."""
-    return MeshRefusal(fairing.Diagnostic("NONMANIFOLD_EDGE", _DOUBLED, np.asarray(vertices, np.int32), "vertex"))
-
-
-def refusal(finding: Finding) -> MeshRefusal:
-    """Return the exception for a finding."""
-    text = _sentence([finding])
-    vertices = finding.vertices.astype(np.int32)
-    return MeshRefusal(fairing.Diagnostic(finding.code, text, vertices, "vertex", finding.figures))
-
-
-@contextmanager
-def in_mesh_words(origin: Origin) -> Iterator[None]:
-    """Let the engine's MeshErrors speak of the mesh."""
-    try:
-        yield
-    except fairing.MeshError as error:
-        raise refusal(found(error.diagnostic, origin)) from error
-
-
-def sentences(warnings: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
-    """Return one sentence for each kind of warning, however many islands have it, in the order of their first."""
-    alike: dict[Words, list[Finding]] = {}
-    for warning in warnings:
-        finding = found(warning, origin)
-        if finding.code == "NOT_CONVERGED" and "folds" in finding.figures:
-            continue  # FOLDED names the faces
-        alike.setdefault(_case(finding), []).append(finding)
-    return tuple(_sentence(findings) for findings in alike.values())
-
-
-def _case(finding: Finding) -> Words:
-    return next(words for words in WORDS[finding.code] if not words.when or words.when in finding.figures)
-
-
-def _sentence(findings: Sequence[Finding]) -> str:
-    """Return the sentence for findings of one case, each of an island of its own."""
-    words, islands, whole = _case(findings[0]), len(findings), _pooled(findings)
-    names_islands = "{islands}" in words.many
-    template = words.many if words.many and (islands if names_islands else whole.count) != 1 else words.one
-    ends = whole.named[:2].tolist()
-    fields = {"n": whole.count, "islands": islands, "first": ends[0] if ends else "", "ends": "–".join(map(str, ends))}
-    text = template.format(**{**whole.figures, **fields})  # figures may have such names
-    return text if islands == 1 or names_islands else f"{text} ({islands} islands)"
-
-
-def _pooled(findings: Sequence[Finding]) -> Finding:
-    names = dict.fromkeys(name for finding in findings for name in finding.figures)
-    figures = {
-        name: (max if name in _LARGEST else sum)(finding.figures.get(name, 0.0) for finding in findings)
-        for name in names
-    }
-    return replace(
-        findings[0],
-        figures=figures,
-        named=np.concatenate([finding.named for finding in findings]),
-        faces=np.unique(np.concatenate([finding.faces for finding in findings])),
-    )

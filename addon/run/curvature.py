@@ -9,7 +9,7 @@ import fairing
 
 from ..core.findings import Origin
 from ..core.options import FairOptions
-from ..core.words import in_mesh_words
+from ..core.sentences import in_mesh_words
 from ..host.context import active_object
 from ..host.polling import require
 from ..mesh import mesh_io

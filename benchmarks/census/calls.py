@@ -8,12 +8,15 @@ from typing import Any
 import numpy as np
 
 import fairing
+import joints
 import problems
 import real_meshes
+import tubes
+from joints import flat_arm
 from real_meshes import RealPatch
 
 Call = tuple[str, Callable[[], Any], Any]  # name, the call, the exact surface where one is known
-LARGEST = {"fill": 700, "least variation": 300, "paper": 900}  # vertices of a patch; of other kinds:
+LARGEST = {"fill": 700, "remesh": 700, "least variation": 300, "paper": 900}  # vertices of a patch; of other kinds:
 USUAL = 1000
 
 
@@ -23,7 +26,10 @@ def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.ra
 
 
 def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
-    """Of a kind: KINDS, or "patches" with the closed forms and options of problems.py."""
+    """Of a kind: KINDS, "tubes", or "patches" with the closed forms and options of problems.py."""
+    if kind == "tubes":
+        yield from _tubes(count, seed)
+        return
     if kind != "patches":
         for patch, rng in patches(kind, count, seed):
             call = KINDS[kind](patch, rng)
@@ -33,6 +39,54 @@ def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
     for problem in [*problems.exact(seed, (300,)), *problems.patches(count, seed)]:
         if len(problem.vertices) <= USUAL:
             yield problem.name + problem.kind, _faired(problem), problem
+
+
+def _tubes(count: int, seed: int) -> Iterator[Call]:
+    """Pipes, elbows, S-bends and joints of three arms in turns; of three equations, or bridged."""
+    rng = np.random.default_rng(seed)
+    makers = (_pipe, _elbow, _s_bend, _joint)
+    for number in range(count):
+        make = makers[number % 4]
+        tube = make(rng)
+        equation = ("least_variation", "automatic", "harmonic")[number // 4 % 3]
+        if make is not _joint and number % 5 == 4:
+            yield f"bridge{make.__name__} {number}", _bridged(tube), None
+        else:
+            yield f"{equation}{make.__name__} {number}", _along(tube, equation), None
+
+
+def _style(rng: np.random.Generator) -> dict[str, int]:
+    return {"around": int(rng.integers(10, 17)), "seed": int(rng.integers(1000))}
+
+
+def _pipe(rng: np.random.Generator) -> tubes.Tube:
+    return tubes.pipe(float(rng.uniform(2.0, 9.0)), float(rng.uniform(-15.0, 15.0)), **_style(rng))
+
+
+def _elbow(rng: np.random.Generator) -> tubes.Tube:
+    return tubes.elbow(float(rng.uniform(1.5, 4.0)), float(rng.uniform(30.0, 180.0)), **_style(rng))
+
+
+def _s_bend(rng: np.random.Generator) -> tubes.Tube:
+    return tubes.s_bend(float(rng.uniform(1.5, 4.0)), float(rng.uniform(30.0, 90.0)), **_style(rng))
+
+
+def _joint(rng: np.random.Generator) -> tubes.Tube:
+    angles = np.array([0.0, 120.0, 240.0]) + rng.uniform(-30.0, 30.0, 3)
+    arms = [flat_arm(float(angle), float(rng.uniform(0.5, 1.0)), float(rng.uniform(2.5, 4.0))) for angle in angles]
+    return joints.joint(arms, seed=int(rng.integers(1000)))
+
+
+def _along(tube: tubes.Tube, equation: str) -> Callable[[], Any]:
+    return lambda: tube.faired(equation=equation)
+
+
+def _bridged(tube: tubes.Tube) -> Callable[[], Any]:
+    normals = np.zeros_like(tube.vertices)
+    normals[tube.fixed] = tube.normals
+    loops = fairing.boundary_loops(tube.triangles)
+    none = np.zeros((0, 3), dtype=np.int64)
+    return lambda: fairing.fill(tube.vertices, none, loops, bridge=True, normals=normals, threads=1)
 
 
 def _faired(problem: problems.Problem) -> Callable[[], Any]:
@@ -61,6 +115,27 @@ def _within(patch: RealPatch, noise: float, rng: np.random.Generator, **options:
 def _filled(patch: RealPatch, _: np.random.Generator) -> Callable[[], Any]:
     loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
     return lambda: fairing.fill(patch.whole, patch.outside, loops, bridge=len(loops) > 1, threads=1)
+
+
+def _jagged(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    """With a boundary that hardly any surface meets."""
+    edge = np.linalg.norm(patch.vertices[patch.triangles[:, 0]] - patch.vertices[patch.triangles[:, 1]], axis=1).mean()
+    vertices, size = patch.vertices.copy(), (len(patch.fixed), 3)
+    vertices[patch.fixed] += rng.normal(scale=0.4 * edge, size=size)
+    normals = patch.normals + rng.normal(scale=0.6, size=size)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    return lambda: fairing.fair(vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals, threads=1)
+
+
+def _remeshed(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    spacing = float(rng.choice([0.0, 0.03, 0.06]))
+    return lambda: fairing.remesh(
+        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, spacing=spacing, threads=1
+    )
+
+
+def _feathered(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    return _within(patch, 0.1, rng, detail=float(rng.choice([0.0, 1.0])), feather=0.15)
 
 
 def _pinned(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | None:
@@ -95,6 +170,9 @@ KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | 
     "fill": _filled,
     "pins": _pinned,
     "detail": _sampled,
+    "jagged": _jagged,
+    "remesh": _remeshed,
+    "feather": _feathered,
     "G2": lambda patch, rng: _within(patch, 0.0, rng, continuity="G2"),
     "mended": lambda patch, rng: _within(patch, 0.1, rng, outline="mended"),
     "least variation": lambda patch, _: _fair(patch, equation="least_variation"),

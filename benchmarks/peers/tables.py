@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 import tools
 from measured import Measured, Row
 from problems import CAPS
-from tools import CONFORMAL, LIBIGL, OURS, SMOOTHING_STEPS
+from tools import OURS, SMOOTHING_STEPS
 
 
 def _table(head: list[str], rows: Iterable[list[str]]) -> str:
@@ -57,30 +57,6 @@ def memory(done: Measured) -> str:
     names = [name for name in tools.BY_NAME if any((name, size) in cells for size in sizes)]
     rows = [[name, *(cells.get((name, size), "–") for size in sizes)] for name in names]
     return _table(["peak memory above the input, MB", *(f"{size:,}" for size in sizes)], rows)
-
-
-Cell = tuple[str, Callable[[Row], str]]
-COLUMNS: list[Cell] = [
-    ("error / D", lambda row: f"{row['error']:.1e}"),
-    ("from the right surface", lambda row: f"{row['error_from_right']:.1e}"),
-    ("between two meshes / D", lambda row: f"{row['between']:.1e}"),
-    ("boundary angle", lambda row: f"{row['angle']:.2g}°"),
-    ("distortion: median, 95 %", lambda row: f"{row['distortion']:.2f}, {row['worst']:.2f}"),
-]
-
-
-JUDGED = ("hemisphere", "catenoid", "three-cylinder blend")
-SHOWN = (OURS, CONFORMAL, LIBIGL)  # the other linear tools' answers are nearly libigl's
-
-
-def quality(done: Measured) -> str:
-    """A block of rows for each of some shapes."""
-    rows = []
-    for shape in JUDGED:
-        for row in (row for row in done.quality if row["shape"] == shape and row["tool"] in SHOWN):
-            cells = [text(row).replace("nan", "–") for _, text in COLUMNS]
-            rows.append([f"{shape}: {row['tool']}", *cells])
-    return _table(["patch: tool", *(name for name, _ in COLUMNS)], rows)
 
 
 def errors(done: Measured) -> str:
@@ -157,12 +133,12 @@ def steps(_: Measured) -> str:
 
 
 def quality_size(done: Measured) -> str:
-    """Free vertices wanted in the quality table."""
+    """Free vertices wanted in the table of errors."""
     return f"{min(row['size'] for row in done.times):,}"
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
     "machine": machine, "times": times,
     "graded": graded, "real": real, "irregular": irregular, "memory": memory, "repeated": repeated,
-    "quality": quality, "errors": errors, "quality_size": quality_size, "steps": steps,
+    "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip

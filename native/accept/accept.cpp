@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
+#include "geometry/limits.h"
 #include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
 #include "mesh/corners.h"
@@ -23,8 +24,8 @@ namespace {
 
 // More than a line has that is as broad as the iteration is accurate, both sides of it covered twice: folds do so.
 bool has_area(const Problem& problem, const Points& points) {
-    constexpr double usual_tolerance = 1e-6;  // looser ones are no reason to refuse narrow patches
-    const double least_area = 4.0 * std::min(problem.options.tolerance, usual_tolerance);  // D²
+    // Looser tolerances than the default are no reason to refuse narrow patches.
+    const double least_area = 4.0 * std::min(problem.options.tolerance, SolverOptions{}.tolerance);  // D²
     return total_area(points, problem.patch.triangles) > std::max(least_area, 1e-9);
 }
 
@@ -139,7 +140,6 @@ Difference difference_from(const SolvedSurface& surface, const Solution& own) {
 }  // namespace
 
 double share_of_poor_triangles(const Patch& patch, const Points& points) {
-    constexpr double poor_shape = 0.25;  // a right triangle of 7 : 1
     const double poor = sum_over_ranges(patch.triangle_count(), coarse_grain, [&](int begin, int end) {
         int count = 0;
         for (int t = begin; t < end; ++t) {
@@ -196,10 +196,9 @@ bool is_final(const Problem& problem, const Solution& solution) {
 
 bool agree(const Problem& problem, const Solution& own, const SolvedSurface& surface) {
     constexpr double farthest = 2e-4;        // units of D
-    constexpr double edge_share = 1.0;       // of the proxy's edges
     constexpr double curvature_share = 0.1;  // of the largest |H|, or of 1/D where that is less
     const Difference found = difference_from(surface, own);
-    if (found.distance <= edge_share * surface.edge && is_finer(problem.patch, own.points, surface.edge)) return true;
+    if (found.distance <= surface.edge && is_finer(problem.patch, own.points, surface.edge)) return true;
     if (found.distance > farthest) return false;
     return found.curvature < curvature_share * std::max(1.0, surface.mean_curvature.cwiseAbs().maxCoeff());
 }

@@ -31,9 +31,6 @@ constexpr int largest_warm = 50000;
 // Moves can't be told from rounding below: an iteration that waits for less ends by luck or not at all.
 constexpr double least_tolerance = 1e-15;
 
-// Of the time, where the curvature is met, too.
-constexpr double share_of_tangent = 0.5;
-
 FairOptions reachable(FairOptions options) {
     options.solver.tolerance = std::max(options.solver.tolerance, least_tolerance);
     return options;
@@ -225,11 +222,11 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     problem.tolerated_folds = tolerated_folds();
     const bool joins = problem.fixed_curvatures.size() > 0;
     const std::optional<NearStart> start = given_start(answer, data);
-    Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, share_of_tangent) : progress);
+    Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, 0.5) : progress);
     if (solution.uniform_weights) warn_of_even_weights(answer.warnings);
     solution = with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
     if (!joins) return solution;
-    return joined(problem, std::move(solution), progress.range(share_of_tangent, 1.0));
+    return joined(problem, std::move(solution), progress.range(0.5, 1.0));
 }
 
 Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,

@@ -10,7 +10,7 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "boundary/surrounding_fit.h"
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 #include "fill/first_surface.h"
 #include "mesh/pieces.h"
 
@@ -186,10 +186,10 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
         const KeptEdges staying = edges_among(patch, pairs);
         const TargetSurface surface(patch, old.points, old.normals, staying);
         const VectorX lengths = old.lengths(wanted, staying);
-        EqualEdgeMesh even(patch, old.points, surface, lengths, staying);
-        even.make_even();
-        if (!wanted.flat) even.mend_angles();
-        const EqualEdgeMesh::Result made = even.result();
+        EqualEdgeMesh equal(patch, old.points, surface, lengths, staying);
+        equal.equalise();
+        if (!wanted.flat) equal.repair_angles();
+        const EqualEdgeMesh::Result made = equal.result();
         assembly.add(made.triangles, old.unit.from_unit(made.points), fixed_vertices(patch));
         for (const SurfacePoint& where : made.where) {
             result.triangle.push_back(patch.input_triangle[where.triangle]);

@@ -42,7 +42,7 @@ using Wanted = std::tuple<double, int, bool, bool>;
 
 WantedLengths to_lengths(const Wanted& wanted) {
     const auto& [spacing, least_count, even, flat] = wanted;
-    return {spacing, least_count, even ? Spread::even : Spread::outline, flat};
+    return {spacing, least_count, even ? Spread::equal : Spread::outline, flat};
 }
 
 MeshInput to_input(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed,

@@ -1,5 +1,6 @@
 #include "continuity/join_operator.h"
 
+#include "linear/conjugate_gradients.h"
 #include "linear/gmres.h"
 
 namespace fairing {
@@ -8,7 +9,6 @@ namespace {
 
 // With 0.02 patches of 30k vertices need nine iterations instead of five, with a tenth of it none less.
 constexpr double relative_tolerance = 0.004;
-constexpr int most_steps = 40;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ JoinOperator::Step JoinOperator::solve(const VectorX& residual, const VectorX& m
     rhs << -outline_.approximate_inverse(turned(inner).transpose()).transpose(), modes_.projected(missing);
     const VectorX unknowns =
         gmres([&](const VectorX& v) { return applied(v); }, [&](const VectorX& v) { return preconditioned(v); }, rhs,
-              relative_tolerance, most_steps);
+              relative_tolerance, most_cycles);
     Step step{{}, unknowns.tail(modes_.count())};
     const VectorX change = unknowns.head(fixed_mass_.size());
     const VectorX source =

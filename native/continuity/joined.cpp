@@ -36,10 +36,9 @@ double relative_size(const KnownCurvature& known, const VectorX& missing) {
     return missing.norm() / (scale * std::sqrt(count));
 }
 
-// Its waves of twelve vertices and more. Of white noise they are a sixth.
+// Its waves of twelve vertices and more: half as fast as the fastest ones. Of white noise they are a sixth.
 VectorX smooth_part(const Problem& problem, const KnownCurvature& known, const VectorX& missing) {
-    constexpr int vertices_per_wave = 12;
-    const OutlineModes modes(known.curves, problem.fixed_points, vertices_per_wave);
+    const OutlineModes modes(known.curves, problem.fixed_points, 2 * fastest_wave);
     return modes.combined(modes.projected(missing));
 }
 
@@ -60,7 +59,7 @@ std::optional<Solution> acceptable(const Problem& problem, const KnownCurvature&
 // does not settle: long waves do, and meet what is smooth of H as well.
 std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
                                        const Progress& progress) {
-    constexpr std::array vertices_per_wave{6, 12, 24};
+    constexpr std::array vertices_per_wave{fastest_wave, 2 * fastest_wave, 4 * fastest_wave};
     std::optional<Solution> found;
     for (std::size_t k = 0; k < vertices_per_wave.size() && !found; ++k) {
         const double begin = 1.0 - std::pow(0.5, static_cast<double>(k));

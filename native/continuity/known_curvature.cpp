@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "geometry/angle.h"
+#include "geometry/limits.h"
 
 namespace fairing {
 
 namespace {
 
 constexpr std::size_t widest_bridge = 3;
-constexpr std::size_t shortest_arc = 6;
 
 // A loop, turned so that it begins with a known vertex after an unknown one, if it has both.
 Indices from_first_arc(Indices places, const VectorX& curvatures) {
@@ -50,23 +50,21 @@ void split(const Indices& loop, const VectorX& curvatures, std::vector<OutlineCu
     }
     for (auto first = loop.begin(); first != loop.end();) {
         const auto last = std::find_if_not(first, loop.end(), is_known);
-        if (last - first >= static_cast<std::ptrdiff_t>(shortest_arc))
-            curves.push_back({Indices(first, last), false, {}});
+        if (last - first >= fastest_wave) curves.push_back({Indices(first, last), false, {}});
         first = std::find_if(last, loop.end(), is_known);
     }
 }
 
 std::vector<char> corners_of(const Patch& patch, const Points& points) {
-    constexpr double widest = 120.0;  // degrees
     VectorX filled = VectorX::Zero(patch.vertex_count());
     for (const auto t : patch.triangles.colwise()) {
         for (int k = 0; k < 3; ++k) {
             const Vector3 here = points.col(t[k]);
-            filled[t[k]] += degrees_between(points.col(t[(k + 1) % 3]) - here, points.col(t[(k + 2) % 3]) - here);
+            filled[t[k]] += radians_between(points.col(t[(k + 1) % 3]) - here, points.col(t[(k + 2) % 3]) - here);
         }
     }
     std::vector<char> corner;
-    for (int v = patch.free_count; v < patch.vertex_count(); ++v) corner.push_back(filled[v] < widest);
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) corner.push_back(filled[v] < widest_corner);
     return corner;
 }
 

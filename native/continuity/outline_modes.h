@@ -15,13 +15,17 @@ struct OutlineCurve {
 // Values (of the fixed vertices) at the places of a curve, interpolated at those that are skipped. Where all are, zero.
 VectorX values_along(const OutlineCurve& curve, const VectorX& values);
 
-// Waves along the boundary, no faster than one in six vertices: faster ones change the curvature that is measured at
-// the boundary in a way that depends on the mesh. Closed curves have sines and cosines, open ones sines that vanish
+// Vertices of the fastest wave along a boundary: faster ones change the curvature that is measured there in a way that
+// depends on the mesh. Shorter arcs have none.
+inline constexpr int fastest_wave = 6;
+
+// Waves along the boundary. Closed curves have sines and cosines, open ones sines that vanish
 // beyond their ends. Crowded vertices have shorter waves.
 class OutlineModes {
 public:
     // `fixed_points`: 3 × fixed vertices. The fastest wave has so many vertices.
-    OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points, int vertices_per_wave = 6);
+    OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points,
+                 int vertices_per_wave = fastest_wave);
 
     [[nodiscard]] Eigen::Index count() const { return count_; }
     // U c, zero off the curves. The columns of U are nearly orthonormal.

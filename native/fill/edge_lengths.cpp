@@ -13,8 +13,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double even_growth = 0.5;   // of lengths by distance
-constexpr double steep_growth = 1.0;  // where the outline is so coarse that an even one gives too few vertices
+constexpr double usual_growth = 0.5;  // of lengths by distance
+constexpr double steep_growth = 1.0;  // where the outline is so coarse that the usual one gives too few vertices
 // Beside an edge of any length the wanted one is reached at half of the edge: where the next vertex is as near.
 constexpr double steepest_growth = 2.0;
 
@@ -108,7 +108,7 @@ VectorX graded(const Patch& patch, const Points& points, double growth, const Ve
 double enough_growth(const Patch& patch, const Points& points, const VectorX& border, const VectorX& inside) {
     constexpr double most = 0.5;  // of the vertices
     const double count = expected_count(patch, points, inside);
-    for (const double growth : {even_growth, steep_growth}) {
+    for (const double growth : {usual_growth, steep_growth}) {
         if (expected_count(patch, points, graded(patch, points, growth, border, inside)) >= most * count) return growth;
     }
     return steepest_growth;

@@ -9,7 +9,7 @@ namespace fairing {
 inline constexpr double vertices_per_square = 1.1547;
 
 // In proportion to the outline's own edges, harmonic in between, or the same everywhere.
-enum class Spread { outline, even };
+enum class Spread { outline, equal };
 
 struct WantedLengths {
     double spacing = 0.0;  // of an edge in the mean of the outline's; 0: as these are

@@ -9,7 +9,7 @@
 #include "accept/accept.h"
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 #include "fill/joined_loops.h"
 #include "fill/limits.h"
 #include "fill/tube_start.h"
@@ -26,7 +26,7 @@ namespace fairing {
 namespace {
 
 constexpr Sizing sizing{0.5, 0.06, 20000};  // units of D
-constexpr double even_count = 400.0;        // vertices of an even mesh, about, where the outline is no finer
+constexpr double first_count = 400.0;       // vertices of a mesh of equal edges, about, where the outline is no finer
 
 Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count) {
     PatchMembers members;
@@ -127,20 +127,20 @@ Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverO
     return {patch, outline.points, outline.normals, uniform_weights(patch), options};
 }
 
-VectorX even_lengths(const Patch& patch, const Points& points) {
+VectorX equal_lengths(const Patch& patch, const Points& points) {
     FaceGeometry faces;
     faces.update(points, patch.triangles);
     return edge_lengths(patch, points,
-                        {std::sqrt(vertices_per_square * faces.areas.sum() / even_count), 0, Spread::even});
+                        {std::sqrt(vertices_per_square * faces.areas.sum() / first_count), 0, Spread::equal});
 }
 
 bool has_converged(const FirstSurface& surface) { return end_of(surface.solution) == Termination::converged; }
 
 // Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.
-bool is_even(const FirstSurface& surface) {
+bool has_equal_edges(const FirstSurface& surface) {
     constexpr double longest = 3.0;  // of the wanted length; 2.4 on a hemisphere
     const Points& points = surface.solution.points;
-    const VectorX lengths = even_lengths(surface.patch, points);
+    const VectorX lengths = equal_lengths(surface.patch, points);
     return std::all_of(surface.patch.edge_ends.begin(), surface.patch.edge_ends.end(), [&](const auto& ends) {
         const auto [a, b] = ends;
         return 2.0 * (points.col(a) - points.col(b)).norm() <= longest * (lengths[a] + lengths[b]);
@@ -151,39 +151,40 @@ bool is_even(const FirstSurface& surface) {
 bool has_blown_up(const FirstSurface& surface) {
     constexpr double most_per_fixed = 10.0;
     const Points& points = surface.solution.points;
-    const double count = expected_count(surface.patch, points, even_lengths(surface.patch, points));
+    const double count = expected_count(surface.patch, points, equal_lengths(surface.patch, points));
     const int fixed_count = surface.patch.vertex_count() - surface.patch.free_count;
-    return !(count < most_per_fixed * (even_count + fixed_count));
+    return !(count < most_per_fixed * (first_count + fixed_count));
 }
 
 // A mesh of some 400 vertices on the surface found, or more where the outline is fine.
-Meshed even_mesh(const OpenOutline& outline, const Patch& patch, const Points& points, const SolverOptions& options) {
+Meshed with_equal_edges(const OpenOutline& outline, const Patch& patch, const Points& points,
+                        const SolverOptions& options) {
     const SurfaceState state = measured_surface(problem_on(outline, patch, options), points);
     const TargetSurface surface(patch, points, state.normals);
-    const VectorX lengths = even_lengths(patch, points);
+    const VectorX lengths = equal_lengths(patch, points);
     EqualEdgeMesh mesh(patch, points, surface, lengths);
-    mesh.make_even();
+    mesh.equalise();
     return meshed(mesh, outline.points);
 }
 
-std::optional<FirstSurface> near(const OpenOutline& outline, Meshed& even, const SolverOptions& options,
+std::optional<FirstSurface> near(const OpenOutline& outline, Meshed& equal, const SolverOptions& options,
                                  const Progress& progress) {
     std::optional<Solution> solution =
-        solve_near(problem_on(outline, even.patch, options), {even.points, true}, progress);
+        solve_near(problem_on(outline, equal.patch, options), {equal.points, true}, progress);
     if (!solution) return std::nullopt;
-    return FirstSurface{std::move(even.patch), std::move(*solution)};
+    return FirstSurface{std::move(equal.patch), std::move(*solution)};
 }
 
 FirstSurface on_equal_edges(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
                             const Progress& progress) {
-    Meshed even = even_mesh(outline, last.patch, last.solution.points, options);
-    std::optional<FirstSurface> found = near(outline, even, options, progress.range(0.0, 0.3));
+    Meshed equal = with_equal_edges(outline, last.patch, last.solution.points, options);
+    std::optional<FirstSurface> found = near(outline, equal, options, progress.range(0.0, 0.3));
     if (found) return std::move(*found);
-    Problem problem = problem_on(outline, even.patch, options);
+    Problem problem = problem_on(outline, equal.patch, options);
     // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
     if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
     Solution solution = solve(problem, 0.0, progress.range(0.3, 1.0));
-    return {std::move(even.patch), std::move(solution)};
+    return {std::move(equal.patch), std::move(solution)};
 }
 
 // Where the surface bulges out so far that it is found from a ball only.
@@ -192,8 +193,8 @@ std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& 
     if (options.equation == Equation::minimal) return std::nullopt;
     const std::optional<Points> ball = ball_start(flat.patch, flat.points, outline.normals);
     if (!ball) return std::nullopt;
-    Meshed even = even_mesh(outline, flat.patch, *ball, options);
-    return near(outline, even, options, progress);
+    Meshed equal = with_equal_edges(outline, flat.patch, *ball, options);
+    return near(outline, equal, options, progress);
 }
 
 Meshed tube_mesh(const OpenOutline& outline, const SweptTube& swept, const SolverOptions& options) {
@@ -202,7 +203,7 @@ Meshed tube_mesh(const OpenOutline& outline, const SweptTube& swept, const Solve
     Points points(3, added + outline.points.cols());
     points << tube.points, outline.points;
     const Patch patch = made_patch(static_cast<int>(added), std::move(tube.triangles), points.cols());
-    return even_mesh(outline, patch, points, options);
+    return with_equal_edges(outline, patch, points, options);
 }
 
 bool may_be_replaced(const SolverOptions& options) {
@@ -217,16 +218,16 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
                                       const Progress& progress) {
     const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals);
     if (!swept) return std::nullopt;
-    Meshed even = tube_mesh(outline, *swept, options);
-    const Problem problem = problem_on(outline, even.patch, options);
+    Meshed equal = tube_mesh(outline, *swept, options);
+    const Problem problem = problem_on(outline, equal.patch, options);
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
-        solution = solve_near(problem, {even.points, true}, progress.range(0.0, 0.3));
+        solution = solve_near(problem, {equal.points, true}, progress.range(0.0, 0.3));
     if (!solution && options.equation != Equation::minimal)
-        solution = solve_stand_in_roughly(problem, even.points, progress.range(0.3, 1.0));
+        solution = solve_stand_in_roughly(problem, equal.points, progress.range(0.3, 1.0));
     if (!solution && swept->turn() > wide_bend && may_be_replaced(options)) solution = lofted(problem, progress.here());
     if (!solution) return std::nullopt;
-    return FirstSurface{std::move(even.patch), std::move(*solution)};
+    return FirstSurface{std::move(equal.patch), std::move(*solution)};
 }
 
 // From a coarse and flat mesh.
@@ -244,7 +245,7 @@ FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, co
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
         if (!converged && (round > 0 || has_blown_up(result))) break;
-        if (converged && result.solution.flaw == Flaw::absent && is_even(result)) break;
+        if (converged && result.solution.flaw == Flaw::absent && has_equal_edges(result)) break;
         if (converged && stands_in(result.solution.provenance)) break;  // solved on a mesh of its own
         const double begin = 0.4 + 0.15 * round;
         FirstSurface next = on_equal_edges(outline, result, options, progress.range(begin, begin + 0.15));
@@ -258,9 +259,9 @@ FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, co
 FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options, FirstSurface last,
                        const Progress& progress) {
     if (const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals)) {
-        Meshed even = tube_mesh(outline, *swept, options);
-        if (auto loft = lofted(problem_on(outline, even.patch, options), progress))
-            return {std::move(even.patch), std::move(*loft)};
+        Meshed equal = tube_mesh(outline, *swept, options);
+        if (auto loft = lofted(problem_on(outline, equal.patch, options), progress))
+            return {std::move(equal.patch), std::move(*loft)};
     }
     if (auto loft = lofted(problem_on(outline, last.patch, options), progress)) last.solution = std::move(*loft);
     return last;
@@ -269,23 +270,22 @@ FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options,
 }  // namespace
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& asked, const Progress& progress) {
-    constexpr double usual = 0.6;  // share of the progress
     SolverOptions options = asked;
     if (asked.equation == Equation::automatic)
         options.equation = automatic_equation(outline.loops, outline.points, outline.normals);
-    FirstSurface result = sought(outline, options, progress.range(0.0, usual));
+    FirstSurface result = sought(outline, options, progress.range(0.0, 0.6));
     if (has_converged(result) || !may_be_replaced(options) || outline.loops.size() < 2) return result;
     // What a solve in vain leaves is no start for the surface of least variation, whose own descents may be.
     SolverOptions other = options;
     other.equation = Equation::least_variation;
-    FirstSurface even = sought(outline, other, progress.range(usual, 1.0));
-    if (!has_converged(even)) {
+    FirstSurface least_varying = sought(outline, other, progress.range(0.6, 1.0));
+    if (!has_converged(least_varying)) {
         FirstSurface loft = with_loft(outline, options, std::move(result), progress.here());
         if (has_converged(loft)) return loft;
         // Where none does, a finer mesh may still end where this one did not.
     }
-    even.solution.provenance = Provenance::least_variation;  // the equation asked for is another
-    return even;
+    least_varying.solution.provenance = Provenance::least_variation;  // the equation asked for is another
+    return least_varying;
 }
 
 }  // namespace fairing

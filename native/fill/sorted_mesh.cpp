@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 #include "mesh/renumbered.h"
 
 namespace fairing {

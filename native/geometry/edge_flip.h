@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/cotangent.h"
+#include "geometry/limits.h"
 
 namespace fairing {
 
@@ -19,9 +20,8 @@ struct Diagonal {
 
     // A flip may not bend the mesh by more than 60°, or further than it is bent.
     [[nodiscard]] bool flips_without_fold() const {
-        constexpr double cos_of_fold = 0.5;
         const double after = cos_of_bend(normal(c, d, b), normal(d, c, a));
-        return after >= cos_of_fold || after >= cos_of_bend(normal(a, b, c), normal(b, a, d));
+        return after >= cos_of_widest_turn || after >= cos_of_bend(normal(a, b, c), normal(b, a, d));
     }
 
 private:

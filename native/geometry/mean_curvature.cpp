@@ -24,8 +24,7 @@ double CurvatureFit::rise(const Vector3& normal, const Vector3& d) const {
 
 namespace {
 
-// Wedges of the outline from which on its normals count in part, and in full (radians).
-constexpr double wide = 2.0 * std::numbers::pi / 3.0;
+// Wedge of the outline from which on its normals count in full (radians); in part from the widest corner on.
 constexpr double narrow = std::numbers::pi / 2.0;
 
 // Squared distance from which on points around a vertex of the outline tell its curvature.
@@ -53,7 +52,8 @@ double wedge(const Patch& patch, const Points& points, const Points& normals, in
 // add their own error.
 void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex, double least,
                          CurvatureLeastSquares& fit) {
-    const double s = std::clamp((wide - wedge(patch, points, normals, vertex)) / (wide - narrow), 0.0, 1.0);
+    const double s =
+        std::clamp((widest_corner - wedge(patch, points, normals, vertex)) / (widest_corner - narrow), 0.0, 1.0);
     if (!(s > 0.0)) return;
     const double weight = s * s * (3.0 - 2.0 * s);
     for (int v : patch.ring(vertex).vertices) {

@@ -11,6 +11,8 @@ namespace fairing {
 
 namespace {
 
+constexpr std::size_t most_triangles = 64;  // of a search around one
+
 // Barycentric coordinates of the foot of the perpendicular on the plane of a, b, c; may be negative.
 Vector3 plane_weights(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
     const Vector3 n = (b - a).cross(c - a);
@@ -77,7 +79,6 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
 }
 
 SurfacePoint TargetSurface::nearest_around(const Vector3& position, int start) const {
-    constexpr std::size_t most_triangles = 64;
     Indices found{start};
     SurfacePoint best{start, Vector3::Zero()};
     double least = std::numeric_limits<double>::infinity();
@@ -138,7 +139,6 @@ Vector3 TargetSurface::face_normal(int triangle) const {
 
 // Of a flat triangle, or of the nearest one that has an area.
 Vector3 TargetSurface::flat_normal(int triangle) const {
-    constexpr std::size_t most_triangles = 64;
     Indices found{triangle};
     for (std::size_t k = 0; k < found.size(); ++k) {
         const Vector3 normal = face_normal(found[k]);

@@ -6,13 +6,11 @@ namespace fairing {
 
 namespace {
 
-constexpr double intermediate_tolerance = 1e-4;  // units of D
-
 Solution iterate_with_load(const Problem& problem, Workspace& work, const Points& start, double share,
                            const Progress& progress) {
     Problem stage = problem;
     stage.options.load *= share;
-    if (share < 1.0) stage.options.tolerance = std::max(problem.options.tolerance, intermediate_tolerance);
+    if (share < 1.0) stage.options.tolerance = std::max(problem.options.tolerance, start_tolerance);
     return iterate(stage, work, start, progress);
 }
 

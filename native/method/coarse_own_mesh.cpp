@@ -13,8 +13,7 @@ namespace fairing {
 
 namespace {
 
-// Steps of the springs on a level, which begins where the coarser one ends; the coarsest begins anywhere.
-constexpr int most_slides = 8;
+// Steps of the springs on the coarsest level, which begins anywhere.
 constexpr int most_coarsest_slides = 60;
 
 // From this many free vertices on the low-passed loop tells.

@@ -10,6 +10,9 @@
 
 namespace fairing {
 
+// Steps within the surface on a level that begins where the coarser one has ended.
+inline constexpr int most_slides = 8;
+
 // Whether coarse levels keep all of the outline's vertices, or halve it where it is straight.
 enum class Outlines { thinned, kept };
 

@@ -22,13 +22,11 @@ namespace {
 // Over smooth outlines between which one surface fits so few tell it, and to solve them costs a third. Where they don't
 // the next level does, from the outlines alone.
 constexpr int smallest_coarsest = 150;
-constexpr double small_tolerance = 7e-4;    // units of D, there: triangles are too large for more
-constexpr double between_tolerance = 1e-4;  // units of D, of levels that are only starts
+constexpr double small_tolerance = 7e-4;  // units of D, there: triangles are too large for more
 // Levels between are good enough as starts even where single poor triangles keep them from converging.
 constexpr int most_between = 6;
 constexpr int most_small = 14;  // where little is lost: graded meshes that don't carry their surface took 19 and 20
 constexpr int evening_sweeps = 3;
-constexpr int most_slides = 8;
 // Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
 constexpr int largest_prepared = 200'000;
 // Shares of the time, measured at 100k and 256k.
@@ -71,7 +69,7 @@ public:
             conduct.limits.steps = most_between;
             conduct.start_only = true;
             SolverOptions& options = levels_.problem(k).options;
-            options.tolerance = std::max(between_tolerance, problem.options.tolerance);
+            options.tolerance = std::max(start_tolerance, problem.options.tolerance);
         }
     }
 

@@ -31,8 +31,7 @@ bool is_answer(const Solution& solution) { return end_of(solution) == Terminatio
 // did not, after four beginnings, had 4e5 and more.
 constexpr double most_product = 1e3;
 VariationLimits limits_for(const Problem& problem, const Traits& traits) {
-    constexpr int largest_patient = 600;  // free vertices
-    const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= largest_patient;
+    const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= coarsest_size;
     VariationLimits limits{is_patient ? 1e5 : most_product};
     if (traits.is_large) limits.most_beginnings = 1;
     return limits;

@@ -6,11 +6,6 @@
 
 namespace fairing {
 
-// From so many free vertices coarser levels pay, and a large patch is resolved best by its own mesh.
-inline constexpr int smallest_large = 1500;
-// Free vertices of a coarsest level: solved from its boundary alone it has the surface wherever there is one.
-inline constexpr int coarsest_size = 600;
-
 // Computed once for each problem, which it refers to.
 class Traits {
 public:

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include "geometry/limits.h"
-#include "proxy/proxy_mesh.h"
 
 namespace fairing {
 
@@ -66,7 +65,7 @@ double CollapseFan::worst_after(const Vector3& target, double length) {
         if (normals_[k].dot(cross) < cos_of_widest_turn * twice_area) return -1.0;
         worst = std::min(worst, roundness(twice_area, from_target_[k], from_target_[next], rim_[k]));
         // Where triangles are bad already, the collapse need only not make them worse.
-        if (worst < std::min(worst_shape, worst_) || length * (1.5 - worst) >= best_) return -1.0;
+        if (worst < std::min(poor_shape, worst_) || length * (1.5 - worst) >= best_) return -1.0;
     }
     return worst;
 }

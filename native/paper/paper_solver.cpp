@@ -16,8 +16,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double coarse_tolerance = 1e-3;  // units of D
-
 class PaperSolver {
 public:
     PaperSolver(const PaperProblem& pp, const Progress& progress)
@@ -90,7 +88,7 @@ private:
         const PaperOptions& paper = pp_.paper;
         if (hierarchy_.is_finest(level))
             return {paper.epsilon, options.tolerance, options.max_iterations, paper.damping};
-        return {0.0, std::max(options.tolerance, coarse_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
+        return {0.0, std::max(options.tolerance, start_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
                 paper.acceleration == Acceleration::plain ? coarse_damping * paper.damping : paper.damping};
     }
 
@@ -122,7 +120,7 @@ private:
     // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
     Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
         if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
-        const IterationLimits limits{0.0, coarse_tolerance, 100, limits_of(0).damping};
+        const IterationLimits limits{0.0, start_tolerance, 100, limits_of(0).damping};
         const double whole = problem_.options.load;
         double reached = 0.0;
         for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {

@@ -44,6 +44,14 @@ inline constexpr StepLimits brisk{60, 12};
 // none of the surface's: 1e-3 D off a sphere after 100 steps, 2e-3 D off a cylinder after 29.
 inline constexpr StepLimits nearby{20, 6};
 
+// Free vertices from which on a patch is large: coarser levels pay, and its own mesh resolves it best.
+inline constexpr int smallest_large = 1500;
+// Free vertices of the coarsest level of a large one, which has the surface from its boundary alone wherever there is
+// one; up to so many all patience pays.
+inline constexpr int coarsest_size = 600;
+// Of a surface that another solve begins with, units of D.
+inline constexpr double start_tolerance = 1e-4;
+
 // How a strategy has the equation iterated; no caller sets it.
 struct Conduct {
     StepLimits limits = patient;

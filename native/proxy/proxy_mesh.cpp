@@ -10,6 +10,7 @@
 #include "geometry/angle.h"
 #include "geometry/edge_flip.h"
 #include "geometry/face_geometry.h"
+#include "geometry/limits.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {
@@ -113,6 +114,7 @@ bool ProxyMesh::may_collapse(Halfedge h) {
     return true;
 }
 
+// Whether a collapse leaves no poor triangle, unless one was worse before.
 bool ProxyMesh::keeps_shape(Halfedge h) const {
     const Vertex gone = mesh_.from_vertex_handle(h);
     const Vertex kept = mesh_.to_vertex_handle(h);
@@ -128,7 +130,7 @@ bool ProxyMesh::keeps_shape(Halfedge h) const {
         const Vector3 new_normal = cross_product(point(kept), point(b), point(c));
         if (old_normal.dot(new_normal) < cos_of_turned * old_normal.norm() * new_normal.norm()) return false;
     }
-    return after >= worst_shape || after >= before;
+    return after >= poor_shape || after >= before;
 }
 
 double ProxyMesh::relative_length(Halfedge h, const std::vector<double>& target) const {

@@ -7,9 +7,6 @@
 
 namespace fairing {
 
-// The least shape (1: equilateral) of triangles that a collapse leaves, unless it was worse before.
-inline constexpr double worst_shape = 0.25;
-
 // A vertex that a collapse removed, with the ring that it left behind.
 struct RemovedVertex {
     int vertex;

@@ -26,10 +26,7 @@ constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine
 // that did not 73.
 constexpr int soon = 8;
 
-bool is_small(int shown) {
-    constexpr int largest = 1500;  // free vertices
-    return shown <= largest;
-}
+bool is_small(int shown) { return shown <= smallest_large; }
 
 // Small patches with one outline nearly always have a solution, and all patience pays.
 bool pays_patience(const Problem& problem, int shown) { return problem.patch.loop_count() == 1 && is_small(shown); }

@@ -55,7 +55,7 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
 }
 
-// A bulge that meets the outline's tangent planes, its collapsed tubes opened.
+// A bulge that meets the outline's tangent planes, its collapsed tubes opened: arms that meet need it.
 Points start_of(const Problem& problem, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());

@@ -19,8 +19,8 @@ from core.holes import Borders, chosen_borders
 from core.neighbourhood import Neighbourhood
 from core.quality import Join
 from core.region import MeshArrays, nothing
+from core.sentences import MeshRefusal
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
-from core.words import MeshRefusal
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
 
 SIZE = 8

@@ -11,7 +11,8 @@ import pytest
 import fairing
 from core.findings import Origin, found
 from core.region import make_patch
-from core.words import WORDS, Words, counted, in_mesh_words, refusal, sentences
+from core.sentences import in_mesh_words, refusal, sentences
+from core.words import WORDS, Words, counted
 from polygon_mesh import grid
 
 # Six vertices and four triangles of the engine, which are two quads of a mesh: its vertices 10 … 60, its faces 7 and 9.

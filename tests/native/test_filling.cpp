@@ -8,7 +8,7 @@
 
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 #include "fill/first_surface.h"
 #include "fill/harmonic_values.h"
 #include "fill/joined_loops.h"
@@ -217,7 +217,7 @@ TEST_CASE("a mesh over a crumpled surface does not grow without end") {
     const TargetSurface surface(square.patch, square.points, normals);
     const VectorX lengths = VectorX::Constant(count, 0.7);
     EqualEdgeMesh mesh(square.patch, square.points, surface, lengths);
-    mesh.make_even();
+    mesh.equalise();
     const double expected = expected_count(square.patch, square.points, lengths) + static_cast<double>(count);
     CHECK(static_cast<double>(mesh.result().points.cols()) < 3.0 * expected);  // six times without a limit
 }

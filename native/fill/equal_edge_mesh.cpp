@@ -1,4 +1,4 @@
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -295,7 +295,7 @@ void EqualEdgeMesh::smooth(int sweeps) {
     }
 }
 
-void EqualEdgeMesh::make_even() {
+void EqualEdgeMesh::equalise() {
     constexpr int most_sweeps = 20;
     constexpr int large = 10'000;
     int settled = 0;

@@ -20,10 +20,10 @@ public:
     EqualEdgeMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
                   KeptEdges kept = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
-    void make_even();
+    void equalise();
     // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: then once more, so that
     // the smallest grow at the cost of others. Asks whether to stop.
-    void mend_angles();
+    void repair_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
     // many. With normals of the fixed vertices (3 × their count) corners whose triangle is turned against them are
     // none: it lies on a face outside that sticks out into the outline.
@@ -80,9 +80,9 @@ private:
     [[nodiscard]] std::vector<Side> star(Vertex v) const;
     [[nodiscard]] double free_angle(Face f) const;
     [[nodiscard]] double penalty(const Indices& vertices) const;
-    int settle_place(Vertex v);
-    int settle_edges(Vertex v, const Indices& vertices);
-    void settle(const Indices& vertices);
+    int relax_place(Vertex v);
+    int relax_edges(Vertex v, const Indices& vertices);
+    void relax(const Indices& vertices);
     [[nodiscard]] Indices region(Face f) const;
     [[nodiscard]] bool closes_sharp_corner(Vertex a, Vertex b) const;
     [[nodiscard]] bool may_join(Vertex a, Vertex b) const;
@@ -91,8 +91,8 @@ private:
     int turn_edge(Edge e);
     [[nodiscard]] std::vector<std::function<int(EqualEdgeMesh&)>> remedies(Face f);
     [[nodiscard]] std::vector<Face> bad_faces() const;
-    bool mend(Face f);
-    void mend_bad_faces();
+    bool repair(Face f);
+    void repair_bad_faces();
     const Patch* patch_;
     const Points* points_;
     const TargetSurface* surface_;

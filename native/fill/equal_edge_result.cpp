@@ -1,5 +1,5 @@
 // The finished mesh, numbered as a patch is: free vertices first.
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 
 namespace fairing {
 

@@ -8,7 +8,7 @@
 
 #include "base/progress.h"
 #include "fill/angles.h"
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 #include "fill/limits.h"
 
 namespace fairing {
@@ -83,7 +83,7 @@ std::vector<EqualEdgeMesh::Side> EqualEdgeMesh::star(Vertex v) const {
 }
 
 // A pattern search in six directions of the surface. Returns the number of moves.
-int EqualEdgeMesh::settle_place(Vertex v) {
+int EqualEdgeMesh::relax_place(Vertex v) {
     constexpr int most_halvings = 6;
     const std::vector<Side> around = star(v);
     const auto penalty_at = [&](const Vector3& place) {
@@ -124,7 +124,7 @@ bool EqualEdgeMesh::improve_flip(Edge e) {
 }
 
 // Flips the edges from v to vertices of higher number that lie among these. Returns how many.
-int EqualEdgeMesh::settle_edges(Vertex v, const Indices& vertices) {
+int EqualEdgeMesh::relax_edges(Vertex v, const Indices& vertices) {
     const auto is_inside = [&](Vertex u) { return std::binary_search(vertices.begin(), vertices.end(), u.idx()); };
     std::vector<Halfedge> spokes;
     for (const Halfedge h : mesh_.voh_range(v)) spokes.push_back(h);
@@ -140,15 +140,15 @@ int EqualEdgeMesh::settle_edges(Vertex v, const Indices& vertices) {
 }
 
 // Flips and moves among these vertices alone.
-void EqualEdgeMesh::settle(const Indices& vertices) {
+void EqualEdgeMesh::relax(const Indices& vertices) {
     for (int round = 0; round < most_rounds; ++round) {
         checkpoint();
         int changes = 0;
         for (const int k : vertices) {
-            if (!mesh_.status(Vertex(k)).deleted()) changes += settle_edges(Vertex(k), vertices);
+            if (!mesh_.status(Vertex(k)).deleted()) changes += relax_edges(Vertex(k), vertices);
         }
         for (const int k : vertices) {
-            if (!mesh_.status(Vertex(k)).deleted() && !fixed(Vertex(k))) changes += settle_place(Vertex(k));
+            if (!mesh_.status(Vertex(k)).deleted() && !fixed(Vertex(k))) changes += relax_place(Vertex(k));
         }
         if (changes == 0) return;
     }
@@ -174,7 +174,7 @@ void EqualEdgeMesh::improve() {
     for (int round = 0; round < most_rounds; ++round) {
         const Indices vertices = around_small_angles();
         if (vertices.empty()) return;
-        settle(vertices);
+        relax(vertices);
     }
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/progress.h"
 #include "fill/angles.h"
-#include "fill/even_mesh.h"
+#include "fill/equal_edge_mesh.h"
 #include "fill/limits.h"
 
 namespace fairing {
@@ -86,7 +86,7 @@ int EqualEdgeMesh::turn_edge(Edge e) {
 }
 
 // What may be done about a triangle: each returns the vertex that is new, or none. Turned edges and collapses may fold
-// the mesh: `settle` unfolds it, or the penalty is high.
+// the mesh: `relax` unfolds it, or the penalty is high.
 std::vector<std::function<int(EqualEdgeMesh&)>> EqualEdgeMesh::remedies(Face f) {
     std::vector<std::function<int(EqualEdgeMesh&)>> result;
     for (const Halfedge side : sides(f)) {
@@ -114,7 +114,7 @@ std::vector<std::function<int(EqualEdgeMesh&)>> EqualEdgeMesh::remedies(Face f) 
     return result;
 }
 
-bool EqualEdgeMesh::mend(Face f) {
+bool EqualEdgeMesh::repair(Face f) {
     const Indices vertices = region(f);
     double least = worth_it * penalty(vertices);
     std::optional<EqualEdgeMesh> best;
@@ -123,7 +123,7 @@ bool EqualEdgeMesh::mend(Face f) {
         Indices known = vertices;
         const int added = remedy(tried);
         if (added != none) known.push_back(added);  // the highest number
-        tried.settle(known);
+        tried.relax(known);
         const double after = tried.penalty(known);
         if (after >= least) continue;
         least = after;
@@ -148,14 +148,14 @@ std::vector<EqualEdgeMesh::Face> EqualEdgeMesh::bad_faces() const {
     return result;
 }
 
-void EqualEdgeMesh::mend_angles() {
+void EqualEdgeMesh::repair_angles() {
     for (const bool worst_counts : {false, true}) {
         worst_counts_ = worst_counts;
-        mend_bad_faces();
+        repair_bad_faces();
     }
 }
 
-void EqualEdgeMesh::mend_bad_faces() {
+void EqualEdgeMesh::repair_bad_faces() {
     const std::size_t most = std::min(most_attempts, most_copied / mesh_.n_vertices() + 1);
     std::size_t attempts = 0;
     for (int round = 0; round < most_rounds; ++round) {
@@ -165,7 +165,7 @@ void EqualEdgeMesh::mend_bad_faces() {
         for (const Face f : bad) {
             if (mesh_.status(f).deleted() || free_angle(f) >= bad_angle) continue;
             if (++attempts > most) return;
-            repaired += mend(f) ? 1 : 0;
+            repaired += repair(f) ? 1 : 0;
         }
         if (repaired == 0) return;
     }
