@@ -47,6 +47,7 @@ LevelLine points_of_fillet(const SeamMesh& mesh, const SeamDistance& distance, c
     const Indices passed = triangles_at(found);
     sides.find_at(passed);
     LevelLine line = resampled(mesh, distance, found, input.spacing, sides);
+    join_at_walls(mesh, input.spacing, line);
     part_seams(mesh, input.spacing, line);
     sides.find_at(triangles_at_walls(mesh, distance));
     part_walls(mesh, distance, sides, input.spacing, line);
