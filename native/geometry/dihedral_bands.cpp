@@ -17,6 +17,8 @@ namespace {
 constexpr double usual_share =
     DihedralBands::half;  // of the weight has less, and the same share has more than the lower bound
 
+constexpr double plane_angle = 0.1;  // degrees between triangles of one plane, but for single precision
+
 struct WeightedAngle {
     double angle;
     double weight;
@@ -207,13 +209,28 @@ double DihedralBands::weight_across(int edge, const Vector3& along) const {
     return lengths_[edge] * cosine * cosine;
 }
 
+bool DihedralBands::is_between_planes(int edge) const {
+    const auto goes_on = [&](int side) {
+        for (const int k : {1, 2}) {
+            const int e = edges_.edge_of_side[side - side % 3 + (side + k) % 3];
+            if (edges_.side_count(e) == 2 && std::abs(angles_[e]) < plane_angle) return true;
+        }
+        return false;
+    };
+    return edges_.side_count(edge) == 2 && std::abs(angles_[edge]) >= plane_angle && goes_on(edges_.side(edge, 0)) &&
+           goes_on(edges_.side(edge, 1));
+}
+
 AngleRange DihedralBands::usual_across(int edge, double share, Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
     const Vector3 along = direction(points_.col(b) - points_.col(a));
     std::vector<WeightedAngle> near;
-    for (const int e : inner_edges(triangles_near(a, b, walk), walk))
+    std::vector<WeightedAngle> uneven;  // those between two plane faces were made so, by no noise
+    for (const int e : inner_edges(triangles_near(a, b, walk), walk)) {
         near.push_back({angles_[e], weight_across(e, along)});
-    const AngleRange central = middle(half, near);
+        if (!is_between_planes(e)) uneven.push_back(near.back());
+    }
+    const AngleRange central = middle(half, uneven);
     const AngleRange most = middle(share, near);
     return angles_[edge] > 0.0 ? AngleRange{central.low, most.high} : AngleRange{most.low, central.high};
 }

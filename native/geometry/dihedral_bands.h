@@ -47,7 +47,8 @@ public:
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
     // What is usual of the bends across an edge's direction: others count by the squared cosine between them and it,
     // too. Round a tube of any proportions the edges along it say how it bends, those around it nothing. The middle
-    // half on the other side of zero, and up to `share` on the edge's own.
+    // half on the other side of zero, and up to `share` on the edge's own. On the other side edges between two faces
+    // of several triangles in one plane don't count: the top of a letter's wall is no noise beside its foot.
     [[nodiscard]] AngleRange usual_across(int edge, double share, Walk& walk) const;
     static constexpr double half = 0.75;  // the share up to which the middle half goes
     // By how much it bends in that direction beyond the rows beside the edge, in degrees per length: on both sides
@@ -63,6 +64,7 @@ private:
     void measure_edges();
     void measure(int edge);
     [[nodiscard]] double area(int triangle) const;
+    [[nodiscard]] bool is_between_planes(int edge) const;
     [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
     [[nodiscard]] Vector3 normal_beyond(int side) const;
     [[nodiscard]] Indices inner_edges(const Indices& triangles, Walk& walk) const;  // with two triangles, each once
