@@ -387,7 +387,6 @@ def test_a_triangle_without_area_in_a_seam_is_got_over() -> None:
     near = middle(result)
     near = near[(near[:, :2] > 0.8 - 1e-9).all(axis=1)]
     off = abs(np.hypot(near[:, 0] - 0.8, near[:, 1] - 0.8) - 0.2) / 0.2
-    assert np.median(off) < 5e-3
-    assert off.max() < 0.2  # beside it the new mesh is coarse
+    assert off.max() < 5e-3
     _, faces = whole(more, cut, result)
     assert fairing.boundary_loops(faces) == []
