@@ -1,4 +1,4 @@
-"""Fair Fillet by the mouse: the width follows, the wheel turns the profile, Esc leaves all, a click is one undo step."""
+"""Fair Fillet by the mouse: the width follows, the wheel turns the profile, Esc leaves all, a click is one step."""
 
 from __future__ import annotations
 
