@@ -95,6 +95,20 @@ def test_fewer_than_four_edges_within_a_smooth_surface_are_no_chain(sharp_column
     assert len(fairing.hard_edges(vertices * [40.0, 1.0, 1.0], triangles)) == found
 
 
+@pytest.mark.parametrize("rows", [1, 2])
+@pytest.mark.parametrize("stroke", [0.05, 0.3])
+def test_strokes_on_a_plate_have_all_their_edges(stroke: float, rows: int) -> None:
+    """Without vertices in their faces, as CAD makes them: half of the edges around one bend to the other side."""
+    profile = np.array([[0.0, 0.0], [1, 0], [1, 0.2], [1 + stroke, 0.2], [1 + stroke, 0], [2, 0]])
+    y = np.linspace(0, 2, rows + 1)
+    vertices = np.array([[x, b, z] for x, z in profile for b in y])
+    k = np.array([i * (rows + 1) + j for i in range(len(profile) - 1) for j in range(rows)])
+    above = k + rows + 1
+    triangles = np.concatenate([np.column_stack([k, above, above + 1]), np.column_stack([k, above + 1, k + 1])])
+    lines = np.array([[i * (rows + 1) + j, i * (rows + 1) + j + 1] for i in range(1, 5) for j in range(rows)])
+    assert fairing.hard_edges(vertices, triangles).tolist() == lines.tolist()
+
+
 def test_marked_edges_are_hard_whatever_they_bend() -> None:
     vertices, triangles = bent_sheet(6, np.full(7, 2.0))
     row = [4 * 7 + 2, 4 * 7 + 3]

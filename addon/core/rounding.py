@@ -94,11 +94,12 @@ class Rounded:
         return self.polygons
 
 
-def seams_of(mesh: MeshArrays, edges: Mask) -> Mask:
+def seams_of(mesh: MeshArrays, edges: Mask, by_edges: bool) -> Mask:
     """Return the (e,) mask of the seams that a selection names.
 
     Those of its edges that are on no selected face; and where faces are selected, hard edges between two of them.
-    edges: (e,) selected ones.
+    edges: (e,) selected ones. by_edges: whether edges were selected, not faces: all edges of a face select that, too,
+    and are seams where they are hard.
     """
     of_faces = np.zeros(len(mesh.edges), dtype=bool)
     of_faces[mesh.corner_edges[mesh.in_patch[mesh.corner_faces]]] = True
@@ -106,9 +107,10 @@ def seams_of(mesh: MeshArrays, edges: Mask) -> Mask:
     if not mesh.in_patch.any():
         return seams
     sides = two_sided_edges(mesh, np.ones(len(mesh.edges), dtype=bool))
-    between = np.zeros(len(mesh.edges), dtype=bool)
-    between[sides.edges] = mesh.in_patch[sides.faces].all(axis=1)
-    return seams | (between & hard(mesh))
+    chosen = mesh.in_patch[sides.faces].sum(axis=1)
+    within = np.zeros(len(mesh.edges), dtype=bool)
+    within[sides.edges] = (chosen == 2) | (by_edges & (chosen == 1) & edges[sides.edges])
+    return seams | (within & hard(mesh))
 
 
 def hard(mesh: MeshArrays) -> Mask:

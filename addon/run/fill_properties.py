@@ -4,10 +4,10 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty
 
 from ..core.fill_pieces import SHAPES
-from .properties import EQUATIONS, SurfaceProperties, continuity_property, equation_property
+from .surface_properties import EQUATIONS, SurfaceProperties, continuity_property, equation_property, length_property
 
 
 class FillProperties(SurfaceProperties):
@@ -43,11 +43,4 @@ class FillProperties(SurfaceProperties):
         min=0,
         soft_max=100,
     )
-    longest_length: FloatProperty(
-        name="Longest Border",
-        description="Borders that are longer than that stay open; 0: any length",
-        default=0.0,
-        min=0.0,
-        precision=3,
-        subtype="DISTANCE",
-    )
+    longest_length: length_property("Longest Border", "Borders that are longer than that stay open; 0: any length")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -68,8 +68,11 @@ def read(context: bpy.types.Context, group: str) -> list[Task]:
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
             mesh = mesh_io.read_edit_mesh(obj, FairOptions(factor_group=group))
+            chosen = np.isin(np.arange(len(mesh.in_patch)), selecting.selected_faces(obj.data))
+            mesh = replace(mesh, in_patch=chosen)  # a closed seam encloses none
             matrix = np.array(obj.matrix_world, dtype=np.float64)
-            seams = seams_of(mesh.transformed(matrix), edges)
+            by_edges = not context.tool_settings.mesh_select_mode[2]
+            seams = seams_of(mesh.transformed(matrix), edges, by_edges)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
         if seams.any():

@@ -7,6 +7,7 @@ which two functions of the module read and set. Array sizes and the innermost ro
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from pathlib import Path
 
 ROOMS_AS_THEY_ARE = ("base", "linear", "mesh")
@@ -57,14 +58,16 @@ FUNCTIONS = """
 """
 
 
-def make_settable(native: Path) -> int:
-    """Rewrites the sources of a copy; the number of limits."""
+def make_settable(native: Path, files: Collection[str] | None = None) -> int:
+    """Rewrites the sources of a copy, or those named; the number of limits."""
     (native / "base/census_limits.h").write_text(TABLE)
     count = 0
     for path in sorted([*native.rglob("*.h"), *native.rglob("*.cpp")]):
         name = path.relative_to(native).as_posix()
         text = path.read_text()
-        changed, found = LIMIT.subn(lambda match, name=name: _settable(match, name), text)
+        changed, found = text, 0
+        if files is None or name in files:
+            changed, found = LIMIT.subn(lambda match, name=name: _settable(match, name), text)
         count += found if changed != text else 0
         if name == "bindings/module.cpp":
             changed = re.sub(r"(PYBIND11_MODULE\([^{]*\{)", lambda match: match.group(1) + FUNCTIONS, text)

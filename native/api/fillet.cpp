@@ -12,6 +12,7 @@
 #include "fillet/seam_sides.h"
 #include "fillet/side_normals.h"
 #include "geometry/angle.h"
+#include "geometry/turned_caps.h"
 
 namespace fairing {
 
@@ -47,6 +48,7 @@ LevelLine points_of_fillet(const SeamMesh& mesh, const SeamDistance& distance, c
     const Indices passed = triangles_at(found);
     sides.find_at(passed);
     LevelLine line = resampled(mesh, distance, found, input.spacing, sides);
+    join_at_walls(mesh, input.spacing, line);
     part_seams(mesh, input.spacing, line);
     sides.find_at(triangles_at_walls(mesh, distance));
     part_walls(mesh, distance, sides, input.spacing, line);
@@ -73,15 +75,17 @@ std::vector<EndSide> ends_of(const SplitMesh& cut) {
 }
 
 // Barycentric weights of a place in the plane of a triangle.
-Vector3 weights_in(const SeamMesh& mesh, int triangle, const Vector3& place) {
-    const int h = 3 * triangle;
-    const Vector3 start = mesh.points.col(mesh.tail(h));
-    if (!(mesh.length[h] > 0.0)) return Vector3::Constant(1.0 / 3.0);
-    const Vector3 x = (mesh.points.col(mesh.head(h)) - start) / mesh.length[h];
-    const Vector3 to_apex = mesh.points.col(mesh.tail(SeamMesh::previous(h))) - start;
-    const Vector3 y = (to_apex - to_apex.dot(x) * x).normalized();
-    const double apex = mesh.apex[h][1] > 0.0 ? (place - start).dot(y) / mesh.apex[h][1] : 0.0;
-    const double head = ((place - start).dot(x) - apex * mesh.apex[h][0]) / mesh.length[h];
+Vector3 weights_in(const Points& points, const Triangles& triangles, int triangle, const Vector3& place) {
+    const Vector3 start = points.col(triangles(0, triangle));
+    const Vector3 along = Vector3(points.col(triangles(1, triangle))) - start;
+    const Vector3 to_apex = Vector3(points.col(triangles(2, triangle))) - start;
+    const double length = along.norm();
+    if (!(length > 0.0)) return Vector3::Constant(1.0 / 3.0);
+    const Vector3 x = along / length;
+    const Vector3 above = to_apex - to_apex.dot(x) * x;
+    const double height = above.norm();
+    const double apex = height > 0.0 ? (place - start).dot(above) / (height * height) : 0.0;
+    const double head = ((place - start).dot(x) - apex * to_apex.dot(x)) / length;
     return {1.0 - apex - head, head, apex};
 }
 
@@ -96,7 +100,7 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
         const int parent = result.mesh.parent[end.piece];
         for (const int v : {end.from, end.to}) {
             const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(result.mesh.points.col(v - old));
-            const Vector3 weights = weights_in(mesh, parent, place);
+            const Vector3 weights = weights_in(mesh.points, mesh.triangles, parent, place);
             seen[v].emplace_back(sides.normal(parent, weights), sides.curvature(parent, weights));
         }
     }
@@ -137,13 +141,14 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
     }
 }
 
-Points weights_in_parents(const SeamMesh& mesh, const SplitMesh& cut) {
+Points weights_in_parents(const FilletInput& input, const SplitMesh& cut) {
     Points weights(3, cut.triangles.size());
-    const Eigen::Index old = mesh.points.cols();
+    const Eigen::Index old = input.vertices.cols();
     for (Eigen::Index c = 0; c < cut.triangles.size(); ++c) {
         const int v = cut.triangles(c % 3, c / 3);
-        const Vector3 place = v < old ? Vector3(mesh.points.col(v)) : Vector3(cut.points.col(v - old));
-        weights.col(c) = weights_in(mesh, cut.parent[static_cast<std::size_t>(c / 3)], place);
+        const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(cut.points.col(v - old));
+        const int parent = cut.parent[static_cast<std::size_t>(c / 3)];
+        weights.col(c) = weights_in(input.vertices, input.triangles, parent, place);
     }
     return weights;
 }
@@ -186,11 +191,63 @@ Indices swallowed_vertices(const SeamMesh& mesh, const SeamDistance& distance, c
     return {found.begin(), found.end()};
 }
 
+constexpr double flat = 0.02;  // of the spacing: lower triangles stop all moves of a mesh that is made even
+
+// A seam that is a cap's longest side becomes the two sides over it, likewise a wall.
+void part_edges(const TurnedCap& turned, std::vector<VertexPair>& edges) {
+    const auto [a, b] = turned.ends;
+    const auto at = std::find_if(edges.begin(), edges.end(),
+                                 [&](const VertexPair& e) { return e == VertexPair{a, b} || e == VertexPair{b, a}; });
+    if (at == edges.end()) return;
+    const VertexPair first{(*at)[0], turned.over};
+    const VertexPair second{turned.over, (*at)[1]};
+    const auto is_there = [&](const VertexPair& e) {
+        return std::find(edges.begin(), edges.end(), e) != edges.end() ||
+               std::find(edges.begin(), edges.end(), VertexPair{e[1], e[0]}) != edges.end();
+    };
+    *at = is_there(first) ? second : first;
+    if (!is_there(first)) edges.push_back(first);
+    if (!is_there(second)) edges.push_back(second);
+}
+
+// So that seams have no triangles without area beside them. `plane`: of each triangle, one in whose plane it is.
+void turn_caps_at_seams(FilletInput& input, Indices& plane) {
+    std::vector<char> on_seam(static_cast<std::size_t>(input.vertices.cols()), 0);
+    for (const auto& [a, b] : input.seams) on_seam[a] = on_seam[b] = 1;
+    std::vector<char> at_seam(plane.size(), 0);
+    for (std::size_t t = 0; t < plane.size(); ++t) {
+        const auto corners = input.triangles.col(static_cast<Eigen::Index>(t));
+        at_seam[t] = on_seam[corners[0]] + on_seam[corners[1]] + on_seam[corners[2]] > 1 ? 1 : 0;
+    }
+    const std::vector<char> all(plane.size(), 1);
+    for (const TurnedCap& turned : turn_caps(input.vertices, at_seam, all, flat * input.spacing, input.triangles)) {
+        plane[turned.cap] = plane[turned.beside];
+        for (auto* widths : {&input.widths.left, &input.widths.right}) {
+            double& width = (*widths)[turned.over];
+            if (on_seam[turned.over] == 0) width = 0.5 * ((*widths)[turned.ends[0]] + (*widths)[turned.ends[1]]);
+        }
+        on_seam[turned.over] = 1;
+        part_edges(turned, input.seams);
+        part_edges(turned, input.walls);
+    }
+}
+
+void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
+    Points points(3, input.vertices.cols() + cut.points.cols());
+    points << input.vertices, cut.points;
+    for (const TurnedCap& turned : turn_caps(points, cut.inside, cut.inside, flat * input.spacing, cut.triangles))
+        cut.parent[turned.cap] = cut.parent[turned.beside];
+}
+
 }  // namespace
 
-FilletCut cut_fillet(const FilletInput& input, const ProgressCallback& callback) {
+FilletCut cut_fillet(const FilletInput& given, const ProgressCallback& callback) {
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
+    FilletInput input = given;
+    Indices plane(static_cast<std::size_t>(given.triangles.cols()));
+    std::iota(plane.begin(), plane.end(), 0);
+    turn_caps_at_seams(input, plane);
     SeamMesh mesh(input.vertices, input.triangles, input.seams, input.walls);
     mesh.redirect(directed(mesh, input.seams));
     double widest = 0.0;
@@ -202,10 +259,12 @@ FilletCut cut_fillet(const FilletInput& input, const ProgressCallback& callback)
     FilletCut result;
     SideNormals sides(mesh, joined(input.seams, input.walls));
     result.mesh = cut_along(mesh, distance, points_of_fillet(mesh, distance, input, sides));
-    result.weights = weights_in_parents(mesh, result.mesh);
     result.swallowed = swallowed_vertices(mesh, distance, result.mesh, 0.5 * input.spacing);
     progress.report(0.7, "cut");
     if (result.swallowed.empty()) add_boundary(mesh, input, sides, result);
+    for (int& parent : result.mesh.parent) parent = plane[parent];
+    turn_caps_inside(input, result.mesh);
+    result.weights = weights_in_parents(given, result.mesh);
     progress.report(1.0, "done");
     return result;
 }

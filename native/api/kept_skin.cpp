@@ -49,6 +49,7 @@ bool are_chosen(const Points& normals, const Indices& rim, SidedFits& outside) {
 // Whether a normal given is that of another side of a hard edge than the triangles outside, whose winding may differ:
 // these say nothing about the patch there.
 bool is_other_side(const Vector3& given, const std::optional<SlopeFit>& outside) {
+    constexpr double most_error = 0.04;  // radians: with noise of .1 edges slopes are known to .03
     const double least = std::cos(hard_bend * std::numbers::pi / 180.0);
     return outside && outside->error <= most_error && !given.isZero(0.0) &&
            std::abs(direction(given).dot(outside->normal)) < least;

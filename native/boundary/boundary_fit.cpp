@@ -1,9 +1,7 @@
 #include "boundary/boundary_fit.h"
 
 #include <algorithm>
-#include <limits>
 
-#include "base/median.h"
 #include "base/progress.h"
 #include "boundary/sided_fits.h"
 #include "mesh/collapsed.h"
@@ -27,19 +25,6 @@ VertexPairs without(const VertexPairs& all, const VertexPairs& some) {
     return rest;
 }
 
-// Whether the triangles inside agree on a surface along these edges.
-bool agree(SidedFits& inside, const VertexPairs& edges, Eigen::Index count) {
-    if (edges.empty()) return false;
-    const Indices counts = counts_at(edges, count);
-    std::vector<double> errors;
-    for (int v = 0; v < static_cast<int>(counts.size()); ++v) {
-        if (counts[v] == 0) continue;
-        const auto fit = inside.at_vertex(v);
-        errors.push_back(fit ? fit->error : std::numeric_limits<double>::infinity());
-    }
-    return median(errors) <= most_error;
-}
-
 }  // namespace
 
 BoundaryNormals boundary_normals(const Surroundings& given, const Indices& vertices, const VertexPairs& creases,
@@ -54,9 +39,8 @@ BoundaryNormals boundary_normals(const Surroundings& given, const Indices& verti
     const VertexPairs outline = outline_edges(mesh);
     std::vector<char> held(static_cast<std::size_t>(points.cols()), 0);
     for (int v : vertices) held[v] = 1;
-    VertexPairs inward = rule == SideRule::inside ? outline : inward_edges(mesh, creases, held);
+    const VertexPairs inward = rule == SideRule::inside ? outline : inward_edges(mesh, creases, held);
     SidedFits inside(points, within, vertices, creases, without(outline, inward));
-    if (rule == SideRule::automatic && !agree(inside, inward, points.cols())) inward.clear();
     SidedFits outside(points, beyond, vertices, creases, inward);
     const Indices all = counts_at(outline, points.cols());
     const Indices own = counts_at(inward, points.cols());

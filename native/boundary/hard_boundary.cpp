@@ -13,10 +13,6 @@ namespace fairing {
 
 namespace {
 
-// How many times nearer a surface over the boundary has to be to the inside than to the outside. Over a dent in a ball
-// that ends in a crease it is far from both; over a dome that meets walls at 45° it is twice as near to the dome.
-constexpr double times_nearer = 2.0;
-
 // With one triangle on either side: sides 3 t + k of the two lists.
 struct Meeting {
     std::array<int, 2> ends;
@@ -52,7 +48,7 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
 struct HardMeeting {
     std::array<int, 2> ends;
     std::array<bool, 2> goes_on;  // whether a hard edge outside begins at that end
-    double leans_in;  // degrees by which the closing surface is twice as near to the inside, times the length
+    double leans_in;              // degrees by which the closing surface is nearer to the inside, times the length
 };
 
 // Marks of the patch's vertices from which hard edges lead outside.
@@ -83,7 +79,7 @@ std::vector<HardMeeting> hard_meetings(const PatchInMesh& mesh, const VertexPair
         const Vector3 outside = (alike ? -1.0 : 1.0) * normal_of(mesh.points, mesh.outside, edge.outside);
         const Vector3 leaves = normal_of(closed, mesh.inside, edge.inside);
         const double length = (mesh.points.col(edge.ends[0]) - mesh.points.col(edge.ends[1])).norm();
-        const double leans_in = degrees_between(leaves, outside) - times_nearer * degrees_between(leaves, inside);
+        const double leans_in = degrees_between(leaves, outside) - degrees_between(leaves, inside);
         result.push_back({edge.ends, {goes_on[edge.ends[0]] != 0, goes_on[edge.ends[1]] != 0}, length * leans_in});
     }
     return result;

@@ -36,6 +36,10 @@ LevelLine level_line(const SeamMesh& mesh, const SeamDistance& distance, double 
 LevelLine resampled(const SeamMesh& mesh, const SeamDistance& distance, const LevelLine& line, double spacing,
                     const SideNormals& sides);
 
+// Where the line comes to a wall from both sides, its two points there become one if they are less than .3 spacings
+// apart.
+void join_at_walls(const SeamMesh& mesh, double spacing, LevelLine& line);
+
 // Adds points that part each seam into edges about `spacing` long, two at least where both ends are at walls: a new
 // mesh needs a vertex to begin with.
 void part_seams(const SeamMesh& mesh, double spacing, LevelLine& line);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "fillet/level_line.h"
 #include "geometry/angle.h"
@@ -11,8 +12,9 @@ namespace fairing {
 namespace {
 
 constexpr double straight_angle = 1e-3;  // radians: fits to planes agree to 1e-6, those to arcs turn more
+constexpr double longest = 2.0;          // of the spacing: beside longer edges the new mesh has needles
 constexpr double sliver = 0.1;         // of the spacing: points on both sides of lower triangles would nearly coincide
-constexpr double clear_of_line = 0.3;  // of the spacing: nearer to the end of the fillet a point brings a short edge
+constexpr double clear_of_line = 0.3;  // of the spacing: nearer to each other, or to the line, points bring short edges
 
 Vector3 weights_along(int half_edge, double along) {
     Vector3 weights = Vector3::Zero();
@@ -32,7 +34,54 @@ int parts(const SeamMesh& mesh, int h, double spacing) {
     return static_cast<int>(std::lround(mesh.length[h] / spacing));
 }
 
+// The number that each point becomes where those on a wall that are next to each other come together in their mean.
+Indices joined_numbers(const SeamMesh& mesh, double near, LevelLine& line) {
+    Indices wall(mesh.edge.size(), none);  // of each edge: a half-edge on it
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        if (mesh.twin[h] == none) wall[mesh.edge[h]] = h;
+    }
+    Indices order;
+    Indices number(line.points.size());
+    for (int p = 0; p < static_cast<int>(line.points.size()); ++p) {
+        number[p] = p;
+        const int edge = line.points[p].edge;
+        if (edge != none && wall[edge] != none) order.push_back(p);
+    }
+    const auto key = [&](int p) { return std::pair(line.points[p].edge, line.points[p].along); };
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+        const LinePoint& before = line.points[order[k - 1]];
+        const int h = wall[before.edge];
+        if (before.edge != line.points[order[k]].edge || number[order[k - 1]] != order[k - 1]) continue;
+        const double middle = 0.5 * (before.along + line.points[order[k]].along);
+        if (2.0 * (middle - before.along) * mesh.length[h] > near) continue;
+        number[order[k]] = order[k - 1];
+        line.points[order[k - 1]] = point_on(mesh, h, mesh.tail(h) < mesh.head(h) ? middle : 1.0 - middle);
+    }
+    return number;
+}
+
 }  // namespace
+
+void join_at_walls(const SeamMesh& mesh, double spacing, LevelLine& line) {
+    const Indices number = joined_numbers(mesh, clear_of_line * spacing, line);
+    for (LineSegment& segment : line.segments) {
+        segment.from = number[segment.from];
+        segment.to = number[segment.to];
+    }
+    Indices place(number.size(), none);
+    std::vector<LinePoint> kept;
+    for (std::size_t p = 0; p < number.size(); ++p) {
+        if (number[p] != static_cast<int>(p)) continue;
+        place[p] = static_cast<int>(kept.size());
+        kept.push_back(line.points[p]);
+    }
+    for (LineSegment& segment : line.segments) {
+        segment.from = place[segment.from];
+        segment.to = place[segment.to];
+    }
+    line.points = std::move(kept);
+}
 
 void part_seams(const SeamMesh& mesh, double spacing, LevelLine& line) {
     std::vector<char> at_wall(mesh.points.cols(), 0);
@@ -54,10 +103,10 @@ void part_walls(const SeamMesh& mesh, const SeamDistance& distance, const SideNo
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         const int t = h / 3;
         if (mesh.twin[h] != none || !distance.reaches(t) || parted.contains(mesh.edge[h])) continue;
-        if (radians_between(sides.normal(t, weights_along(h, 0.0)), sides.normal(t, weights_along(h, 1.0))) >
-            straight_angle)
-            continue;
-        const int count = parts(mesh, h, spacing);
+        const bool is_straight = radians_between(sides.normal(t, weights_along(h, 0.0)),
+                                                 sides.normal(t, weights_along(h, 1.0))) < straight_angle;
+        const int count =
+            is_straight ? parts(mesh, h, spacing) : static_cast<int>(mesh.length[h] / (longest * spacing));
         for (int k = 1; k < count; ++k) {
             const double along = static_cast<double>(k) / count;
             if (!(distance.value(t, weights_along(h, along)) < -clear_of_line * spacing)) continue;

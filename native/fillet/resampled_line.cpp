@@ -13,6 +13,7 @@ namespace {
 constexpr double corner = 0.35;          // radians: a turn by 20° between neighbouring points is a corner of the line
 constexpr double straight = 0.02;        // of its length: how far a piece of the line may leave its chord
 constexpr double straight_angle = 1e-3;  // radians: fits to planes agree to 1e-6, those to arcs turn more
+constexpr double longest = 2.0;          // of the spacing: beside longer chords the new mesh has needles
 constexpr int fewest_of_loop = 6;        // points of a line that is closed within one triangle
 
 class Resampling {
@@ -82,9 +83,10 @@ private:
         }
         const bool closed = chain.front() == chain.back();
         const double length = way.back();
-        int count = 1;
+        auto count = static_cast<int>(std::ceil(length / (longest * spacing_)));
         if (closed || bulge > straight * length || runs_straight(chain.front(), chain.back(), triangle))
-            count = std::max(1, static_cast<int>(std::lround(length / spacing_)));
+            count = static_cast<int>(std::lround(length / spacing_));
+        count = std::max(count, 1);
         if (closed) count = std::max(count, fewest_of_loop);
         int from = taken(chain.front());
         std::size_t at = 1;

@@ -14,6 +14,8 @@ namespace fairing {
 
 namespace {
 
+constexpr double plane_angle = 0.1;  // degrees between triangles of one plane, but for single precision
+
 using WeightedAngle = DihedralBands::WeightedAngle;
 
 // The angle that this share of the weight doesn't exceed. `sorted` isn't empty.
@@ -177,16 +179,16 @@ Indices DihedralBands::inner_edges(const Indices& triangles, Walk& walk) const {
     return found;
 }
 
-std::vector<DihedralBands::WeightedAngle> DihedralBands::across(int a, int b, Walk& walk) const {
+std::vector<DihedralBands::WeightedAngle> DihedralBands::weighted(const Indices& edges, int a, int b) const {
     const Vector3 along = direction(points_.col(b) - points_.col(a));
-    std::vector<WeightedAngle> near;
-    for (const int e : inner_edges(triangles_near(a, b, walk), walk))
-        near.push_back({angles_[e], weight_across(e, along)});
-    return near;
+    std::vector<WeightedAngle> result;
+    result.reserve(edges.size());
+    for (const int e : edges) result.push_back({angles_[e], weight_across(e, along)});
+    return result;
 }
 
 AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
-    std::vector<WeightedAngle> near = across(a, b, walk);
+    std::vector<WeightedAngle> near = weighted(inner_edges(triangles_near(a, b, walk), walk), a, b);
     return middle(half, near);
 }
 
@@ -208,11 +210,27 @@ double DihedralBands::weight_across(int edge, const Vector3& along) const {
     return lengths_[edge] * cosine * cosine;
 }
 
+bool DihedralBands::is_between_planes(int edge) const {
+    const auto goes_on = [&](int side) {
+        for (const int k : {1, 2}) {
+            const int e = edges_.edge_of_side[side - side % 3 + (side + k) % 3];
+            if (edges_.side_count(e) == 2 && std::abs(angles_[e]) < plane_angle) return true;
+        }
+        return false;
+    };
+    return edges_.side_count(edge) == 2 && std::abs(angles_[edge]) >= plane_angle && goes_on(edges_.side(edge, 0)) &&
+           goes_on(edges_.side(edge, 1));
+}
+
 AngleRange DihedralBands::usual_across(int edge, double share, Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
-    std::vector<WeightedAngle> near = across(a, b, walk);
-    const AngleRange central = middle(half, near);
-    const AngleRange most = middle(share, near);
+    const Indices around = inner_edges(triangles_near(a, b, walk), walk);
+    Indices uneven = around;  // those between two plane faces were made so, by no noise
+    std::erase_if(uneven, [&](int e) { return is_between_planes(e); });
+    std::vector<WeightedAngle> own = weighted(around, a, b);
+    std::vector<WeightedAngle> other = weighted(uneven, a, b);
+    const AngleRange central = middle(half, other);
+    const AngleRange most = middle(share, own);
     return angles_[edge] > 0.0 ? AngleRange{central.low, most.high} : AngleRange{most.low, central.high};
 }
 

@@ -52,7 +52,9 @@ public:
     // lengths and the squared cosines between them and it, and zero. Round a tube of any proportions the edges along it
     // say how it bends, those around it nothing.
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
-    // The middle half likewise on the other side of zero, and up to `share` on the edge's own.
+    // The middle half likewise on the other side of zero, and up to `share` on the edge's own. On the other side edges
+    // between two faces of several triangles in one plane don't count: the top of a letter's wall is no noise beside
+    // its foot.
     [[nodiscard]] AngleRange usual_across(int edge, double share, Walk& walk) const;
     static constexpr double half = 0.75;  // the share up to which the middle half goes
     // By how much it bends in that direction beyond the rows beside the edge, in degrees per length: on both sides
@@ -68,8 +70,10 @@ private:
     void measure_edges();
     void measure(int edge);
     [[nodiscard]] double area(int triangle) const;
+    [[nodiscard]] bool is_between_planes(int edge) const;
     [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
-    [[nodiscard]] std::vector<WeightedAngle> across(int a, int b, Walk& walk) const;  // of the edges around
+    // Of some edges, by what they say of the bends across an edge (a, b).
+    [[nodiscard]] std::vector<WeightedAngle> weighted(const Indices& edges, int a, int b) const;
     [[nodiscard]] Vector3 normal_beyond(int side) const;
     [[nodiscard]] Indices inner_edges(const Indices& triangles, Walk& walk) const;  // with two triangles, each once
     [[nodiscard]] Indices triangles_near(int a, int b, Walk& walk) const;

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/dihedral_bands.h"
+#include "geometry/turned_caps.h"
 #include "mesh/collapsed.h"
 #include "mesh/union_find.h"
 
@@ -201,9 +202,28 @@ private:
 
 }  // namespace
 
+// Without caps: the normal of a triangle without area says nothing. What parts a marked side is marked, too.
 VertexPairs hard_edges(const Points& points, const Triangles& triangles, const VertexPairs& marked) {
-    const Triangles whole = without_collapsed(triangles);
-    return HardEdges(points, whole).found(marked);
+    Triangles whole = without_collapsed(triangles);
+    const std::vector<char> all(static_cast<std::size_t>(whole.cols()), 1);
+    VertexPairs named = marked;
+    VertexPairs parted;
+    for (const TurnedCap& turned : turn_caps(points, all, all, 0.0, whole)) {
+        const auto [a, b] = turned.ends;
+        const std::array side{std::min(a, b), std::max(a, b)};
+        const bool is_named = std::any_of(named.begin(), named.end(), [&](const std::array<int, 2>& pair) {
+            return pair == side || pair == std::array{side[1], side[0]};
+        });
+        if (!is_named) continue;
+        named.push_back({a, turned.over});
+        named.push_back({turned.over, b});
+        parted.push_back(side);
+    }
+    VertexPairs found = HardEdges(points, whole).found(named);
+    if (parted.empty()) return found;
+    found.insert(found.end(), parted.begin(), parted.end());
+    std::sort(found.begin(), found.end());
+    return found;
 }
 
 }  // namespace fairing

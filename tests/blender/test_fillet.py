@@ -8,6 +8,7 @@ from typing import Any
 
 import bmesh
 import bpy
+import letters
 import meshes
 import numpy as np
 import pytest
@@ -52,6 +53,7 @@ def enter(obj: bpy.types.Object, chosen: Any) -> None:
     bm = bmesh.from_edit_mesh(obj.data)
     for edge, on in zip(bm.edges, chosen, strict=True):
         edge.select_set(bool(on))
+    bm.select_flush_mode()
     bmesh.update_edit_mesh(obj.data)
 
 
@@ -359,3 +361,36 @@ def test_the_command_line_rounds_hard_edges(tmp_path: Path, width: float, status
     assert module("run.cli").execute(given) == status
     assert target.exists() == (status == 0)
     assert (len(obj.data.polygons) > 6) == (status == 0)
+
+
+@pytest.mark.parametrize("cuts", [0, 1])
+def test_a_closed_seam_is_what_is_rounded_not_what_it_encloses(cuts: int) -> None:
+    """The cube's upper rim is rounded, and none of the edges below it; undivided, all of its edges select a face."""
+    obj = cube()
+    if cuts:
+        meshes.edit(obj)
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.subdivide(number_cuts=cuts)
+        bpy.ops.object.mode_set(mode="OBJECT")
+    rim = edge_mask(
+        obj, lambda ends: np.allclose(ends[:, 2], 1.0) and np.isclose(np.abs(ends).min(axis=0), 1.0).sum() > 1
+    )
+    assert run(obj, rim, width=WIDTH) == {"FINISHED"}
+    points = meshes.positions(obj)
+    below = points[np.abs(points[:, 2] + 1.0) < 1e-6]
+    assert len(below) == (4, 9)[cuts]
+    assert np.abs(points[:, :2]).max() == 1.0
+    top = points[np.abs(points[:, 2] - 1.0) < 1e-6]
+    assert np.abs(top[:, :2]).max() < 1.0 - 0.9 * WIDTH
+
+
+@pytest.mark.parametrize("letter", ["A", "R"])
+def test_a_letter_on_a_bent_plate_has_a_fillet_at_its_foot(letter: str) -> None:
+    """Of the surface asked for, not of a stand-in; nothing above it moves."""
+    obj = letters.on_plate(letter)
+    above = [tuple(v.co) for v in obj.data.vertices if v.co.z > letters.HEIGHT - 1e-4]
+    result = module("run.fillet_mesh").fillet_mesh(obj.data, letters.foot(obj), width=0.05)
+    assert (result.converged, result.provenance) == (True, "equation")
+    assert len(result.vertices) > 1000
+    assert np.percentile(result.boundary_angle, 80) < 10.0  # more where the letter's upright edges end
+    assert {tuple(v.co) for v in obj.data.vertices} >= set(above)

@@ -83,6 +83,8 @@ def _band(run: IntArray, points: FloatArray, normals: FloatArray, turns: FloatAr
         return None
     shares = np.concatenate([[0.0], np.cumsum(np.abs(steps))]) / np.abs(steps).sum()
     places, shares = _furthest_inside(places, shares, points, axis)
+    if len(places) < 2:  # the loop runs along all of it
+        return None
     middle = points[places].mean(axis=0)
     end = EdgeEnd(number, number, middle, axis, np.zeros(3), float(np.degrees(whole)), False)
     covered = (places[0] + np.arange((places[-1] - places[0]) % len(points) + 1)) % len(points)

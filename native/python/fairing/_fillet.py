@@ -136,7 +136,7 @@ def _filled(points: FloatArray, faces: IntArray, seams: IntArray, cut: dict[str,
         chosen["fixed_curvatures"] = cut["curvatures"][rim]
     report = new.faired("given", None, chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
-    kept = np.flatnonzero(~inside & _touched(cut["parent"], inside))
+    kept = np.flatnonzero(~inside & _is_gone(cut["parent"], inside, len(faces))[cut["parent"]])
     old, weights = _origins(cut, origin, first, len(placed) - count)
     parents = np.concatenate(
         [cut["parent"][kept], _under(new.triangles, old, count, np.flatnonzero(on_seam >= 0) + len(placed))]
@@ -163,7 +163,7 @@ def _filled(points: FloatArray, faces: IntArray, seams: IntArray, cut: dict[str,
     )
     return FilletResult(
         **values,
-        gone=read_only(np.unique(cut["parent"][_touched(cut["parent"], inside)]).astype(np.int32)),
+        gone=read_only(np.flatnonzero(_is_gone(cut["parent"], inside, len(faces))).astype(np.int32)),
         outside=len(kept),
         parent=read_only(parents.astype(np.int32)),
         origin=(read_only(old[used]), read_only(weights[used])),
@@ -212,13 +212,11 @@ def _curvatures(drawn: FloatArray, new: Patch, patch: Patch) -> FloatArray:
     return _core.mean_curvature(drawn, new.triangles, patch.fixed, patch.normals, "fitted")
 
 
-def _touched(parent: IntArray, inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """Which pieces are of triangles that do not stay."""
-    pieces = np.bincount(parent)
-    gone = np.zeros(len(pieces), dtype=bool)
+def _is_gone(parent: IntArray, inside: npt.NDArray[np.bool_], count: int) -> npt.NDArray[np.bool_]:
+    """(m,) which triangles do not stay: cut, within the fillet, or turned into the one beside."""
+    gone: npt.NDArray[np.bool_] = np.bincount(parent, minlength=count) != 1
     gone[parent[inside]] = True
-    touched: npt.NDArray[np.bool_] = (gone | (pieces > 1))[parent]
-    return touched
+    return gone
 
 
 def _origins(cut: dict[str, Any], origin: Any, within: FirstMesh, line_count: int) -> tuple[IntArray, FloatArray]:

@@ -16,7 +16,7 @@ from fairing import _seams
 from fairing._measure import boundary_loops
 from fairing._types import FloatArray, IntArray
 
-_TINY = 0.02  # of the spacing: edges that short are closed, lower caps are turned into the triangle beside them
+_TINY = 0.02  # of the spacing: edges that short are closed
 _SLIVER = 0.1  # of the spacing: lower triangles would stay as low between edges that stay
 _SHORT = 0.5  # of the spacing: edges of seams that short are closed; the new mesh would be as fine
 _MOST = 200  # triangles of a speck
@@ -87,7 +87,6 @@ def first_mesh(cut: dict[str, Any], placed: FloatArray, spacing: float) -> First
             lines = np.unique(np.sort(ends[ends[:, 0] != ends[:, 1]], axis=1), axis=0).astype(np.int32)
             triangles, weights, parents = closed, weights[stays], parents[stays]
             break
-    triangles, weights, parents = _without_caps((triangles, weights, parents), placed, _TINY * spacing)
     return FirstMesh(triangles, parents, weights, _between(lines, triangles, placed, _SLIVER * spacing))
 
 
@@ -130,54 +129,6 @@ def _is_like(closed: IntArray, triangles: IntArray) -> bool:
 def _euler(triangles: IntArray) -> int:
     sides = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     return len(np.unique(triangles)) - len(np.unique(_seams.keys_of(sides))) + len(triangles)
-
-
-Pieces = tuple[IntArray, FloatArray, IntArray]
-
-
-def _without_caps(pieces: Pieces, placed: FloatArray, least: float) -> Pieces:
-    """Turn the long side of each triangle that is lower than that, with a corner over it, in the triangle beside."""
-    triangles, weights, parents = pieces[0].copy(), pieces[1].copy(), pieces[2].copy()
-    sides = {pair: row for row, corners in enumerate(triangles.tolist()) for pair in _sides(corners)}
-    for cap in _caps(triangles, placed, least):
-        corners = triangles[cap].tolist()
-        lengths = [float(np.linalg.norm(placed[b] - placed[a])) for a, b in _sides(corners)]
-        k = int(np.argmax(lengths))
-        a, b, over = corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]
-        beside = sides.get((b, a))
-        if beside is None or _height(placed[[a, b, over]]) >= least:
-            continue
-        place = triangles[beside].tolist().index(b)
-        opposite = int(triangles[beside, (place + 2) % 3])
-        if (over, opposite) in sides or (opposite, over) in sides or over == opposite:
-            continue
-        at_b, at_a, at_opposite = weights[beside][[place, (place + 1) % 3, (place + 2) % 3]]
-        way = placed[b] - placed[a]
-        share = float(np.clip(float((placed[over] - placed[a]) @ way) / max(float(way @ way), 1e-300), 0.0, 1.0))
-        between = (1.0 - share) * at_a + share * at_b
-        for pair in (*_sides(corners), *_sides(triangles[beside].tolist())):
-            sides.pop(pair, None)
-        triangles[cap], weights[cap], parents[cap] = [over, opposite, b], [between, at_opposite, at_b], parents[beside]
-        triangles[beside], weights[beside] = [over, a, opposite], [between, at_a, at_opposite]
-        for row in (cap, beside):
-            sides.update(dict.fromkeys(_sides(triangles[row].tolist()), row))
-    return triangles, weights, parents
-
-
-def _height(corners: FloatArray) -> float:
-    """Of the third corner over the side between the others."""
-    a, b, c = corners
-    return float(np.linalg.norm(np.cross(b - a, c - a)) / max(float(np.linalg.norm(b - a)), 1e-300))
-
-
-def _caps(triangles: IntArray, placed: FloatArray, least: float) -> list[int]:
-    """The triangles that low, all of whose sides are longer."""
-    corners = placed[triangles]
-    lengths = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    low = (areas < least * lengths.max(axis=1)) & (lengths.min(axis=1) > least)
-    found: list[int] = np.flatnonzero(low).tolist()
-    return found
 
 
 def _between(lines: IntArray, triangles: IntArray, placed: FloatArray, least: float) -> IntArray:

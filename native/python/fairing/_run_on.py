@@ -224,6 +224,8 @@ class _Finder:
         for joint in matched([band.end for band in bands]).joints:
             if joint.centre is None:
                 one, other = (bands[k] for k in joint.ends)
+                if one.covered & other.covered:  # beside each other: nothing lies between
+                    continue
                 trees += making.band(self.loop, one, other, mean)
                 inside |= set(self.loop[sorted(one.covered | other.covered)].tolist())
         return [each for each in warnings if not inside >= set(each.elements.tolist())]

@@ -14,6 +14,7 @@ ID = "bl_ext.user_default.intrinsic_fairing"
 KEYS = {  # run operators, so that they are run by an event as from a menu
     "mesh.fair_region": "F19",
     "mesh.fair_fill": "F18",
+    "mesh.fair_fillet": "F17",
     "mesh.fair_spots": "F16",
     "mesh.fair_live_far_side": "F15",
     "mesh.fair_live_region": "F14",

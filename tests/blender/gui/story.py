@@ -20,6 +20,7 @@ from ends_chapters import (
     quits_during_a_search,
     undo_and_removal_end_a_run,
 )
+from fillet_chapters import fillet_is_dragged
 from live_chapters import (
     live_begins_in_the_background,
     live_follows_a_drag,
@@ -207,6 +208,7 @@ CHAPTERS = (
     keeps_detail,
     joins_curvature,
     fills_a_hole,
+    fillet_is_dragged,
     masked_in_sculpt_mode,
     face_set_by_a_click,
     live_follows_a_drag,
