@@ -109,6 +109,16 @@ def test_strokes_on_a_plate_have_all_their_edges(stroke: float, rows: int) -> No
     assert fairing.hard_edges(vertices, triangles).tolist() == lines.tolist()
 
 
+@pytest.mark.parametrize(("n", "waves"), [(8, 7.0), (16, 11.0)])
+def test_plane_quads_of_a_rough_grid_are_no_faces_of_a_solid(n: int, waves: float) -> None:
+    """z = f(x) + g(y) makes every quad plane, and rows bend by up to 50° to one side and the other in turns."""
+    x, y = np.meshgrid(np.linspace(-1, 1, n + 1), np.linspace(-1, 1, n + 1), indexing="ij")
+    vertices = np.stack([x, y, 0.2 * np.cos(2 * x) + 0.1 * np.sin(waves * y)], axis=-1).reshape(-1, 3)
+    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    triangles = np.concatenate([np.column_stack([k, k + n + 1, k + n + 2]), np.column_stack([k, k + n + 2, k + 1])])
+    assert len(fairing.hard_edges(vertices, triangles)) == 0
+
+
 def test_marked_edges_are_hard_whatever_they_bend() -> None:
     vertices, triangles = bent_sheet(6, np.full(7, 2.0))
     row = [4 * 7 + 2, 4 * 7 + 3]

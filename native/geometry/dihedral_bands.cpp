@@ -210,16 +210,35 @@ double DihedralBands::weight_across(int edge, const Vector3& along) const {
     return lengths_[edge] * cosine * cosine;
 }
 
-bool DihedralBands::is_between_planes(int edge) const {
-    const auto goes_on = [&](int side) {
-        for (const int k : {1, 2}) {
-            const int e = edges_.edge_of_side[side - side % 3 + (side + k) % 3];
-            if (edges_.side_count(e) == 2 && std::abs(angles_[e]) < plane_angle) return true;
+// The plane face of the triangle over a side, as far as its third triangle.
+DihedralBands::PlaneFace DihedralBands::plane_face(int side) const {
+    const int edge = edges_.edge_of_side[side];
+    const double least = 0.5 * std::abs(angles_[edge]);
+    Indices found{side / 3};
+    bool bends_away = true;
+    for (std::size_t k = 0; k < found.size() && found.size() <= 2; ++k) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const int e = edges_.edge_of_side[3 * found[k] + corner];
+            if (e == edge || edges_.side_count(e) != 2) continue;
+            if (std::abs(angles_[e]) >= plane_angle) {
+                bends_away = bends_away && std::abs(angles_[e]) >= least;
+                continue;
+            }
+            for (const int other : {0, 1}) {
+                const int next = edges_.side(e, other) / 3;
+                if (std::find(found.begin(), found.end(), next) == found.end()) found.push_back(next);
+            }
         }
-        return false;
-    };
-    return edges_.side_count(edge) == 2 && std::abs(angles_[edge]) >= plane_angle && goes_on(edges_.side(edge, 0)) &&
-           goes_on(edges_.side(edge, 1));
+    }
+    const bool is_quad = found.size() > 1;
+    return {is_quad, found.size() > 2 || (is_quad && bends_away)};
+}
+
+bool DihedralBands::is_between_planes(int edge) const {
+    if (edges_.side_count(edge) != 2 || std::abs(angles_[edge]) < plane_angle) return false;
+    const PlaneFace first = plane_face(edges_.side(edge, 0));
+    const PlaneFace second = plane_face(edges_.side(edge, 1));
+    return first.has_several && second.has_several && (first.is_of_solid || second.is_of_solid);
 }
 
 AngleRange DihedralBands::usual_across(int edge, double share, Walk& walk) const {

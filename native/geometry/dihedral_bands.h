@@ -53,8 +53,8 @@ public:
     // say how it bends, those around it nothing.
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
     // The middle half likewise on the other side of zero, and up to `share` on the edge's own. On the other side edges
-    // between two faces of several triangles in one plane don't count: the top of a letter's wall is no noise beside
-    // its foot.
+    // between two plane faces, one of them of a solid, don't count: the top of a letter's wall is no noise
+    // beside its foot.
     [[nodiscard]] AngleRange usual_across(int edge, double share, Walk& walk) const;
     static constexpr double half = 0.75;  // the share up to which the middle half goes
     // By how much it bends in that direction beyond the rows beside the edge, in degrees per length: on both sides
@@ -70,6 +70,13 @@ private:
     void measure_edges();
     void measure(int edge);
     [[nodiscard]] double area(int triangle) const;
+    // `is_of_solid`: it is more than a quad, or bent away from at each of its other sides by at least half as much as
+    // at this one. Quads of a grid over a curved surface may be plane, too.
+    struct PlaneFace {
+        bool has_several;  // triangles
+        bool is_of_solid;
+    };
+    [[nodiscard]] PlaneFace plane_face(int side) const;
     [[nodiscard]] bool is_between_planes(int edge) const;
     [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
     // Of some edges, by what they say of the bends across an edge (a, b).

@@ -82,10 +82,10 @@ def grid(size: int = 8) -> bpy.types.Object:
 
 
 def domed_grid() -> tuple[bpy.types.Object, Mask]:
-    """Add a grid with a bumpy surface; return it and a selection away from the border."""
+    """Add a grid with a bumpy surface without hard edges; return it and a selection away from the border."""
     obj = grid()
     points = positions(obj)
-    points[:, 2] = 0.2 * np.cos(2.0 * points[:, 0]) + 0.1 * np.sin(9.0 * points[:, 1])
+    points[:, 2] = 0.2 * np.cos(2.0 * points[:, 0]) + 0.1 * np.sin(5.0 * points[:, 1])
     move(obj, points)
     return obj, faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
 
