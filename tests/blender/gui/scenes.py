@@ -140,11 +140,11 @@ def _select(mode: tuple[bool, bool, bool], chosen: Any) -> None:
 
 
 def hopeless() -> int:
-    """A quarter of a coarse torus, 132 free vertices: the engine looks for a fair surface for seconds."""
+    """150° of a thin coarse torus: the engine looks for a fair surface for seconds."""
     clear()
-    bpy.ops.mesh.primitive_torus_add()
+    bpy.ops.mesh.primitive_torus_add(major_radius=6.0, minor_radius=1.0)
     centres = [polygon.center for polygon in bpy.context.object.data.polygons]
-    return start(np.array([centre.x > 0.0 and centre.y > 0.0 for centre in centres]))
+    return start(np.array([abs(np.arctan2(centre.y, centre.x)) < np.radians(75.0) for centre in centres]))
 
 
 def large() -> int:
