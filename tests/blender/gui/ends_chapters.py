@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import sys
 import threading
 import time
@@ -14,6 +15,7 @@ import scenes
 from driver import OUT, Story, in_view, leave_popup, tell
 from panel import ID, module, run_operator, set_options, wait_until
 
+_radii = itertools.count(5.5, 0.125)
 QUICK = 3.0  # seconds that Blender may stand still, with redraws by software; it was ten
 
 
@@ -27,9 +29,10 @@ def _is_running() -> bool:
 
 def _begin_run() -> Story:
     """Have a run of seconds under way."""
-    scenes.large()
-    set_options()
+    scenes.hopeless(next(_radii))  # what is found for one is at hand for the next run
+    set_options(equation="HARMONIC", tolerance=1e-14)
     yield 1.0
+    bpy.context.window_manager.fairing_report.free_vertices = 0  # of a chapter before
     run_operator()
     yield from wait_until(_is_running, 20.0)
     yield 0.3
