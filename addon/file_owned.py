@@ -35,6 +35,7 @@ def _before_load(*_arguments: Any) -> None:
 
 
 def _after_load(*_arguments: Any) -> None:
+    bpy.context.window_manager.fairing_live.on = False  # nobody has asked for anything in this file yet
     forget()
     overlay.refresh()
 

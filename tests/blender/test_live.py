@@ -196,6 +196,22 @@ def test_region_is_saved_with_the_mesh(live: Any, tmp_path: Path) -> None:
     assert_fair(faces)
 
 
+def test_a_file_that_is_opened_keeps_its_positions(live: Any, tmp_path: Path) -> None:
+    """Its region is not fair, and Live was on in the last file."""
+    table_mountain()
+    switch(False)
+    drag(flank(now()), (0.0, 0.0, 0.03))
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "live.blend"))
+    before = now()
+    switch(True)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "live.blend"))
+    assert not bpy.context.window_manager.fairing_live.on
+    if bpy.data.objects["Grid"].mode != "EDIT":
+        meshes.edit(bpy.data.objects["Grid"])
+    bpy.context.view_layer.update()
+    assert np.array_equal(now(), before)
+
+
 def test_options_are_those_of_the_last_run(live: Any) -> None:
     obj = meshes.grid(12)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
