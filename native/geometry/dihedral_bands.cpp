@@ -241,11 +241,12 @@ bool DihedralBands::is_between_planes(int edge) const {
     return first.has_several && second.has_several && (first.is_of_solid || second.is_of_solid);
 }
 
-AngleRange DihedralBands::usual_across(int edge, double share, Walk& walk) const {
+AngleRange DihedralBands::usual_across(int edge, double share, const std::vector<char>& between_planes,
+                                       Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
     const Indices around = inner_edges(triangles_near(a, b, walk), walk);
     Indices uneven = around;  // those between two plane faces were made so, by no noise
-    std::erase_if(uneven, [&](int e) { return is_between_planes(e); });
+    std::erase_if(uneven, [&](int e) { return between_planes[e] != 0; });
     std::vector<WeightedAngle> own = weighted(around, a, b);
     std::vector<WeightedAngle> other = weighted(uneven, a, b);
     const AngleRange central = middle(half, other);

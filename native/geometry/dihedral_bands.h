@@ -53,9 +53,12 @@ public:
     // say how it bends, those around it nothing.
     [[nodiscard]] AngleRange usual(int a, int b, Walk& walk) const;
     // The middle half likewise on the other side of zero, and up to `share` on the edge's own. On the other side edges
-    // between two plane faces, one of them of a solid, don't count: the top of a letter's wall is no noise
-    // beside its foot.
-    [[nodiscard]] AngleRange usual_across(int edge, double share, Walk& walk) const;
+    // between plane faces, marked in `between_planes`, don't count: the top of a letter's wall is no noise beside its
+    // foot.
+    [[nodiscard]] AngleRange usual_across(int edge, double share, const std::vector<char>& between_planes,
+                                          Walk& walk) const;
+    // Whether an edge lies between two plane faces of several triangles, one of them of a solid.
+    [[nodiscard]] bool is_between_planes(int edge) const;
     static constexpr double half = 0.75;  // the share up to which the middle half goes
     // By how much it bends in that direction beyond the rows beside the edge, in degrees per length: on both sides
     // together, and on the side where it bends less. Nothing where less than one row's share is near.
@@ -77,7 +80,6 @@ private:
         bool is_of_solid;
     };
     [[nodiscard]] PlaneFace plane_face(int side) const;
-    [[nodiscard]] bool is_between_planes(int edge) const;
     [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
     // Of some edges, by what they say of the bends across an edge (a, b).
     [[nodiscard]] std::vector<WeightedAngle> weighted(const Indices& edges, int a, int b) const;

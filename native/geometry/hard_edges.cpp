@@ -35,6 +35,7 @@ public:
     HardEdges(const Points& points, const Triangles& triangles)
         : points_(points),
           bands_(points, triangles),
+          between_planes_(edges().size(), 0),
           hardness_(edges().size(), soft),
           begin_(static_cast<std::size_t>(points.cols()) + 1, 0),
           at_border_(static_cast<std::size_t>(points.cols()), 0) {}
@@ -55,6 +56,9 @@ private:
     [[nodiscard]] const EdgeTable& edges() const { return bands_.edges(); }
 
     void measure() {
+        for_ranges(edges().size(), coarse_grain, [&](int begin, int end) {
+            for (int e = begin; e < end; ++e) between_planes_[e] = bands_.is_between_planes(e) ? 1 : 0;
+        });
         for_ranges(edges().size(), coarse_grain, [&](int begin, int end) {
             DihedralBands::Walk walk;  // made where it is needed: most pieces of a smooth mesh have no such edge
             for (int e = begin; e < end; ++e) {
@@ -84,7 +88,7 @@ private:
     };
 
     [[nodiscard]] Usual usual(int edge, double share, DihedralBands::Walk& walk) const {
-        const AngleRange range = bands_.usual_across(edge, share, walk);
+        const AngleRange range = bands_.usual_across(edge, share, between_planes_, walk);
         const bool is_convex = bands_.angle(edge) > 0.0;
         return {std::min(is_convex ? range.high : -range.low, roundest_bend),
                 noise_margin * (is_convex ? -range.low : range.high)};
@@ -194,6 +198,7 @@ private:
 
     const Points& points_;
     DihedralBands bands_;
+    std::vector<char> between_planes_;
     std::vector<Hardness> hardness_;
     Indices begin_;  // of each vertex in `at_vertex_`
     Indices at_vertex_;
