@@ -79,6 +79,15 @@ def bevelled_edge() -> None:
     swept(profile, 16, lambda at: at.length < 0.55)
 
 
+def join(body: Any, boss: Any) -> None:
+    """Add the boss to the body by a boolean."""
+    bpy.context.view_layer.objects.active = body
+    joined = body.modifiers.new("Joined", "BOOLEAN")
+    joined.operation, joined.object, joined.solver = "UNION", boss, "EXACT"
+    bpy.ops.object.modifier_apply(modifier="Joined")
+    bpy.data.objects.remove(boss)
+
+
 def letter() -> None:
     """A letter on a bent plate, joined by a boolean."""
     bm = bmesh.new()
@@ -117,10 +126,7 @@ def letter() -> None:
     weld.free()
     boss = bpy.data.objects.new("Boss", solid)
     bpy.context.collection.objects.link(boss)
-    joined = plate.modifiers.new("Joined", "BOOLEAN")
-    joined.operation, joined.object, joined.solver = "UNION", boss, "EXACT"
-    bpy.ops.object.modifier_apply(modifier="Joined")
-    bpy.data.objects.remove(boss)
+    join(plate, boss)
     pictures.add_camera((0.0, 0.0, 0.05), (0.35, -0.9, 0.9), 1.15)
 
 
@@ -137,11 +143,7 @@ def cylinders() -> None:
     block = bpy.context.object
     bpy.ops.mesh.primitive_cylinder_add(vertices=48, radius=0.5, depth=1.6, rotation=(0.35, 0.0, 0.0))
     boss = bpy.context.object
-    bpy.context.view_layer.objects.active = block
-    joined = block.modifiers.new("Joined", "BOOLEAN")
-    joined.operation, joined.object, joined.solver = "UNION", boss, "EXACT"
-    bpy.ops.object.modifier_apply(modifier="Joined")
-    bpy.data.objects.remove(boss)
+    join(block, boss)
     pictures.add_camera((0.0, 0.0, 0.1), (0.8, -0.9, 0.7), 2.6)
 
 

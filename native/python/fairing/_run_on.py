@@ -45,11 +45,6 @@ class Curves:
     """The vertices along the rows of each, from side to side."""
     warnings: tuple[Diagnostic, ...]
 
-    @property
-    def holds_any(self) -> bool:
-        """Whether a loop is to be filled along curves."""
-        return any(cut is not None for cut in self.cut)
-
     def left_alone(self, loops: Sequence[IntArray]) -> Curves:
         """Nothing, and a warning; loops: those that they cut, over which no surface holds them."""
         rows = [row for band in self.bands for row in band]
