@@ -10,8 +10,9 @@ from mathutils import Vector
 
 SIZE = 640  # pixels, square
 STRIPES = 18.0  # radians per unit of the mirrored direction
+ACROSS = (0.35, 0.2, 0.92)  # the stripes lie across this direction, askew: upright walls have them too
 EDGE = (-0.15, 0.15, 0.02, 0.8)  # of a stripe: from these heights of the wave to these tones
-BACKGROUND = (0.36, 0.39, 0.42)
+BACKGROUND = (0.045, 0.05, 0.055)  # linear
 
 
 def add_camera(target: Iterable[float], direction: Iterable[float], width: float) -> None:
@@ -70,9 +71,9 @@ def stripe_material() -> bpy.types.Material:
     geometry = tree.nodes.new("ShaderNodeNewGeometry")
     mirrored = _math(tree, "ShaderNodeVectorMath", "REFLECT", geometry.outputs["Incoming"])
     tree.links.new(geometry.outputs["Normal"], mirrored.inputs[1])
-    split = tree.nodes.new("ShaderNodeSeparateXYZ")
-    tree.links.new(mirrored.outputs[0], split.inputs[0])
-    wave = _math(tree, "ShaderNodeMath", "MULTIPLY", split.outputs["Z"], STRIPES)
+    along = _math(tree, "ShaderNodeVectorMath", "DOT_PRODUCT", mirrored.outputs[0])
+    along.inputs[1].default_value = ACROSS
+    wave = _math(tree, "ShaderNodeMath", "MULTIPLY", along.outputs["Value"], STRIPES)
     wave = _math(tree, "ShaderNodeMath", "SINE", wave.outputs[0])
     tone = tree.nodes.new("ShaderNodeMapRange")
     tree.links.new(wave.outputs[0], tone.inputs["Value"])
@@ -96,7 +97,7 @@ def _math(tree: Any, kind: str, operation: str, first: Any, second: float | None
 
 def tint(mesh: bpy.types.Mesh, faces: Any) -> None:
     """Give the faces a warmer clay than the rest, so that pictures show what was selected."""
-    for name, colour in (("Clay", (0.62, 0.62, 0.62, 1.0)), ("Selected", (0.75, 0.52, 0.33, 1.0))):
+    for name, colour in (("Clay", (0.78, 0.78, 0.78, 1.0)), ("Selected", (0.95, 0.48, 0.16, 1.0))):
         material = bpy.data.materials.new(name)
         material.diffuse_color = colour
         mesh.materials.append(material)

@@ -112,6 +112,19 @@ def test_a_boss_or_a_pocket_goes(height: float) -> None:
     assert np.abs(result.vertices[free, 2]).max() < 1e-6
 
 
+def test_half_a_ball_turned_inside_out_comes_back_round() -> None:
+    """The faces inside lie nearly on those outside, and a lid over the rim leaves both alike: they are no lid."""
+    vertices, triangles = solids.sphere(64, 32)
+    upper = (vertices[triangles][:, :, 2] > -1e-9).all(axis=1)
+    rim = np.intersect1d(triangles[upper], triangles[~upper])
+    own = np.setdiff1d(triangles[upper], rim)
+    vertices[own, 2] *= -0.4 + 0.2 * np.cos(9 * vertices[own, 0])
+    result, found, free = faired(vertices, triangles[upper], triangles[~upper])
+    assert not found.from_inside.any()
+    assert np.abs(np.linalg.norm(result.vertices[free], axis=1) - 1).max() < 1e-5
+    assert result.vertices[free, 2].min() > 0
+
+
 @pytest.mark.parametrize("above", [0.3, 0.5, 0.7])
 def test_a_dent_that_ends_in_a_crease_goes(above: float) -> None:
     """A ball whose cap was pushed in: parts of its jagged outline are hard, but these edges end there."""

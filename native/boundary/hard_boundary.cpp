@@ -48,7 +48,7 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
 struct HardMeeting {
     std::array<int, 2> ends;
     std::array<bool, 2> goes_on;  // whether a hard edge outside begins at that end
-    double leans_in;              // degrees by which the closing surface is nearer to the inside, times the length
+    double leans_in;              // degrees by which the closing surface is clearly nearer to the inside, times length
 };
 
 // Marks of the patch's vertices from which hard edges lead outside.
@@ -79,8 +79,8 @@ std::vector<HardMeeting> hard_meetings(const PatchInMesh& mesh, const VertexPair
         const Vector3 outside = (alike ? -1.0 : 1.0) * normal_of(mesh.points, mesh.outside, edge.outside);
         const Vector3 leaves = normal_of(closed, mesh.inside, edge.inside);
         const double length = (mesh.points.col(edge.ends[0]) - mesh.points.col(edge.ends[1])).norm();
-        const double leans_in = degrees_between(leaves, outside) - degrees_between(leaves, inside);
-        result.push_back({edge.ends, {goes_on[edge.ends[0]] != 0, goes_on[edge.ends[1]] != 0}, length * leans_in});
+        const double nearer = degrees_between(leaves, outside) - degrees_between(leaves, inside) - fading_bend;
+        result.push_back({edge.ends, {goes_on[edge.ends[0]] != 0, goes_on[edge.ends[1]] != 0}, length * nearer});
     }
     return result;
 }

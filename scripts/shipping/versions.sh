@@ -12,6 +12,8 @@ platforms_of_python313=(
 checking_tools=('cyclonedx-python-lib[json-validation]==11.12.0' macholib==1.16.4 pefile==2024.8.26 pyelftools==0.33)
 # what pip installs to build and use the sdist
 sdist_needs=(cmake==4.4.4 ninja==1.13.2 numpy==2.1.0 pybind11==3.1.0 scikit-build-core==1.1.2)
+# what makes the site of docs/
+site_needs=(mkdocs-material==9.8.2 'mkdocstrings[python]==1.0.8')
 # A real CPython for Windows that PyPI has: inside the wheels of an engine that ships it with games.
 panda3d_version=1.10.16
 declare -A windows_numpy=([3.11]=1.26.4 [3.13]=2.1.0) # the newest that need nothing wine 8 lacks

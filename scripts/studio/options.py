@@ -1,27 +1,19 @@
-"""The user guide's rows of pictures: the same selection, faired with different options."""
+"""What the options of Fair Region do: the rows of docs/user_guide.md."""
 
-import sys
 from collections.abc import Callable
 from itertools import pairwise
-from pathlib import Path
 from typing import Any
 
-import demo  # before bpy: it sets Blender's scratch folder
-
-# isort: split
 import bpy
 import numpy as np
+from rows import Chosen, Row, marked, placed
 
 import demo_pictures as pictures
 import demo_scenes as scenes
-
-pictures.SIZE = 240  # pixels of one picture
-
-Options = dict[str, Any] | None  # None: the shape before
-Scene = Callable[[], tuple[bpy.types.Object, Any]]
+import tools
 
 
-def ball() -> tuple[bpy.types.Object, Any]:
+def ball() -> Chosen:
     """A sphere whose upper half is pressed flat."""
     bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
     obj = bpy.context.object
@@ -33,10 +25,10 @@ def ball() -> tuple[bpy.types.Object, Any]:
     obj.data.vertices.foreach_set("co", points.ravel().astype(np.float32))
     obj.data.update()
     pictures.add_camera((0.0, 0.0, 0.15), (1.0, -1.0, 0.5), 2.9)
-    return obj, upper
+    return marked(upper)
 
 
-def mesa() -> tuple[bpy.types.Object, Any]:
+def mesa() -> Chosen:
     """A round table mountain, its flat top selected; custom normals that point straight up."""
     profile = [(0.04 * k, 0.3) for k in range(1, 16)] + [(0.6 + 0.03 * k, 0.3 - 0.06 * k) for k in range(1, 6)]
     profile += [(0.75 + 0.05 * k, 0.0) for k in range(1, 8)]
@@ -49,16 +41,13 @@ def mesa() -> tuple[bpy.types.Object, Any]:
         faces += [(inner[j], outer[j], outer[j + 1], inner[j + 1]) for j in range(count)]
     mesh = bpy.data.meshes.new("Mesa")
     mesh.from_pydata(points, [], faces)
-    obj = bpy.data.objects.new("Mesa", mesh)
-    bpy.context.collection.objects.link(obj)
-    bpy.context.view_layer.objects.active = obj
-    mesh.shade_smooth()
+    placed(mesh)
     mesh.normals_split_custom_set_from_vertices([(0.0, 0.0, 1.0)] * len(points))
     pictures.add_camera((0.0, 0.0, 0.2), (0.6, -1.0, 0.45), 2.3)
-    return obj, np.array([np.hypot(*polygon.center.xy) < 0.6 for polygon in mesh.polygons])
+    return marked(np.array([np.hypot(*polygon.center.xy) < 0.6 for polygon in mesh.polygons]))
 
 
-def hill() -> tuple[bpy.types.Object, Any]:
+def hill() -> Chosen:
     """A plain with a hill on it, selected with some of the plain; vertex group "Pin" and seams."""
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=64, y_subdivisions=64, size=2.0)
     obj = bpy.context.object
@@ -76,19 +65,20 @@ def hill() -> tuple[bpy.types.Object, Any]:
         edge.use_seam = bool(line[list(edge.vertices)].all())
     pictures.add_camera((0.0, 0.0, 0.1), (0.6, -1.0, 0.6), 2.3)
     centres = np.array([polygon.center for polygon in obj.data.polygons])
-    return obj, np.linalg.norm(centres[:, :2], axis=1) < 0.6
+    return marked(np.linalg.norm(centres[:, :2], axis=1) < 0.6)
 
 
-def ear() -> tuple[bpy.types.Object, Any]:
+def ear() -> Chosen:
     """Suzanne's ear."""
     monkey = scenes.suzanne()
     pictures.add_camera((0.85, 0.0, 0.2), (1.0, -0.6, 0.2), 1.7)
-    return monkey, scenes.ear_faces(monkey.data)
+    return marked(scenes.ear_faces(monkey.data))
 
 
-def checkered_ear() -> tuple[bpy.types.Object, Any]:
+def checkered_ear() -> Chosen:
     """Suzanne's ear with a checker on its texture coordinates."""
-    monkey, faces = ear()
+    chosen = ear()
+    monkey = bpy.context.object
     image = bpy.data.images.new("Checker", 1024, 1024)
     rows = np.arange(1024) // 12 % 2
     tone = np.where(rows[:, None] ^ rows[None, :], 0.85, 0.25)
@@ -99,64 +89,41 @@ def checkered_ear() -> tuple[bpy.types.Object, Any]:
     texture.image = image
     material.node_tree.nodes.active = texture
     monkey.data.materials.append(material)
-    return monkey, faces
+    return chosen
+
+
+def faired(scene: Callable[[], Chosen], runs: dict[str, dict[str, Any]]) -> list[list[Row]]:
+    """The scene, then results with options, by their captions."""
+    made = {name: tools.fair_region(accept="ALL", **options) for name, options in runs.items()}
+    return [[Row("Before", scene, "faces", made, striped=False)]]
 
 
 def constant(bulge: float) -> dict[str, Any]:
+    """Options of a load."""
     return {"equation": "CONSTANT", "bulge": bulge}
 
 
-def multigrid(**options: Any) -> dict[str, Any]:
-    return {"method": "PAPER", **options}
-
-
-WEIGHTS = ("UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
-ROWS: dict[str, tuple[Scene, tuple[Options, ...]]] = {
-    "factor": (ear, (None, {"factor": 0.5}, {"factor": 1.0})),
-    "shape": (ball, (None, {}, {"equation": "MINIMAL_ENERGY"}, {"equation": "MINIMAL"})),
-    "bulge": (hill, tuple(constant(b) for b in (-0.5, 0.0, 0.3, 0.6))),
-    "vertices": (checkered_ear, (None, *({"inner_fairness": w} for w in WEIGHTS))),
-    "tangent": (mesa, (None, *({"boundary_normals": source} for source in ("SURROUNDING", "AVERAGE", "CUSTOM")))),
-    "pins": (hill, (None, {}, {"pin_group": "Top"}, {"pin_group": "Ring"})),
-    "pin_edges": (hill, (None, {}, {"pin_edges": "SEAM"})),
-    "solver": (
-        ear,
-        (
-            {},
-            multigrid(),
-            multigrid(tolerance=1e-2),
-            multigrid(max_iterations=5),
-            multigrid(max_iterations=5, levels=1),
-        ),
+SHEETS = {
+    "guide_factor": faired(ear, {"Factor .5": {"factor": 0.5}, "Factor 1": {}}),
+    "guide_shape": faired(
+        ball,
+        {
+            "Automatic": {},
+            "Minimal Energy": {"equation": "MINIMAL_ENERGY"},
+            "Even Curvature": {"equation": "LEAST_VARIATION"},
+            "Soap Film": {"equation": "MINIMAL"},
+        },
     ),
+    "guide_bulge": faired(
+        hill, {"Bulge -.5": constant(-0.5), "Bulge 0": {}, "Bulge .3": constant(0.3), "Bulge .6": constant(0.6)}
+    ),
+    "guide_vertices": faired(
+        checkered_ear, {"Uniform": {"inner_fairness": "UNIFORM"}, "Conformal": {"inner_fairness": "CONFORMAL"}}
+    ),
+    "guide_tangent": faired(
+        mesa,
+        {"Surrounding": {}, "Average": {"boundary_normals": "AVERAGE"}, "Custom": {"boundary_normals": "CUSTOM"}},
+    ),
+    "guide_pins": faired(hill, {"No pin": {}, "A point": {"pin_group": "Top"}, "A ring": {"pin_group": "Ring"}}),
+    "guide_pin_edges": faired(hill, {"No pin": {}, "A line": {"pin_edges": "SEAM"}}),
 }
-
-
-def tile(scene: Scene, options: Options, path: Path) -> Path:
-    """Render one picture of a row."""
-    bpy.ops.wm.read_homefile(use_empty=True)
-    obj, faces = scene()
-    textured = bool(obj.data.materials)
-    if not textured:
-        pictures.tint(obj.data, faces)
-    if options is not None:
-        scenes.select(obj, faces)
-        bpy.ops.mesh.fair_region("EXEC_DEFAULT", accept="ALL", **options)
-        bpy.ops.object.mode_set(mode="OBJECT")
-        report = bpy.context.window_manager.fairing_report
-        print(f"{path.stem}: converged {report.converged}, distortion {report.distortion:.3f}", flush=True)
-    pictures.shaded(path, "TEXTURE" if textured else "MATERIAL")
-    return path
-
-
-def main() -> None:
-    """Usage: guide_pictures.py ZIP OUTPUT_FOLDER."""
-    package, out = Path(sys.argv[1]), Path(sys.argv[2])
-    demo.install(package)
-    for name, (scene, row) in ROWS.items():
-        paths = [tile(scene, options, out / f"{name}_{number}.png") for number, options in enumerate(row)]
-        pictures.contact_sheet([paths], out / f"guide_{name}.png")
-
-
-if __name__ == "__main__":
-    main()
