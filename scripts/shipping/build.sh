@@ -72,5 +72,10 @@ make_sdist() {
     cd "$root"
 }
 
+# A repository of all zips, for a static host: build/repository.
+make_repository() {
+    quietly repository "$python" scripts/shipping/repository.py "$build/repository" "$packages"/*.zip
+}
+
 # Blender's own command-line tool for extensions, out of the bpy at hand.
 extension_tool() { find "$build/venv-$bpy/" -path '*/bl_pkg/cli/blender_ext.py' -print -quit; }

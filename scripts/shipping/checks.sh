@@ -136,6 +136,7 @@ check_reproduced() {
         TZ=Asia/Kathmandu LC_ALL=C "$copy/scripts/package" "${choice[@]}" --zips-only
     )
     diff --recursive --brief "$packages" "$copy/build/release" || fail "the second build's bytes differ: see $copy/build"
+    diff --recursive --brief "$build/repository" "$copy/build/repository" || fail "the second repository differs"
     say "The same bytes from both builds"
     rm -rf "$copy"
 }

@@ -32,7 +32,7 @@ def main() -> int:
     ball = meshes.sphere()
     points = meshes.positions(ball)
     upper = meshes.faces_where(ball, lambda centre: centre.z > 0.0)
-    points[points[:, 2] > 1e-6] *= 0.8
+    points *= 1.0 - 0.3 * np.clip(points[:, 2:], 0.0, None) ** 2  # no hard edge at the equator
     meshes.move(ball, points)
     meshes.fair(ball, upper)
     distance = float(np.abs(np.linalg.norm(meshes.positions(ball), axis=1) - 1.0).max())
