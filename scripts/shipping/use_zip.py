@@ -3,6 +3,7 @@
 use_zip.py ZIP
 """
 
+import importlib
 import os
 import sys
 import tempfile
@@ -24,9 +25,7 @@ def main() -> int:
     bpy.ops.extensions.package_install_files(
         repo="user_default", filepath=str(Path(sys.argv[1]).resolve()), enable_on_install=True, overwrite=True
     )
-    import fairing
-
-    wheel = Path(fairing.__file__)
+    wheel = Path(importlib.import_module("bl_ext.user_default.intrinsic_fairing").fairing.__file__)
     if not wheel.is_relative_to(SCRATCH.name):
         sys.exit(f"the module is not the zip's: {wheel}")
     ball = meshes.sphere()

@@ -9,8 +9,6 @@ ordinary wheel; run from the repository's root.
 from __future__ import annotations
 
 import argparse
-import base64
-import hashlib
 import tempfile
 from pathlib import Path
 
@@ -23,15 +21,6 @@ def metadata() -> tuple[str, bytes]:
     with tempfile.TemporaryDirectory() as folder:
         name = prepare_metadata_for_build_wheel(folder)
         return name, (Path(folder) / name / "METADATA").read_bytes()
-
-
-def record(contents: dict[str, bytes], path: str) -> bytes:
-    """Return the list of all files with their hashes; its own line, at `path`, has none."""
-    lines = []
-    for name in sorted(contents):
-        digest = base64.urlsafe_b64encode(hashlib.sha256(contents[name]).digest()).rstrip(b"=").decode()
-        lines.append(f"{name},sha256={digest},{len(contents[name])}")
-    return "\n".join([*lines, f"{path},,", ""]).encode()
 
 
 def main() -> None:
@@ -50,7 +39,7 @@ def main() -> None:
     ).encode()
     for name, licence in archive.files(given.licences).items():
         contents[f"{info}/licenses/{name}"] = licence
-    contents[f"{info}/RECORD"] = record(contents, f"{info}/RECORD")
+    contents[f"{info}/RECORD"] = archive.record(contents, f"{info}/RECORD")
     target = given.output / f"{info.removesuffix('.dist-info')}-{given.tag}.whl"
     archive.write(target, contents)
     print(target)

@@ -3,21 +3,29 @@
 from __future__ import annotations
 
 import http.server
+import io
 import os
 import subprocess
 import sys
 import threading
+import tomllib
+import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 
 HERE = Path(__file__).parent
-TOOL = HERE.parents[1] / "scripts" / "shipping" / "repository.py"
+ROOT = HERE.parents[1]
+TOOL = ROOT / "scripts" / "shipping" / "repository.py"
+VERSION = tomllib.loads((ROOT / "addon" / "blender_manifest.toml").read_text(encoding="utf-8"))["version"]
+NEXT = VERSION[:-1] + str(int(VERSION[-1]) + 1)  # as long as the other: both stand in a compiled module
 
 # Online access is off, as in a Blender that is new, until a line switches it on.
 BEGIN = """
+import os
 import sys
+import time
 from functools import partial
 import conftest  # before bpy: it sets Blender's scratch folder
 import bpy
@@ -48,6 +56,10 @@ def enabled():
     return [name for name in preferences.addons.keys() if name.endswith("intrinsic_fairing")]
 
 
+def engine():
+    return sys.modules[enabled()[0]].fairing
+
+
 def left():
     folder = conftest.SCRATCH / "extensions"
     return [path for path in folder.rglob("*") if "fairing" in path.name and path.is_file()]
@@ -60,6 +72,27 @@ def make(folder: Path, *zips: Path) -> Path:
     """Write a repository of these zips; return the path of its listing."""
     subprocess.run([sys.executable, TOOL, folder, *zips], check=True, capture_output=True)
     return folder / "index.json"
+
+
+def newer(archive: Path, folder: Path) -> Path:
+    """Write the zip's next version: with the same content, the compiled module's word for its version too."""
+    target = folder / archive.name.replace(VERSION, NEXT)
+    target.write_bytes(said_newer(archive.read_bytes()))
+    return target
+
+
+def said_newer(content: bytes) -> bytes:
+    """The same for the content of any file, archives within archives included."""
+    if not content.startswith(b"PK\3\4"):
+        for dot in (".", "_"):
+            content = content.replace(VERSION.replace(".", dot).encode(), NEXT.replace(".", dot).encode())
+        return content
+    written = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as opened, zipfile.ZipFile(written, "w") as target:
+        for name in opened.namelist():
+            path = said_newer(name.encode()).decode()
+            target.writestr(path, said_newer(opened.read(name)))
+    return written.getvalue()
 
 
 @contextmanager

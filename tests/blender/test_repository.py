@@ -7,6 +7,8 @@ import json
 import re
 import shutil
 import subprocess
+import threading
+import time
 from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
@@ -33,6 +35,27 @@ print("DONE", installed, distance < 1e-4, enabled(), left(), hasattr(bpy.types, 
 """
 )
 USED = "['bl_ext.{}.intrinsic_fairing'] True [] [] False"
+UPDATE = (
+    INSTALL
+    + """
+install()
+before, distance = engine(), half_a_sphere()
+open(sys.argv[2], "w").close()  # the test now offers the newer one
+while not os.path.exists(sys.argv[3]):
+    time.sleep(0.05)
+bpy.ops.extensions.repo_sync(repo_index=index)
+bpy.ops.extensions.package_upgrade_all()
+after = engine()
+for one, other in ((before, after), (after, before)):  # both work, each with errors of its own
+    try:
+        one.fair([[0.0, 0.0, float("nan")]] * 3, [[0, 1, 2]])
+    except one.MeshError as error:
+        assert not isinstance(error, other.MeshError)
+print("DONE", before.__version__, after.__version__, distance < 1e-4, half_a_sphere() < 1e-4)
+bpy.ops.extensions.package_uninstall(repo_index=index, pkg_id="intrinsic_fairing")
+print(left())
+"""
+)
 REFUSED = (
     INSTALL
     + """
@@ -59,6 +82,25 @@ def test_from_a_server(folder: Path, tmp_path: Path) -> None:
     with repository.served(folder.parent) as address:
         printed = repository.run(USE, tmp_path, f"{address}/{folder.name}/index.json")
     assert printed == USED.format("repository")
+
+
+def test_update_while_the_engine_is_loaded(tmp_path: Path) -> None:
+    """No restart: the new version's engine has another name than the loaded one's."""
+    folder, asked, answered = tmp_path / "site", tmp_path / "asked", tmp_path / "answered"
+    repository.make(folder, conftest._zip())
+
+    def offer_newer() -> None:
+        while not asked.exists():
+            time.sleep(0.05)
+        repository.make(folder, repository.newer(conftest._zip(), tmp_path))
+        answered.touch()
+
+    with repository.served(folder) as address:
+        thread = threading.Thread(target=offer_newer, daemon=True)
+        thread.start()
+        printed = repository.run(UPDATE, tmp_path, f"{address}/index.json", str(asked), str(answered))
+    assert printed.splitlines()[0] == f"{repository.VERSION} {repository.NEXT} True True"
+    assert printed.splitlines()[-1] == "[]"
 
 
 @pytest.mark.skipif(cannot_isolate(), reason="no network of its own can be made here")
