@@ -15,3 +15,4 @@ sdist_needs=(cmake==4.4.4 ninja==1.13.2 numpy==2.1.0 pybind11==3.1.0 scikit-buil
 # A real CPython for Windows that PyPI has: inside the wheels of an engine that ships it with games.
 panda3d_version=1.10.16
 declare -A windows_numpy=([3.11]=1.26.4 [3.13]=2.1.0) # the newest that need nothing wine 8 lacks
+cibuildwheel_version=4.3.5

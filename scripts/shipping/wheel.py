@@ -16,11 +16,12 @@ import archive
 from scikit_build_core.build import prepare_metadata_for_build_wheel
 
 
-def metadata() -> tuple[str, bytes]:
-    """Return the name of the wheel's .dist-info folder and its METADATA."""
+def metadata() -> tuple[str, dict[str, bytes]]:
+    """Return the name of the wheel's .dist-info folder, with METADATA and, where there are commands, their list."""
     with tempfile.TemporaryDirectory() as folder:
         name = prepare_metadata_for_build_wheel(folder)
-        return name, (Path(folder) / name / "METADATA").read_bytes()
+        found = archive.files(Path(folder) / name)
+        return name, {path: found[path] for path in ("METADATA", "entry_points.txt") if path in found}
 
 
 def main() -> None:
@@ -31,9 +32,9 @@ def main() -> None:
     parser.add_argument("--tag", required=True)
     parser.add_argument("--output", type=Path, required=True)
     given = parser.parse_args()
-    info, text = metadata()
+    info, texts = metadata()
     contents = archive.files(given.content)
-    contents[f"{info}/METADATA"] = text
+    contents.update({f"{info}/{path}": text for path, text in texts.items()})
     contents[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: scripts/package\nRoot-Is-Purelib: false\nTag: {given.tag}\n"
     ).encode()
