@@ -5,10 +5,12 @@ from . import loading
 if loading.problem():
     from .loading_panel import register, unregister
 else:
+    import fairing
+
     from .core.verdict import NotUsable
     from .registration import register, unregister
     from .run.fair_mesh import fair_mesh
     from .run.fill_mesh import fill_mesh
     from .run.fillet_mesh import fillet_mesh
 
-__all__ = ["NotUsable", "fair_mesh", "fill_mesh", "fillet_mesh", "register", "unregister"]
+__all__ = ["NotUsable", "fair_mesh", "fairing", "fill_mesh", "fillet_mesh", "register", "unregister"]

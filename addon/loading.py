@@ -17,17 +17,11 @@ def manifest() -> dict[str, Any]:
 
 @cache
 def problem() -> str:
-    """Return why the module can't be used, or nothing.
-
-    A module of another version is one that Blender still holds from before an update.
-    """
+    """Return why the module can't be used, or nothing."""
     try:
-        import fairing
+        import fairing  # noqa: F401
     except ImportError as error:  # a missing wheel, or one that this system can't load
         return str(error)
-    wanted = manifest()["version"]
-    if fairing.__version__ != wanted:
-        return f"Blender still holds version {fairing.__version__} of the module; this is {wanted}. Restart Blender"
     return ""
 
 

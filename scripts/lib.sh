@@ -134,7 +134,7 @@ zip_of() { printf '%s/intrinsic_fairing-%s-%s.zip' "$1" "$(manifest_version)" "$
 # The zip that scripts/package --bpy builds for this machine.
 zip_path() { zip_of "$build/package" linux-x64; }
 
-# Lays out the folder that becomes a platform's zip: the add-on with these wheels.
+# Lays out the folder that becomes a platform's zip: the add-on with these wheels, renamed to be its own alone.
 # usage: stage_extension FOLDER PLATFORM WHEEL…
 stage_extension() {
     local staging=$1 platform=$2 wheel
@@ -144,10 +144,11 @@ stage_extension() {
     cp -r addon/. "$staging"
     find "$staging" -name __pycache__ -prune -exec rm -r {} +
     cp "$@" "$staging/wheels"
+    python3 scripts/shipping/private.py "$staging"
     sed -i "s/^platforms = .*/platforms = [\"$platform\"]/" "$staging/blender_manifest.toml"
     {
         printf '\nwheels = [\n'
-        for wheel in "$@"; do
+        for wheel in "$staging"/wheels/*.whl; do
             printf '  "./wheels/%s",\n' "$(basename "$wheel")"
         done
         printf ']\n'

@@ -33,6 +33,12 @@ def page() -> dict[str, Any]:
     return run("docs/python.md")
 
 
+def test_the_package_page() -> None:
+    names = run("native/python/README.md")
+    assert names["hole"].converged
+    assert abs(radius(names["hole"].vertices) - 1).max() < 1e-5
+
+
 def radius(vertices: Any) -> Any:
     return np.linalg.norm(vertices[:, :2], axis=1)
 

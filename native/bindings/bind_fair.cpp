@@ -185,7 +185,7 @@ void add_words(py::class_<PaperOptions>& options, Enum PaperOptions::* member, c
 }
 
 void bind_paper_options(py::module_& module) {
-    py::class_<PaperOptions> options(module, "PaperOptions");
+    py::class_<PaperOptions> options(module, "PaperOptions", py::module_local());
     options.def(py::init<>())
         .def_readwrite("damping", &PaperOptions::damping)
         .def_readwrite("cg_steps", &PaperOptions::cg_steps)
@@ -224,7 +224,7 @@ py::dict all_words() {
 
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
-    py::class_<Options>(module, "Options")
+    py::class_<Options>(module, "Options", py::module_local())
         .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int, int,
                       double, double, std::string, Indices, Indices, bool, double>(),
              py::kw_only(), py::arg("equation"), py::arg("otherwise"), py::arg("load"), py::arg("bulge"),
@@ -233,7 +233,7 @@ void bind_fair(py::module_& module) {
              py::arg("start") = "outline", py::arg("creases") = Indices{}, py::arg("smooth_curves") = Indices{},
              py::arg("fair_border") = false, py::arg("pin_radius") = 0.0);
     bind_paper_options(module);
-    py::class_<PythonSolver>(module, "Solver")
+    py::class_<PythonSolver>(module, "Solver", py::module_local())
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
                       const std::optional<DoubleArray>&, const std::pair<Options, PaperOptions>&>(),
              py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))

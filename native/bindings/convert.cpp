@@ -12,7 +12,12 @@ py::array read_only(py::array array) {
     return array;
 }
 
-py::object package_type(const char* name) { return py::module_::import("fairing._types").attr(name); }
+std::string& package() {
+    static std::string name;
+    return name;
+}
+
+py::object package_type(const char* name) { return py::module_::import((package() + "._types").c_str()).attr(name); }
 
 void raise_mesh_error(const MeshError& error) {
     const py::object exception = package_type("MeshError")(from_diagnostic(error.diagnostic()));
@@ -58,9 +63,11 @@ py::object from_diagnostic(const Diagnostic& diagnostic) {
         diagnostic.kind == ElementKind::vertex ? "vertex" : "triangle", diagnostic.figures);
 }
 
-void register_errors() {
+void register_errors(const py::module_& module) {
+    const auto name = module.attr("__name__").cast<std::string>();
+    package() = name.substr(0, name.rfind('.'));
     // NOLINTNEXTLINE(performance-unnecessary-value-param): the signature that pybind11 wants
-    py::register_exception_translator([](std::exception_ptr pointer) {
+    py::register_local_exception_translator([](std::exception_ptr pointer) {
         try {
             if (pointer) std::rethrow_exception(pointer);
         } catch (const MeshError& error) {

@@ -40,7 +40,8 @@ py::array from_indices(const Indices& indices);
 // fairing.Diagnostic of the Python package.
 py::object from_diagnostic(const Diagnostic& diagnostic);
 
-// MeshError, SolverError and Cancelled become the Python package's exceptions.
-void register_errors();
+// MeshError, SolverError and Cancelled become the exceptions of the package that this module is in, whatever its name:
+// Blender's add-on has a copy under a name of its own. To be called before anything else.
+void register_errors(const py::module_& module);
 
 }  // namespace fairing::bindings

@@ -8,7 +8,7 @@ PYBIND11_MODULE(_core, module) {
     pybind11::list codes;
     for (const std::string_view name : fairing::code_names()) codes.append(pybind11::str(name.data(), name.size()));
     module.attr("CODES") = pybind11::tuple(codes);
-    fairing::bindings::register_errors();
+    fairing::bindings::register_errors(module);
     fairing::bindings::end_runs_at_exit();
     fairing::bindings::bind_fair(module);
     fairing::bindings::bind_fill(module);

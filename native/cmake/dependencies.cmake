@@ -1,10 +1,20 @@
-# Eigen and OpenMesh, with errors that name the packages to install.
+# Eigen and OpenMesh, with errors that name the packages to install. The sdist has both in third_party/.
 
-find_package(Eigen3 3.4 QUIET NO_MODULE)
+set(bundled "${CMAKE_CURRENT_SOURCE_DIR}/third_party")
+if(FAIRING_SYSTEM_LIBRARIES OR NOT EXISTS "${bundled}/eigen/Eigen/Core")
+  find_package(Eigen3 3.4 QUIET NO_MODULE)
+else()
+  add_library(fairing_eigen INTERFACE)
+  add_library(Eigen3::Eigen ALIAS fairing_eigen)
+  target_include_directories(fairing_eigen SYSTEM INTERFACE "${bundled}/eigen")
+endif()
 if(NOT TARGET Eigen3::Eigen)
   message(FATAL_ERROR "Eigen 3.4 was not found. Debian and Ubuntu: apt-get install libeigen3-dev")
 endif()
 
+if(NOT FAIRING_OPENMESH_SOURCE AND NOT FAIRING_SYSTEM_LIBRARIES AND EXISTS "${bundled}/openmesh/src")
+  set(FAIRING_OPENMESH_SOURCE "${bundled}/openmesh")
+endif()
 add_library(fairing_openmesh INTERFACE)
 if(FAIRING_OPENMESH_SOURCE)
   set(openmesh_root "${FAIRING_OPENMESH_SOURCE}/src")

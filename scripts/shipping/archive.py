@@ -5,6 +5,8 @@ archive.py FOLDER ZIP: puts everything under FOLDER into ZIP.
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import os
 import sys
 import time
@@ -37,6 +39,15 @@ def write(target: Path, contents: Mapping[str, bytes]) -> None:
             entry = zipfile.ZipInfo(name, date())
             entry.external_attr = 0o100644 << 16
             archive.writestr(entry, contents[name], zipfile.ZIP_DEFLATED, 9)
+
+
+def record(contents: dict[str, bytes], path: str) -> bytes:
+    """Return a wheel's list of all files with their hashes; its own line, at `path`, has none."""
+    lines = []
+    for name in sorted(contents):
+        digest = base64.urlsafe_b64encode(hashlib.sha256(contents[name]).digest()).rstrip(b"=").decode()
+        lines.append(f"{name},sha256={digest},{len(contents[name])}")
+    return "\n".join([*lines, f"{path},,", ""]).encode()
 
 
 if __name__ == "__main__":

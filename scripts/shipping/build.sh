@@ -43,7 +43,7 @@ wheels_of() {
     local platform=$1 version wheel
     shift
     for version in "$@"; do
-        wheel=$build/wheelhouse/fairing-$(manifest_version)-cp${version/./}-cp${version/./}-${wheel_platform[$platform]}.whl
+        wheel=$build/wheelhouse/intrinsic_fairing-$(manifest_version)-cp${version/./}-cp${version/./}-${wheel_platform[$platform]}.whl
         [[ -f $wheel ]] || fail "the manifest says $(manifest_version), but $wheel is not there"
         printf '%s\n' "$wheel"
     done
@@ -60,16 +60,28 @@ make_zip() {
     "$python" "$(extension_tool)" validate "$target"
 }
 
-# From a copy: the backend walks all that lies beside the sources, build/ too.
+# From a copy: the backend walks all that lies beside the sources, build/ too. Eigen's headers and the part of OpenMesh
+# that is used go with it, so that a compiler is all that it needs.
 make_sdist() {
-    local staging=$build/staging/sdist
+    local staging=$build/staging/sdist third=$build/staging/sdist/third_party
     rm -rf "$staging"
-    mkdir -p "$staging"
-    cp -r "${engine[@]}" "$staging"
+    mkdir -p "$staging" "$third/openmesh/src/OpenMesh/Tools" "$third/eigen"
+    cp -r "${engine[@]}" README.md CHANGELOG.md tests docs "$staging"
+    rm -r "$staging"/docs/{pictures,dev} "$staging"/tests/{blender,addon_core}
+    cp -r "$cross/openmesh/src/OpenMesh/Core" "$third/openmesh/src/OpenMesh"
+    cp -r "$cross"/openmesh/src/OpenMesh/Tools/{Decimater,Utils} "$third/openmesh/src/OpenMesh/Tools"
+    cp -r /usr/include/eigen3/Eigen "$third/eigen"
+    cp "$cross/openmesh/LICENSE" "$staging/LICENSE.OpenMesh"
+    cp /usr/share/doc/libeigen3-dev/copyright "$staging/LICENSE.Eigen"
     find "$staging" -name __pycache__ -prune -exec rm -r {} +
     cd "$staging"
     quietly sdist "$python" -c "from scikit_build_core.build import build_sdist; build_sdist('$packages')"
     cd "$root"
+}
+
+# A repository of all zips, for a static host: build/repository.
+make_repository() {
+    quietly repository "$python" scripts/shipping/repository.py "$build/repository" "$packages"/*.zip
 }
 
 # Blender's own command-line tool for extensions, out of the bpy at hand.

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC2154
 # The zip that this machine's own compiler builds for its own bpy: what scripts/test tests; sourced by scripts/package.
 
-engine=(native CMakeLists.txt pyproject.toml LICENSE README.md)
+engine=(native CMakeLists.txt pyproject.toml LICENSE)
 native_wheels=$build/wheel/manylinux
 
 # Bundles OpenMesh's library; Debian 12's compiler and C library set the floor. The module is the dev preset's: what the
@@ -34,7 +34,7 @@ gather_native_licences() {
 
 # The wheel and the extension are one release.
 check_native_version() {
-    compgen -G "$native_wheels/fairing-$(manifest_version)-*.whl" >/dev/null ||
+    compgen -G "$native_wheels/intrinsic_fairing-$(manifest_version)-*.whl" >/dev/null ||
         fail "the manifest says $(manifest_version), but the wheel is $(basename "$native_wheels"/*.whl)"
 }
 

@@ -9,8 +9,6 @@ ordinary wheel; run from the repository's root.
 from __future__ import annotations
 
 import argparse
-import base64
-import hashlib
 import tempfile
 from pathlib import Path
 
@@ -18,20 +16,12 @@ import archive
 from scikit_build_core.build import prepare_metadata_for_build_wheel
 
 
-def metadata() -> tuple[str, bytes]:
-    """Return the name of the wheel's .dist-info folder and its METADATA."""
+def metadata() -> tuple[str, dict[str, bytes]]:
+    """Return the name of the wheel's .dist-info folder, with METADATA and, where there are commands, their list."""
     with tempfile.TemporaryDirectory() as folder:
         name = prepare_metadata_for_build_wheel(folder)
-        return name, (Path(folder) / name / "METADATA").read_bytes()
-
-
-def record(contents: dict[str, bytes], path: str) -> bytes:
-    """Return the list of all files with their hashes; its own line, at `path`, has none."""
-    lines = []
-    for name in sorted(contents):
-        digest = base64.urlsafe_b64encode(hashlib.sha256(contents[name]).digest()).rstrip(b"=").decode()
-        lines.append(f"{name},sha256={digest},{len(contents[name])}")
-    return "\n".join([*lines, f"{path},,", ""]).encode()
+        found = archive.files(Path(folder) / name)
+        return name, {path: found[path] for path in ("METADATA", "entry_points.txt") if path in found}
 
 
 def main() -> None:
@@ -42,15 +32,15 @@ def main() -> None:
     parser.add_argument("--tag", required=True)
     parser.add_argument("--output", type=Path, required=True)
     given = parser.parse_args()
-    info, text = metadata()
+    info, texts = metadata()
     contents = archive.files(given.content)
-    contents[f"{info}/METADATA"] = text
+    contents.update({f"{info}/{path}": text for path, text in texts.items()})
     contents[f"{info}/WHEEL"] = (
         f"Wheel-Version: 1.0\nGenerator: scripts/package\nRoot-Is-Purelib: false\nTag: {given.tag}\n"
     ).encode()
     for name, licence in archive.files(given.licences).items():
         contents[f"{info}/licenses/{name}"] = licence
-    contents[f"{info}/RECORD"] = record(contents, f"{info}/RECORD")
+    contents[f"{info}/RECORD"] = archive.record(contents, f"{info}/RECORD")
     target = given.output / f"{info.removesuffix('.dist-info')}-{given.tag}.whl"
     archive.write(target, contents)
     print(target)

@@ -14,6 +14,7 @@ import bpy
 bpy.ops.extensions.package_install_files(
     repo="user_default", filepath=str(conftest._zip()), enable_on_install=True, overwrite=True
 )
+conftest.call_engine_fairing()
 """
 
 

@@ -10,6 +10,7 @@ from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._fillet import fillet
+from fairing._foreign import refuse_foreign as _refuse_foreign
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
@@ -122,3 +123,6 @@ __all__ = [
     "vertex_normals",
     "visible_join",
 ]
+
+if __name__ == "fairing":  # not the copy in Blender's extension
+    _refuse_foreign(__path__[0])
