@@ -23,6 +23,7 @@ from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
+from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
 from .show import fillet_preview, marks, overlay, ui
@@ -49,6 +50,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         compare.MESH_OT_fair_compare,
         MESH_OT_fair_spots,
         MESH_OT_fair_reselect,
+        MESH_OT_fair_pick_skin,
         *TOOLS,
         MESH_OT_fair_again,
         watch.MESH_OT_fair_inspect,

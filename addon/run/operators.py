@@ -19,7 +19,7 @@ from ..preferences import background_from
 from ..translations import translated
 from . import compare, job, labels, last_run
 from .background import Watched, at_once
-from .properties import FairProperties
+from .option_properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
 
@@ -57,6 +57,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin, self._way = time.perf_counter(), last_run.way_to_try()
+        self.take_names_before()
         self._options = FairOptions.of(self)
         selected = job.read(context, self._options)
         self._tasks = [task for task in selected if task.free_count]

@@ -165,27 +165,42 @@ def test_report_is_drawn() -> None:
         assert check.value in text
 
 
-def in_redo_panel(opened: bool, **chosen: Any) -> list[str]:
+def in_redo_panel(opened: bool, operator: str = "fair", **chosen: Any) -> list[str]:
     """Return the options that the redo panel shows, in its order."""
     obj = meshes.grid()
-    panel, names = module("run.redo_panel"), module("core.options").option_names()
+    panel, table = module("run.redo_panel"), module("core.option_table")
+    options = {"fair": module("core.fair_options").FAIR, **vars(module("core.fill_options"))}[operator]
     layout, manager = Layout(), bpy.context.window_manager
-    for name in panel.FOLDS:
-        setattr(manager, name, opened)
-    panel.draw_options(layout, module("core.options").FairOptions(**chosen), obj, manager)
-    return [text for text in layout.reported if text in names]
+    setattr(manager, panel.ADVANCED, opened)
+    shown = SimpleNamespace(table=options, **{**table.defaults(options), **chosen})
+    panel.draw_options(layout, shown, obj, manager)
+    return [text for text in layout.reported if table.named(options, text)]
 
 
 EVERYDAY = [
     "factor",
-    "equation",
-    "mesh",
+    "shape",
+    "bulge",
+    "continuity",
+    "boundary_normals",
+    "remesh",
     "inner_fairness",
     "detail",
-    "feather",
-    "boundary_normals",
-    "continuity",
-    "outline",
+    "falloff",
+    "smooth_boundary",
+]
+STATES: list[dict[str, Any]] = [
+    {name: value}
+    for name, values in {
+        "shape": ["AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION"],
+        "continuity": ["G0", "G1", "G2"],
+        "remesh": [True],
+        "detail": [0.5],
+        "falloff": [0.2],
+        "smooth_boundary": [True],
+        "multigrid": [True],
+    }.items()
+    for value in values
 ]
 
 
@@ -193,11 +208,54 @@ def test_redo_panel_shows_what_is_set_often() -> None:
     assert in_redo_panel(opened=False) == EVERYDAY
 
 
+@pytest.mark.parametrize("first", STATES)
+@pytest.mark.parametrize("second", STATES)
+def test_redo_panel_never_shows_more_than_twelve(first: Any, second: Any) -> None:
+    assert len(in_redo_panel(opened=False, **{**first, **second})) <= 12
+
+
 def test_redo_panel_has_every_option() -> None:
-    everything = in_redo_panel(True, equation="CONSTANT", detail=0.5, pin_group="Pin", pin_edges="SEAM")
-    found = everything + in_redo_panel(True, mesh="NEW")
+    everything = in_redo_panel(True, detail=0.5, pin_group="Pin", pin_edges="SEAM", multigrid=True)
+    found = [*everything, *in_redo_panel(True, remesh=True), *in_redo_panel(True)]
     assert len(everything) == len(set(everything))
-    assert set(found) == set(module("core.options").option_names())
+    # The eyedropper stands for a number.
+    assert {*found, "detail_face_set"} == {option.name for option in module("core.fair_options").FAIR}
+
+
+@pytest.mark.parametrize("first", STATES)
+@pytest.mark.parametrize("second", STATES)
+def test_what_is_hidden_has_no_effect(first: Any, second: Any) -> None:
+    """Nothing that the panel hides changes what the engine is asked for, but for what is reported as idle."""
+    table, fair = module("core.option_table"), module("core.fair_options").FAIR
+    options = module("core.options").FairOptions
+    chosen = {**table.defaults(fair), **first, **second}
+    plain = options.named(chosen)
+    for option in fair:
+        if option.shown(SimpleNamespace(**chosen)) or option.name.startswith("detail_"):
+            continue
+        other = {str: "X", float: 0.3, bool: not option.default, int: 3}[type(option.default)]
+        if option.items:
+            other = option.items[-1][0]
+        changed = options.named({**chosen, option.name: other})
+        refused = ("falloff", "vertex_group", "use_mask", "smooth_boundary", "detail")
+        if option.name not in refused and not (chosen["remesh"] and option.name == "inner_fairness"):
+            assert table.named(fair, option.name).target in changed.idle or changed == plain, option.name
+
+
+@pytest.mark.parametrize("operator", ["FILL", "FILLET"])
+def test_other_redo_panels_are_of_the_same_kind(operator: str) -> None:
+    shown = in_redo_panel(False, operator)
+    everything = in_redo_panel(True, operator)
+    assert 4 <= len(shown) <= 9
+    assert {*everything} == {option.name for option in vars(module("core.fill_options"))[operator]}
+
+
+def test_every_kind_of_button_is_drawn_without_an_object() -> None:
+    fair = module("core.fair_options").FAIR
+    layout, manager = Layout(), bpy.context.window_manager
+    shown = SimpleNamespace(table=fair, **module("core.option_table").defaults(fair))
+    module("run.redo_panel").draw_options(layout, shown, None, manager)
+    assert "factor" in layout.reported
 
 
 def presets() -> list[Path]:
@@ -244,7 +302,7 @@ def test_every_option_and_choice_has_a_german_name() -> None:
     german = module("translations").languages()["de"]
     same = {"Global", "Multigrid", "None", "Sharp", "Seam", "Crease", "Custom Normals"}  # Blender's own, or names
     for option in bpy.ops.mesh.fair_region.get_rna_type().properties:
-        if option.identifier != "rna_type":
+        if option.identifier != "rna_type" and not option.is_hidden:
             names = [option.name, *(item.name for item in getattr(option, "enum_items", ()))]
             assert [name for name in names if name not in german and name not in same] == []
 
