@@ -1,10 +1,11 @@
-"""Writes docs/options.md: the options of every operator, and the names that they had before.
+"""Writes what is made from the add-on's lists: docs/options.md and the files of its presets.
 
 usage: python scripts/option_tables.py
 """
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from core.fair_options import FAIR  # noqa: E402
 from core.fill_options import FILL, FILLET  # noqa: E402
 from core.option_shared import FOLDED, GROUPS  # noqa: E402
 from core.option_table import Option, Table, advice, names_before  # noqa: E402
+from core.presets import PRESETS, preset  # noqa: E402
 
 PAGE = ROOT / "docs" / "options.md"
 HEAD = """\
@@ -40,6 +42,21 @@ def page() -> str:
         f"`DeprecationWarning`.\n\n{_before()}"
     )
     return "\n".join(parts)
+
+
+def presets() -> dict[Path, str]:
+    """Return the presets' files, as Blender writes them."""
+    made = {}
+    for operator, (_, of_one) in PRESETS.items():
+        for name in of_one:
+            lines = [f"op.{option} = {_written(value)}" for option, value in preset(operator, name).items()]
+            text = "\n".join(["import bpy", "", "op = bpy.context.active_operator", "", *lines]) + "\n"
+            made[ROOT / "addon/presets/operator" / operator / f"{name.replace(' ', '_')}.py"] = text
+    return made
+
+
+def _written(value: object) -> str:
+    return json.dumps(value) if isinstance(value, str) else repr(value)
 
 
 def _options(table: Table) -> str:
@@ -89,3 +106,6 @@ def _before() -> str:
 
 if __name__ == "__main__":
     PAGE.write_text(page(), encoding="utf-8")
+    for path, text in presets().items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")

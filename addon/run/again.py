@@ -90,7 +90,14 @@ _WAYS = (
     (EVEN_SPREAD, "Spread Uniformly", "Fair again with edges of equal length, whatever the old mesh was like"),
     (WRITE, "Apply Anyway", "Write the result as it is, folds and all"),
 )
+# What helps most where several are offered.
+_ORDER = (ADD_LEFT_OUT, GROW_OVER, AS_SELECTED, HOLD_BORDER, EVEN_SPREAD, EVEN_CURVATURE, GROW, SMOOTH_OUTLINE, WRITE)
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
+
+
+def best_first(remedies: str) -> list[str]:
+    """Return the ways that a report names, what helps most first."""
+    return sorted(filter(None, remedies.split(",")), key=_ORDER.index)
 
 
 class MESH_OT_fair_again(bpy.types.Operator):

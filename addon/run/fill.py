@@ -98,6 +98,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     bl_idname = "mesh.fair_fill"
     bl_label = "Fair Fill"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    preset_menu, preset_add = "MESH_MT_fair_fill_presets", "mesh.fair_fill_preset_add"
 
     _tasks: list[Task]
     _options: FillOptions

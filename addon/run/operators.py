@@ -30,7 +30,8 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
 
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    preset_menu, preset_add = "MESH_MT_fair_region_presets", "mesh.fair_region_preset_add"
 
     _tasks: list[job.Task] = []  # noqa: RUF012 - each run sets its own
     _options: FairOptions

@@ -61,6 +61,8 @@ class _Chosen:
 
     table: Table = ()
     bl_idname: str
+    preset_menu = ""
+    preset_add = ""
 
     def take_names_before(self) -> None:
         """Move what a script has set by names of before to the options of now, with a warning."""

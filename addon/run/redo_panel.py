@@ -12,8 +12,9 @@ ADVANCED = "fairing_advanced"  # the switch, of the window manager
 
 def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manager: Any) -> None:
     """Draw an operator's options, whose table it names."""
-    layout.use_property_split = True
     table: Table = options.table
+    _draw_presets(layout, options)
+    layout.use_property_split = True
     for title in dict.fromkeys(option.group for option in table if option.group not in FOLDED):
         _draw_group(layout, title if title in GROUPS[1:] else "", _shown(table, title, options), options, obj)
     if not any(option.group in FOLDED for option in table):
@@ -27,6 +28,15 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manage
     if opened:
         for title in FOLDED:
             _draw_group(layout, title, _shown(table, title, options), options, obj)
+
+
+def _draw_presets(layout: Any, options: Any) -> None:
+    if not options.preset_menu:
+        return
+    row = layout.row(align=True)
+    row.menu(options.preset_menu, text=getattr(bpy.types, options.preset_menu).bl_label)
+    row.operator(options.preset_add, text="", icon="ADD")
+    row.operator(options.preset_add, text="", icon="REMOVE").remove_active = True
 
 
 def _shown(table: Table, title: str, options: Any) -> list[Option]:

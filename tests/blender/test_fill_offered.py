@@ -19,7 +19,7 @@ def redo_panel(**chosen: Any) -> list[str]:
     """Return the options that are in sight."""
     layout = Layout()
     values = {**module("core.option_table").defaults(fill_table()), **chosen}
-    shown = SimpleNamespace(layout=layout, table=fill_table(), **values)
+    shown = SimpleNamespace(layout=layout, table=fill_table(), preset_menu="", **values)
     module("run.fill").MESH_OT_fair_fill.draw(shown, bpy.context)
     return layout.reported
 
@@ -39,7 +39,7 @@ def test_a_bridge_has_no_islands_nor_hard_edges_to_ask_for() -> None:
 
 
 def test_it_is_in_the_menu_face_and_in_the_context_menu_of_edges_and_vertices() -> None:
-    ui = module("show.ui")
+    ui = module("show.menus")
     assert ui.draw_face_menu in bpy.types.VIEW3D_MT_edit_mesh_faces.draw._draw_funcs
     assert ui.draw_context_menu in bpy.types.VIEW3D_MT_edit_mesh_context_menu.draw._draw_funcs
     face = SimpleNamespace(layout=Layout())
