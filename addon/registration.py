@@ -16,16 +16,18 @@ from .follow.live_operators import (
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, redo_panel
+from .run import cli, compare, presets, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
+from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import fillet_preview, marks, overlay, ui
+from .show import fillet_preview, marks, menus, overlay, ui
+from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
 
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
@@ -49,6 +51,9 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         compare.MESH_OT_fair_compare,
         MESH_OT_fair_spots,
         MESH_OT_fair_reselect,
+        MESH_OT_fair_pick_skin,
+        MESH_OT_fair_reset,
+        *presets.CLASSES,
         *TOOLS,
         MESH_OT_fair_again,
         watch.MESH_OT_fair_inspect,
@@ -57,7 +62,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
     )
 )
 _commands: list[Any] = []  # handles that Blender wants back at unregistering
-_folder = str(Path(__file__).parent)  # holds presets/operator/mesh.fair_region
+_folder = str(Path(__file__).parent)  # holds presets/operator
 
 
 def register() -> None:
@@ -68,11 +73,7 @@ def register() -> None:
     bpy.types.WindowManager.fairing_overlay = bpy.props.PointerProperty(type=FairOverlay)
     bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
     redo_panel.register()
-    bpy.types.VIEW3D_MT_edit_mesh_faces.append(ui.draw_face_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_edges.append(ui.draw_edge_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_context_menu.append(ui.draw_context_menu)
-    bpy.types.VIEW3D_MT_mask.append(ui.draw_mask_menu)
-    bpy.types.VIEW3D_MT_face_sets.append(ui.draw_face_set_menu)
+    menus.register()
     handlers.register()
     watch.register()
     overlay.register()
@@ -101,11 +102,7 @@ def unregister() -> None:
     overlay.unregister()
     watch.unregister()
     handlers.unregister()
-    bpy.types.VIEW3D_MT_face_sets.remove(ui.draw_face_set_menu)
-    bpy.types.VIEW3D_MT_mask.remove(ui.draw_mask_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_context_menu.remove(ui.draw_context_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_edges.remove(ui.draw_edge_menu)
-    bpy.types.VIEW3D_MT_edit_mesh_faces.remove(ui.draw_face_menu)
+    menus.unregister()
     redo_panel.unregister()
     del bpy.types.WindowManager.fairing_live
     del bpy.types.WindowManager.fairing_overlay

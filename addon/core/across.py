@@ -13,8 +13,6 @@ from .arrays import Floats, Ints, Mask
 from .region import MeshArrays, nothing
 from .words import counted
 
-HARD_EDGES = ("RUN_ON", "IGNORED")
-
 
 def _no_edges() -> Ints:
     return np.empty((0, 2), dtype=np.int64)

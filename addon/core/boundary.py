@@ -62,7 +62,7 @@ class _Fits:
 def boundary(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> Boundary:
     """Return the boundary data of a patch.
 
-    source: one of options.BOUNDARY_NORMALS; outside: (o, 3) as around.outside_triangles gives them.
+    source: one of the choices of boundary_normals; outside: (o, 3) as around.outside_triangles gives them.
     """
     fixed = patch.vertices[patch.fixed]
     fitted = _fit(mesh, patch, _SIDES.get(source, "outside"), outside)

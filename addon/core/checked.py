@@ -35,10 +35,15 @@ def refuse_negative(options: Any, name: str) -> None:
         raise ValueError(f"{name}: expected 0 or a positive number, got {value!r}")
 
 
+def kind_problem(default: Any, value: Any) -> str:
+    """Say why a value is of another kind than the default; empty where it is not."""
+    words, kinds = _KINDS[type(default).__name__]
+    return "" if isinstance(value, kinds) else f"expected {words}, got {value!r}"
+
+
 def refuse_other_kinds(options: Any) -> None:
     """Raise TypeError for a value of a dataclass that is of another kind than its default."""
     for field in fields(options):
-        value = getattr(options, field.name)
-        words, kinds = _KINDS[type(field.default).__name__]
-        if not isinstance(value, kinds):
-            raise TypeError(f"{field.name}: expected {words}, got {value!r}")
+        problem = kind_problem(field.default, getattr(options, field.name))
+        if problem:
+            raise TypeError(f"{field.name}: {problem}")

@@ -76,8 +76,8 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     patch = problem.patch
     if options.outline == "MENDED" and np.isin(patch.creases, patch.outline).any():
         raise ValueError(
-            "Boundary: Smooth would round off the creases that run out of the selection: choose As Selected, "
-            "or At Pinned Edges: Averaged"
+            "Smooth Boundary would round off the creases that run out of the selection: turn it off, "
+            "or choose At Pinned Edges: Averaged"
         )
     reads = options.reads_surroundings
     with naming_the_band(options), in_mesh_words(problem.origin):

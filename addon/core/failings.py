@@ -10,7 +10,7 @@ from .evidence import NOTHING, Evidence, Found, corners_of
 from .options import FairOptions
 from .words import counted
 
-_ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; Open Border: Held needs none"
+_ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; turn Fair Open Borders off"
 # It uses up its steps on most real meshes.
 _MULTIGRID = ": Method: Multigrid did not get there. Method: Global finds it more often, and at once"
 

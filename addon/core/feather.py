@@ -18,11 +18,11 @@ from .region import MeshArrays, Patch
 
 def refuse_options(options: FairOptions) -> None:
     """Raise ValueError for options that a band can't have."""
-    without = "Feather 0" if options.feather > 0.0 else "no Factor Group and no Mask"
+    without = "Falloff 0" if options.feather > 0.0 else "no Vertex Group and no Mask"
     for wrong, text in (
-        (options.outline != "GIVEN", "Boundary: Smooth moves vertices of the band: choose As Selected"),
+        (options.outline != "GIVEN", "Smooth Boundary moves vertices of the band: turn it off"),
         (options.copies_detail, "Detail From copies a skin that the band does not blend: leave it empty"),
-        (options.joins_curvature, "Join: Curvature holds the boundary, which the band moves: choose Tangent"),
+        (options.joins_curvature, "Continuity: Curvature holds the boundary, which the band moves: choose Tangent"),
     ):
         if wrong and options.moves_band:
             raise ValueError(f"{text}, or {without}")
@@ -36,7 +36,7 @@ def naming_the_band(options: FairOptions) -> Iterator[None]:
     except fairing.MeshError as error:
         if error.diagnostic.code != "NO_BOUNDARY" or not options.moves_band:
             raise
-        what = "Feather" if options.feather > 0.0 else "Factor Group or Sculpt Mask"
+        what = "Falloff" if options.feather > 0.0 else "Vertex Group or Use Mask"
         raise ValueError(
             f"{what} reaches all around to the far side, so that nothing is left to hold the surface: choose less, "
             "or pin vertices"
@@ -56,7 +56,7 @@ def band_weights(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, 
     weights[staying(mesh)[vertices]] = 0.0
     weights[patch.free] = parts[patch.free]
     if not weights.any():
-        raise ValueError("Factor Group and Mask leave every vertex of the selection where it is: give some a weight")
+        raise ValueError("Vertex Group and Mask leave every vertex of the selection where it is: give some a weight")
     beyond = np.ones(len(vertices), dtype=bool)
     beyond[patch.free] = False
     return None if (weights[patch.free] == 1.0).all() and not weights[beyond].any() else weights

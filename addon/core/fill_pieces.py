@@ -2,32 +2,35 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 import fairing
 
-from .across import HARD_EDGES, Across
+from .across import Across
 from .arrays import Floats, Ints
 from .border import Left
-from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds
 from .faces import Faces, faces_of, paired_faces
+from .fill_options import FILL, FILL_EQUATIONS
 from .harmonic import carried_over_half, harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
-from .options import ACCEPT, CONTINUITIES, INNER, LEAST_SPACING, OF_CURVATURE
+from .option_items import ACCEPT, HARD_EDGES, INNER
+from .option_shared import LEAST_SPACING
+from .option_table import fields_of, read_named
+from .options import CONTINUITIES, OF_CURVATURE
 from .quality import Join
 from .region import nothing
 from .subdivided import Subdivided
 from .verdict import UNUSABLE, Verdict
 
-SHAPES = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
-
 
 @dataclass(frozen=True)
 class FillOptions:
-    """The properties of `mesh.fair_fill`.
+    """What the options of `mesh.fair_fill` (fill_options.py) come to.
 
     Raises ValueError for a value it does not know, TypeError for one of another kind.
     """
@@ -48,8 +51,8 @@ class FillOptions:
     accept: str = "USABLE"  # ALL: written whatever it is worth
 
     def __post_init__(self) -> None:
-        if self.equation not in SHAPES:
-            raise ValueError(f"equation: expected one of {', '.join(SHAPES)}, got {self.equation!r}")
+        if self.equation not in FILL_EQUATIONS:
+            raise ValueError(f"equation: expected one of {', '.join(FILL_EQUATIONS)}, got {self.equation!r}")
         if self.continuity not in CONTINUITIES:
             raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
         if self.inner not in INNER:
@@ -69,13 +72,12 @@ class FillOptions:
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FillOptions:
         """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        refuse_unknown((each.name for each in fields(cls)), properties)
-        return cls(**properties)
+        return cls(**read_named(FILL, properties, "fill_mesh"))
 
     @classmethod
     def of(cls, properties: Any) -> FillOptions:
-        """Read every option from an object with attributes of the same names."""
-        return cls(**{each.name: getattr(properties, each.name) for each in fields(cls)})
+        """Read every option from an object that has them as attributes."""
+        return cls(**fields_of(FILL, partial(getattr, properties)))
 
     @property
     def joins_curvature(self) -> bool:

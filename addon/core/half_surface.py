@@ -13,7 +13,7 @@ from .arrays import Floats, Ints
 from .engine import Progress
 from .fill_verdict import Surface, judge
 from .halves import Curve, Half, curve_on_plane, spread
-from .options import LEAST_SPACING
+from .option_shared import LEAST_SPACING
 from .quality import join_at
 from .region import MeshArrays, nothing, to_local
 from .verdict import Verdict

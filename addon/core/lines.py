@@ -86,5 +86,5 @@ def _refusal(mesh: MeshArrays, lines: Mask, inside: Mask) -> str:
     return (
         f"{np.count_nonzero(lines)} of {np.count_nonzero(inside)} edges inside the selection are seams of UVs, "
         f"colours or materials, or marked ({counts[most]} by {_WORDS.get(most, most)}), and would stay: there is "
-        "nothing to mesh anew. Clear these, or choose Mesh: Keep"
+        "nothing to mesh anew. Clear these, or turn Remesh off"
     )

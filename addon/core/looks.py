@@ -99,7 +99,7 @@ def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.rounded):
         return NOTHING
     text = counted(len(evidence.rounded), "vertex", "vertices")
-    return f"Boundary: Smooth has rounded a hard edge outside at {text}: choose As Selected", evidence.rounded
+    return f"Smooth Boundary has rounded a hard edge outside at {text}: turn it off", evidence.rounded
 
 
 def _eaten(evidence: Evidence, options: FairOptions) -> Found:

@@ -3,40 +3,46 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
+from functools import partial
+from math import isclose
 from typing import Any
 
-from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds
+from .fair_options import FAIR
+from .option_items import (
+    ACCEPT,
+    DISTRIBUTIONS,
+    EQUATIONS,
+    FACTOR_MASKS,
+    FAIRED,
+    INNER,
+    MESHES,
+    METHODS,
+    OTHERWISE,
+    OUTLINES,
+    PINNED,
+    SLOPES,
+    SLOPES_AT_PINS,
+    identifiers,
+)
+from .option_shared import LEAST_SPACING
+from .option_table import fields_of, options_of, read_named
 
-EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
 OF_CURVATURE = ("AUTOMATIC", "HARMONIC")  # equations that can continue the curvature outside
-OTHERWISE = ("LEAST_VARIATION", "STOP")
-INNER_FAIRNESS = ("AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
-BOUNDARY_NORMALS = ("AUTOMATIC", "SURROUNDING", "INSIDE", "AVERAGE", "CUSTOM")
 CONTINUITIES = ("G1", "G2")
-METHODS = ("GLOBAL", "PAPER")
-PIN_EDGES = ("AUTOMATIC", "NONE", "SHARP", "SEAM", "CREASE")
-PIN_CURVES = ("FAIRED", "HELD")
-PIN_SLOPES = ("AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE")
-OPEN_BORDERS = ("HELD", "FAIRED")
-OUTLINES = ("GIVEN", "MENDED")
-ACCEPT = ("USABLE", "ALL")
-MESHES = ("KEEP", "NEW")
-INNER = ("OUTLINE", "EVEN")
-FACTOR_MASKS = ("IGNORED", "USED")
-LEAST_SPACING = 0.05  # of the boundary's edges
 
 _CHOICES = {
     "equation": EQUATIONS,
     "otherwise": OTHERWISE,
-    "inner_fairness": INNER_FAIRNESS,
-    "boundary_normals": BOUNDARY_NORMALS,
+    "inner_fairness": identifiers(DISTRIBUTIONS),
+    "boundary_normals": identifiers(SLOPES),
     "continuity": CONTINUITIES,
     "method": METHODS,
-    "pin_edges": PIN_EDGES,
-    "pin_curve": PIN_CURVES,
-    "pin_slope": PIN_SLOPES,
-    "open_border": OPEN_BORDERS,
+    "pin_edges": identifiers(PINNED),
+    "pin_curve": FAIRED,
+    "pin_slope": identifiers(SLOPES_AT_PINS),
+    "open_border": FAIRED,
     "outline": OUTLINES,
     "accept": ACCEPT,
     "mesh": MESHES,
@@ -47,7 +53,7 @@ _CHOICES = {
 
 @dataclass(frozen=True)
 class FairOptions:
-    """The properties of `mesh.fair_region`.
+    """What the options of `mesh.fair_region` (fair_options.py) come to.
 
     Raises ValueError for a value it does not know, TypeError for one of another kind.
     """
@@ -107,13 +113,17 @@ class FairOptions:
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FairOptions:
         """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        refuse_unknown(option_names(), properties)
-        return cls(**properties)
+        return cls(**read_named(FAIR, properties, "fair_mesh"))
 
     @classmethod
     def of(cls, properties: Any) -> FairOptions:
-        """Read every option from an object with attributes of the same names."""
-        return cls(**{name: getattr(properties, name) for name in option_names()})
+        """Read every option from an object that has them as attributes."""
+        return cls(**fields_of(FAIR, partial(getattr, properties)))
+
+    @property
+    def chosen(self) -> dict[str, Any]:
+        """The options that come to this, by their names."""
+        return options_of(FAIR, vars(self))
 
     @classmethod
     def parsed(cls, text: str) -> FairOptions:
@@ -124,7 +134,7 @@ class FairOptions:
         stored = json.loads(text)
         if not isinstance(stored, dict):
             raise TypeError(f"options: expected names with values, got {text!r}")
-        return cls(**{name: stored[name] for name in option_names() if name in stored})
+        return cls(**{name: stored[name] for name in vars(cls()) if name in stored})
 
     def resolved(self, textured: bool) -> FairOptions:
         """Return the options with what AUTOMATIC stands for; textured: the patch has a UV map."""
@@ -220,11 +230,17 @@ class FairOptions:
             "detail_from": self.detail > 0.0,
             "detail_face_set": self.detail > 0.0,
             "pin_curve": self.pins_sharp and self.method == "GLOBAL",
+            "pin_radius": bool(self.pin_group),
             "pin_slope": self.pin_edges != "NONE",
+            "otherwise": self.method == "GLOBAL" and self.equation not in ("MINIMAL", "LEAST_VARIATION"),
             "open_border": self.mesh == "KEEP",
         }
-        default = FairOptions()
-        return tuple(name for name, read in only.items() if not read and getattr(self, name) != getattr(default, name))
+        return tuple(name for name, read in only.items() if not read and self._is_set(name))
+
+    def _is_set(self, name: str) -> bool:
+        """Return whether an option is not its default; Blender's numbers have single precision."""
+        value, default = getattr(self, name), getattr(FairOptions(), name)
+        return not isclose(value, default, rel_tol=1e-6) if isinstance(default, float) else value != default
 
     def engine_arguments(self) -> dict[str, Any]:
         """Return the keyword arguments of `fairing.fair` that need no mesh; the options must be resolved."""
@@ -242,8 +258,3 @@ class FairOptions:
             "pin_radius": self.pin_radius,
             "continuity": "G2" if self.joins_curvature else "G1",
         }
-
-
-def option_names() -> tuple[str, ...]:
-    """Return the option names in the order of the redo panel."""
-    return tuple(field.name for field in fields(FairOptions))

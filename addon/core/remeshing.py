@@ -54,15 +54,15 @@ class Remeshed(Fairing):
 def refuse_options(options: FairOptions) -> None:
     """Raise ValueError for options that need the old vertices."""
     for wrong, text in (
-        (options.detail > 0.0, "Keep Detail puts the old vertices' skin back: choose Mesh: Keep"),
-        (options.feather > 0.0, "Feather moves faces around a mesh that stays: choose Mesh: Keep, or Feather 0"),
+        (options.detail > 0.0, "Keep Detail puts the old vertices' skin back: turn Remesh off"),
+        (options.feather > 0.0, "Falloff moves faces around a mesh that stays: turn Remesh off, or choose Falloff 0"),
         (
             options.goes_by_weight,
-            "New vertices have no weights to go by: choose Mesh: Keep, or leave Factor Group empty",
+            "New vertices have no weights to go by: turn Remesh off, or leave Vertex Group empty",
         ),
-        (options.method != "GLOBAL", "Method: Multigrid keeps its mesh: choose Mesh: Keep"),
-        (options.equation == "MINIMAL", "A soap film has no slopes to continue: choose Mesh: Keep"),
-        (options.outline != "GIVEN", "Boundary: Smooth moves vertices that a new mesh is held by: choose Mesh: Keep"),
+        (options.method != "GLOBAL", "Multigrid keeps its mesh: turn Remesh off"),
+        (options.equation == "MINIMAL", "A soap film has no slopes to continue: turn Remesh off"),
+        (options.outline != "GIVEN", "Smooth Boundary moves vertices that a new mesh is held by: turn Remesh off"),
     ):
         if wrong:
             raise ValueError(text)
@@ -272,7 +272,7 @@ def _limits(mesh: MeshArrays) -> tuple[str, ...]:
     said = {
         "X mirror is on, but a new mesh is not symmetric": mesh.mirror_x,
         "A new mesh stops at the Mirror modifier's plane: it may have an edge there": whole_of(mesh) is not None,
-        "A new mesh holds open borders: Open Border: Faired has no effect": mesh.fair_border,
+        "A new mesh holds open borders: Fair Open Borders has no effect": mesh.fair_border,
     }
     return tuple(text for text, applies in said.items() if applies)
 

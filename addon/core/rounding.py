@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,11 +11,13 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .checked import refuse_negative, refuse_other_kinds, refuse_unknown
+from .checked import refuse_negative, refuse_other_kinds
 from .engine import Progress
 from .faces import Faces
+from .fill_options import FILLET
 from .findings import Origin, found
 from .new_part import NewPart
+from .option_table import fields_of, read_named
 from .options import CONTINUITIES
 from .outline import two_sided_edges
 from .region import MeshArrays, nothing, to_local
@@ -29,7 +32,7 @@ NO_SEAM = "Select the edges to be rounded, or faces with hard edges between them
 
 @dataclass(frozen=True)
 class FilletOptions:
-    """The properties of `mesh.fair_fillet`.
+    """What the options of `mesh.fair_fillet` (fill_options.py) come to.
 
     Raises ValueError for a value it does not know, TypeError for one of another kind.
     """
@@ -57,13 +60,12 @@ class FilletOptions:
     @classmethod
     def named(cls, properties: dict[str, Any]) -> FilletOptions:
         """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        refuse_unknown((each.name for each in fields(cls)), properties)
-        return cls(**properties)
+        return cls(**read_named(FILLET, properties, "fillet_mesh"))
 
     @classmethod
     def of(cls, properties: Any) -> FilletOptions:
-        """Read every option from an object with attributes of the same names."""
-        return cls(**{each.name: getattr(properties, each.name) for each in fields(cls)})
+        """Read every option from an object that has them as attributes."""
+        return cls(**fields_of(FILLET, partial(getattr, properties)))
 
 
 @dataclass(frozen=True)

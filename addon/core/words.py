@@ -23,7 +23,7 @@ _CROSSING_WIRES = (
     "them a common vertex, or delete some"
 )
 _DISSOLVE = "dissolve it, or split that edge there and use Merge by Distance"
-SPREAD_UNIFORMLY = "Spread Vertices would turn faces over here: Uniform was used instead"
+SPREAD_UNIFORMLY = "Vertex Distribution would turn faces over here: Uniform was used instead"
 EDGES_HELD = "Hard edges run through the selection and are held, though not marked: Pin Edges: None rounds them off"
 EDGES_LET_GO = "Hard edges that run through the selection are not marked and were let go: no usable surface holds them"
 _SLOPE_ONLY = (
@@ -327,8 +327,8 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "OUTLINE_KEPT": (
         Words(
-            "Boundary: Smooth was left out: with {n} boundary vertex moved, the result is worse",
-            "Boundary: Smooth was left out: with {n} boundary vertices moved, the result is worse",
+            "Smooth Boundary was left out: with {n} boundary vertex moved, the result is worse",
+            "Smooth Boundary was left out: with {n} boundary vertices moved, the result is worse",
             when="worse",
         ),
         Words(

@@ -11,7 +11,7 @@ import fairing
 
 from ..core import engine
 from ..core.arrays import Floats
-from ..core.options import FairOptions, option_names
+from ..core.options import FairOptions
 from ..core.selection import left_out_faces
 from ..core.solve import pose
 from ..host.polling import NO_FACE, NO_FREE
@@ -38,8 +38,7 @@ def last_options(context: bpy.types.Context) -> FairOptions:
     last = context.window_manager.operator_properties_last("mesh.fair_region")
     if last is None:
         return FairOptions()
-    options = FairOptions(**{name: getattr(last, name) for name in option_names()})
-    return replace(options, accept="USABLE")  # is asked for each time anew
+    return replace(FairOptions.of(last), accept="USABLE")  # is asked for each time anew
 
 
 def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:

@@ -94,7 +94,7 @@ class MESH_OT_fair_live_forget(bpy.types.Operator):
     """Forget the live region of the meshes being edited; their shape stays as it is"""
 
     bl_idname = "mesh.fair_live_forget"
-    bl_label = "Forget Live Region"
+    bl_label = "Clear Live Region"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
     @classmethod

@@ -233,7 +233,7 @@ def _corner_normals(mesh: bpy.types.Mesh) -> Floats:
 
 
 def _marked_edges(mesh: bpy.types.Mesh, kind: str) -> Mask:
-    """Return the (e,) mask of the edges that one of options.PIN_EDGES names."""
+    """Return the (e,) mask of the edges that one of the choices of pin_edges names."""
     if kind == "SHARP":
         return flags(mesh, "sharp_edge", mesh.edges)
     if kind == "SEAM":

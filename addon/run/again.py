@@ -4,7 +4,7 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -82,15 +82,22 @@ CHANGES: dict[str, dict[str, Any]] = {
 _WAYS = (
     (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
-    (GROW_OVER, "Grow over It", "Select as many rings of faces more as the slope is wide, and fair again"),
+    (GROW_OVER, "Grow Past Bump", "Select as many rings of faces more as the slope is wide, and fair again"),
     (SMOOTH_OUTLINE, "Smooth Boundary", "Smooth the boundary and the two rings around it, and fair again"),
     (AS_SELECTED, "Boundary As Selected", "Leave the boundary and what is around it where it is, and fair again"),
     (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
     (EVEN_CURVATURE, "Least Variation", "Fair again with the shape Least Variation, which exists more often"),
     (EVEN_SPREAD, "Spread Uniformly", "Fair again with edges of equal length, whatever the old mesh was like"),
-    (WRITE, "Write It All the Same", "Write the result as it is, folds and all"),
+    (WRITE, "Apply Anyway", "Write the result as it is, folds and all"),
 )
+# What helps most where several are offered.
+_ORDER = (ADD_LEFT_OUT, GROW_OVER, AS_SELECTED, HOLD_BORDER, EVEN_SPREAD, EVEN_CURVATURE, GROW, SMOOTH_OUTLINE, WRITE)
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
+
+
+def best_first(remedies: str) -> list[str]:
+    """Return the ways that a report names, what helps most first."""
+    return sorted(filter(None, remedies.split(",")), key=_ORDER.index)
 
 
 class MESH_OT_fair_again(bpy.types.Operator):
@@ -124,7 +131,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
             last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
-            status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
+            status = bpy.ops.mesh.fair_region(how, True, **options.chosen)
         except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 import time
@@ -18,69 +17,16 @@ from ..core.border import Left
 from ..core.engine import REFUSALS
 from ..core.fill_pieces import FillOptions
 from ..core.fill_report import make_fill_report
-from ..core.options import FairOptions, option_names
+from ..core.options import FairOptions
 from ..core.report import Report, make_report, summary
 from ..core.rounding import FilletOptions
 from ..core.verdict import UNUSABLE
+from .cli_parser import fillet_option, parse
 from .fair_mesh import fair_faces
 from .fill_mesh import fill_borders
 from .fillet_mesh import fillet_edges
 
 WRITTEN, NOT_USABLE, REFUSED = 0, 1, 2
-
-
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
-        prog="blender --background FILE --command fair",
-        description="Fair faces of a mesh, or fill its holes. Exit status: 0 done, 1 the result is not usable (written "
-        "only with --accept ALL), 2 refused.",
-    )
-    parser.add_argument("--object", required=True, help="name of the mesh object")
-    parser.add_argument(
-        "--vertex-group",
-        help="fair the faces inside this vertex group; default: the faces that are selected in the file. With --fill: "
-        "fill the holes that have a vertex in it; default: all",
-    )
-    parser.add_argument("--fill", action="store_true", help="fill holes instead")
-    parser.add_argument("--bridge", action="store_true", help="with --fill: join their boundary loops in one surface")
-    parser.add_argument("--islands", action="store_true", help="with --fill: join loose pieces inside holes with these")
-    parser.add_argument("--hard-edges", default="RUN_ON", help="with --fill: IGNORED rounds them off")
-    parser.add_argument(
-        "--longest", type=int, default=0, help="with --fill: longer borders stay open, in edges; 0: none"
-    )
-    parser.add_argument("--longest-length", type=float, default=0.0, help="with --fill: likewise, as a length")
-    parser.add_argument(
-        "--fillet",
-        action="store_true",
-        help="round edges instead: those inside --vertex-group, or all hard ones",
-    )
-    for name, words in FILLET_FLAGS.items():
-        parser.add_argument("--" + name.replace("_", "-"), dest=name, help="with --fillet: " + words, **_kind_of(name))
-    parser.add_argument("--output", required=True, help="the .blend file to write")
-    parser.add_argument("--report", choices=("text", "json"), default="text")
-    defaults = FairOptions()
-    for name in option_names():
-        value = getattr(defaults, name)
-        flag = "--" + name.replace("_", "-")
-        if isinstance(value, bool):
-            parser.add_argument(flag, dest=name, action="store_true")
-        else:
-            parser.add_argument(flag, dest=name, type=type(value), default=value)
-    return parser
-
-
-FILLET_FLAGS = {
-    "width": "how far it reaches along the surface",
-    "width_2": "the same on the smaller side",
-    "profile": "-1 flat … 1 sharp",
-    "edge_length": "of the new edges",
-    "width_group": "a vertex group whose weights the widths are multiplied by",
-}
-
-
-def _kind_of(name: str) -> dict[str, Any]:
-    value = getattr(FilletOptions(), {"edge_length": "spacing"}.get(name, name))
-    return {"type": type(value), "default": value}
 
 
 def _mesh_object(name: str) -> bpy.types.Object:
@@ -151,7 +97,7 @@ class _Progress:
 
 def execute(arguments: list[str]) -> int:
     """Run the command and return its exit status."""
-    chosen = _parser().parse_args(arguments)
+    chosen = parse(arguments)
     try:
         if chosen.fillet:
             return _rounded(chosen)
@@ -168,7 +114,7 @@ def execute(arguments: list[str]) -> int:
 def _faired(chosen: Any) -> Report:
     options = FairOptions.of(chosen)
     obj = _mesh_object(chosen.object)
-    faces = _faces(obj, chosen.vertex_group)
+    faces = _faces(obj, chosen.region_group)
     begin = time.perf_counter()
     outcome = fair_faces(obj.data, faces, _matrix(obj), options, _Progress())
     return make_report([(obj.name, outcome)], options, time.perf_counter() - begin)
@@ -177,7 +123,7 @@ def _faired(chosen: Any) -> Report:
 def _filled(chosen: Any) -> tuple[Report, Sequence[Left]]:
     options = FillOptions.of(chosen)
     obj = _mesh_object(chosen.object)
-    group = chosen.vertex_group
+    group = chosen.region_group
     vertices = None if group is None else np.flatnonzero(_members(obj, group)).tolist()
     begin = time.perf_counter()
     done = fill_borders(obj.data, vertices, _matrix(obj), options, _Progress())
@@ -188,12 +134,11 @@ def _filled(chosen: Any) -> tuple[Report, Sequence[Left]]:
 
 def _rounded(chosen: Any) -> int:
     """Round edges, write the file, and print how it went; returns the exit status."""
-    names = {field.name for field in fields(FilletOptions)} - {"spacing"}
-    options = FilletOptions(spacing=chosen.edge_length, **{name: getattr(chosen, name) for name in names})
+    options = FilletOptions(**{field.name: fillet_option(chosen, field.name) for field in fields(FilletOptions)})
     obj = _mesh_object(chosen.object)
     edges = None
-    if chosen.vertex_group is not None:
-        member = _members(obj, chosen.vertex_group)
+    if chosen.region_group is not None:
+        member = _members(obj, chosen.region_group)
         edges = [edge.index for edge in obj.data.edges if all(member[v] for v in edge.vertices)]
     begin = time.perf_counter()
     outcome = fillet_edges(obj.data, edges, _matrix(obj), options, _Progress())

@@ -14,7 +14,7 @@ from ..core.fill_pieces import Filled, FillOptions
 from ..core.fill_report import Added, make_fill_report, writable
 from ..core.filling import fill
 from ..core.holes import Borders, borders_at, chosen_borders, expected_vertices
-from ..core.options import OF_CURVATURE, FairOptions
+from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..host.context import edited_objects
@@ -24,8 +24,9 @@ from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
 from .background import Watched, at_once
-from .fill_properties import FillProperties
 from .job import Refused, is_unchanged, objects_in_mode
+from .option_properties import FillProperties
+from .redo_panel import draw_options
 from .report_properties import store, store_refusal
 
 
@@ -97,6 +98,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     bl_idname = "mesh.fair_fill"
     bl_label = "Fair Fill"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    preset_menu, preset_add = "MESH_MT_fair_fill_presets", "mesh.fair_fill_preset_add"
 
     _tasks: list[Task]
     _options: FillOptions
@@ -109,28 +111,9 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             cls, context
         )
 
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Lay the options out."""
-        self.layout.use_property_split = True
-        for name in (
-            "equation",
-            "continuity",
-            "bridge",
-            "islands",
-            "hard_edges",
-            "spacing",
-            "inner",
-            "subdivide_boundary",
-            "longest",
-            "longest_length",
-            "max_vertices",
-            "quads",
-            "limit_total",
-            "accept",
-        ):
-            row = self.layout.row()
-            row.active = name != "continuity" or self.equation in OF_CURVATURE
-            row.prop(self, name)
+    def draw(self, context: bpy.types.Context) -> None:
+        """Lay the options out in groups."""
+        draw_options(self.layout, self, context.object, context.window_manager)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Fill in every object in edit mode, or in none of them where one is refused; return when done."""
@@ -142,6 +125,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin = time.perf_counter()
+        self.take_names_before()
         self._options = FillOptions.of(self)
         self._tasks = read(context, self._options)
         if not self._tasks:

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
@@ -27,8 +27,9 @@ from ..mesh import mesh_io, remeshed, selecting
 from ..translations import translated
 from . import compare, last_run
 from .background import TICK, Work, at_once, has_events
-from .fillet_properties import FilletProperties
 from .job import Refused, is_unchanged, objects_in_mode
+from .option_properties import FilletProperties
+from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
 
 PROFILE_STEP = 0.1  # of the wheel
@@ -101,6 +102,10 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
 
     _tasks: list[Task]
     _timer: Any = None
+    if TYPE_CHECKING:  # made from a table
+        width: float
+        profile: float
+        width_group: str
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -108,15 +113,8 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         return require_edit_mode(cls, context, NO_SEAM) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out."""
-        layout = self.layout
-        layout.use_property_split = True
-        for name in ("width", "width_2", "profile", "continuity", "spacing"):
-            layout.prop(self, name)
-        if context.object is not None:
-            layout.prop_search(self, "width_group", context.object, "vertex_groups")
-        for name in ("max_vertices", "limit_total"):
-            layout.prop(self, name)
+        """Lay the options out in groups."""
+        draw_options(self.layout, self, context.object, context.window_manager)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Round in every object in edit mode, or in none of them where one is refused; return when done."""

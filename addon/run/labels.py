@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+from ..core.fair_options import FAIR
+from ..core.option_table import named
 from ..core.options import FairOptions
 from ..core.report import Check, Report
-from .properties import FairProperties
 
 _NAMED = re.compile(r"^([a-z_]+): (.*)$", re.DOTALL)
 _REFUSED = "is not accepted"
@@ -42,9 +43,6 @@ def idle_in(report: Report) -> tuple[str, ...]:
 
 
 def _words(name: str) -> tuple[str, str] | None:
-    """Return a property's label and description."""
-    for kind in FairProperties.__mro__:
-        found = getattr(kind, "__annotations__", {}).get(name)
-        if found is not None:
-            return found.keywords["name"], found.keywords.get("description", "")
-    return None
+    """Return the label and the description of the option that has, or sets, this name."""
+    found = named(FAIR, name)
+    return None if found is None else (found.label, found.description)

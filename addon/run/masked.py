@@ -16,14 +16,14 @@ from ..core.engine import REFUSALS
 from ..core.options import FairOptions
 from ..core.report import make_report, summary
 from ..host.context import active_object
-from ..host.picking import face_under_mouse
+from ..host.picking import Picks, face_under_mouse
 from ..host.polling import require
 from ..mesh import painted
 from ..mesh.free_normals import free_normals
 from . import compare, last_run
 from .fair_mesh import fair_faces
 from .labels import reason_of, with_idle
-from .properties import FairProperties
+from .option_properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
 
@@ -36,14 +36,14 @@ _SOURCES = (
 # What is wrong where a source has no face.
 _NOTHING = {
     "MASK": "Nothing is masked by half or more: paint a mask over whole faces",
-    "FACE_SET": "Several face sets are in sight: give the number of one, or click it",
+    "FACE_SET": "Several face sets are in sight: click one with Face Sets, Fair Face Set",
     "VERTEX_GROUP": "No face has all its vertices in the vertex group",
     "LIVE": "There is no live region: make one in edit mode",
 }
 MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
 
 
-class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
+class MESH_OT_fair_masked(FairProperties, Picks, bpy.types.Operator):
     """Replace what is masked, a face set, a vertex group or the live region by the fair surface that continues
     its surroundings"""
 
@@ -53,9 +53,13 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
 
     source: EnumProperty(name="What", description="What says which faces are faired", items=_SOURCES, default="MASK")
     face_set: IntProperty(
-        name="Face Set", description="Number of the face set; 0: the only visible one", default=0, min=0
+        name="Face Set",
+        description="Number of the face set, as it was clicked; 0: the only visible one",
+        default=0,
+        min=0,
+        options={"HIDDEN"},
     )
-    group: StringProperty(name="Vertex Group", description="Name of the vertex group; empty: the active one")
+    group: StringProperty(name="Faces Of", description="Name of the vertex group; empty: the active one")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -75,19 +79,9 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         mesh = active_object(context).data
         if self.source != "FACE_SET" or self.face_set or painted.only_visible_face_set(mesh):
             return self.execute(context)
-        context.window.cursor_modal_set("EYEDROPPER")
-        context.workspace.status_text_set("Click the face set to fair    [Esc] Cancel")
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+        return self.pick(context, "Click the face set to fair")
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take the face set under the first click."""
-        if event.type in {"ESC", "RIGHTMOUSE"}:
-            self._end_picking(context)
-            return {"CANCELLED"}
-        if event.type != "LEFTMOUSE" or event.value != "PRESS":
-            return {"PASS_THROUGH"} if event.type.startswith(("MIDDLE", "WHEEL", "NUMPAD")) else {"RUNNING_MODAL"}
-        self._end_picking(context)
+    def _picked(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         obj = active_object(context)
         face = face_under_mouse(context, event, obj)
         if face is None:
@@ -95,10 +89,6 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
             return {"CANCELLED"}
         self.face_set = painted.face_set_at(obj.data, face)
         return self.execute(context)
-
-    def _end_picking(self, context: bpy.types.Context) -> None:
-        context.window.cursor_modal_restore()
-        context.workspace.status_text_set(None)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Go to object mode and back, as sculpt mode keeps the mesh for itself."""
@@ -125,6 +115,7 @@ class MESH_OT_fair_masked(FairProperties, bpy.types.Operator):
         faces = self._faces(obj)
         if not len(faces):
             raise ValueError(_nothing(self.source, self.face_set))
+        self.take_names_before()
         options, before = FairOptions.of(self), painted.positions(obj.data)
         normals = free_normals(obj.data)
         outcome = fair_faces(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)

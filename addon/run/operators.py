@@ -19,7 +19,7 @@ from ..preferences import background_from
 from ..translations import translated
 from . import compare, job, labels, last_run
 from .background import Watched, at_once
-from .properties import FairProperties
+from .option_properties import FairProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
 
@@ -30,7 +30,8 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
 
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"
-    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    preset_menu, preset_add = "MESH_MT_fair_region_presets", "mesh.fair_region_preset_add"
 
     _tasks: list[job.Task] = []  # noqa: RUF012 - each run sets its own
     _options: FairOptions
@@ -57,6 +58,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin, self._way = time.perf_counter(), last_run.way_to_try()
+        self.take_names_before()
         self._options = FairOptions.of(self)
         selected = job.read(context, self._options)
         self._tasks = [task for task in selected if task.free_count]

@@ -1,131 +1,84 @@
-"""The options in groups, for the redo panel: what is set often is in sight, the rest folded away."""
+"""The redo panel: three groups in sight, the rest folded away, and nothing that has no effect."""
 
-from collections.abc import Callable
 from typing import Any
 
 import bpy
 
-from ..core.options import OF_CURVATURE
+from ..core.option_shared import FOLDED, GROUPS
+from ..core.option_table import Option, Table
 
-_SOLVER = ("otherwise", "method", "levels", "tolerance", "max_iterations", "accept")
-
-Draw = Callable[[Any, Any, bpy.types.Object], None]
+ADVANCED = "fairing_advanced"  # the switch, of the window manager
 
 
-def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any) -> None:
-    """Draw the properties of `mesh.fair_region`; those without effect don't show."""
+def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manager: Any) -> None:
+    """Draw an operator's options, whose table it names."""
+    table: Table = options.table
+    _draw_presets(layout, options)
     layout.use_property_split = True
-    layout.prop(options, "factor")
-    _draw_shape(_group(layout, "Shape"), options)
-    _draw_vertices(_group(layout, "Vertices"), options)
-    _draw_skin(_group(layout, "Skin"), options)
-    _draw_outline(_group(layout, "At the Boundary"), options)
-    for name, (_, _, draw) in FOLDS.items():
-        # No collapsible layout panel: not every place that shows these options has them.
-        opened = bool(getattr(manager, name))
-        row = layout.row()
-        row.use_property_split = False
-        row.alignment = "LEFT"
-        row.prop(manager, name, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
-        if opened:
-            draw(layout.column(align=True), options, obj)
+    for title in dict.fromkeys(option.group for option in table if option.group not in FOLDED):
+        _draw_group(layout, title if title in GROUPS[1:] else "", _shown(table, title, options), options, obj)
+    if not any(option.group in FOLDED for option in table):
+        return
+    opened = bool(getattr(manager, ADVANCED))
+    row = layout.row()
+    row.use_property_split = False
+    row.alignment = "LEFT"
+    # No collapsible layout panel: not every place that shows these options has them.
+    row.prop(manager, ADVANCED, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
+    if opened:
+        for title in FOLDED:
+            _draw_group(layout, title, _shown(table, title, options), options, obj)
 
 
-def _group(layout: Any, title: str) -> Any:
+def _draw_presets(layout: Any, options: Any) -> None:
+    if not options.preset_menu:
+        return
+    row = layout.row(align=True)
+    row.menu(options.preset_menu, text=getattr(bpy.types, options.preset_menu).bl_label)
+    row.operator(options.preset_add, text="", icon="ADD")
+    row.operator(options.preset_add, text="", icon="REMOVE").remove_active = True
+
+
+def _shown(table: Table, title: str, options: Any) -> list[Option]:
+    return [option for option in table if option.group == title and option.shown(options)]
+
+
+def _draw_group(layout: Any, title: str, shown: list[Option], options: Any, obj: Any) -> None:
+    if not shown:
+        return
     layout.separator(factor=0.5)
     column = layout.column(align=True)
-    column.label(text=title)
-    return column
+    if title:
+        column.label(text=title)
+    for option in shown:
+        _draw_option(column, option, options, obj)
 
 
-def _draw_shape(group: Any, options: Any) -> None:
-    group.prop(options, "equation")
-    if options.equation == "CONSTANT":
-        group.prop(options, "bulge", slider=True)
-
-
-def _draw_vertices(group: Any, options: Any) -> None:
-    group.prop(options, "mesh")
-    if options.mesh == "NEW":  # new edges are equally long
-        group.prop(options, "spacing")
-        group.prop(options, "inner")
-        group.prop(options, "subdivide_boundary")
-        group.prop(options, "max_vertices")
-        group.prop(options, "quads")
-        group.prop(options, "limit_total")
+def _draw_option(column: Any, option: Option, options: Any, obj: Any) -> None:
+    if option.kind == "VERTEX_GROUP" and obj is not None:
+        column.prop_search(options, option.name, obj, "vertex_groups")
+    elif option.kind == "FACE_SET":
+        _draw_face_set(column, option, options)
     else:
-        group.prop(options, "inner_fairness")
+        column.prop(options, option.name, slider=option.kind == "FACTOR" or option.slider == (-1.0, 1.0))
 
 
-def _draw_skin(group: Any, options: Any) -> None:
-    group.prop(options, "detail", slider=True)
-    if options.detail > 0.0:
-        group.prop(options, "detail_size", slider=True)
-    row = group.row()
-    row.active = options.mesh == "KEEP"
-    row.prop(options, "feather", slider=True)
-
-
-def _draw_outline(group: Any, options: Any) -> None:
-    row = group.row()
-    row.active = options.equation != "MINIMAL"  # meets positions only
-    row.prop(options, "boundary_normals")
-    row = group.row()
-    row.active = options.equation in OF_CURVATURE and options.method == "GLOBAL"
-    row.prop(options, "continuity")
-    group.prop(options, "outline")
-
-
-def _draw_held(group: Any, options: Any, obj: bpy.types.Object) -> None:
-    group.prop_search(options, "pin_group", obj, "vertex_groups")
-    if options.pin_group:
-        group.prop(options, "pin_radius", slider=True)
-    group.prop(options, "pin_edges")
-    if options.pin_edges in ("AUTOMATIC", "SHARP"):
-        group.prop(options, "pin_curve")
-    if options.pin_edges != "NONE":
-        group.prop(options, "pin_slope")
-    row = group.row()
-    row.active = options.mesh == "KEEP"
-    row.prop(options, "open_border")
-
-
-def _draw_parts(group: Any, options: Any, obj: bpy.types.Object) -> None:
-    column = group.column(align=True)
-    column.active = options.mesh == "KEEP"
-    column.prop_search(options, "factor_group", obj, "vertex_groups")
-    column.prop(options, "factor_mask")
-    column = group.column(align=True)
-    column.active = options.detail > 0.0
-    column.prop_search(options, "detail_from", obj, "vertex_groups")
-    column.prop(options, "detail_face_set")
-
-
-def _draw_solver(group: Any, options: Any, _obj: bpy.types.Object) -> None:
-    for name in _SOLVER:
-        row = group.row()
-        row.active = {
-            "otherwise": options.method == "GLOBAL" and options.equation not in ("MINIMAL", "LEAST_VARIATION"),
-            "levels": options.method == "PAPER",
-        }.get(name, True)
-        row.prop(options, name)
-
-
-# What is folded away: names of switches of the window manager, their labels and descriptions, what they show.
-FOLDS: dict[str, tuple[str, str, Draw]] = {
-    "fairing_held": ("Pins and Borders", "Show what holds the surface inside, and what open borders do", _draw_held),
-    "fairing_parts": ("Groups and Masks", "Show where weights, masks and the skin of other faces come in", _draw_parts),
-    "fairing_more": ("More", "Show how exactly the surface is found, and which results are written", _draw_solver),
-}
+def _draw_face_set(column: Any, option: Option, options: Any) -> None:
+    """A face set is picked in the 3D view: its number says nothing."""
+    column.operator("mesh.fair_pick_skin", text=option.label, icon="EYEDROPPER")
+    if getattr(options, option.name):
+        column.label(text="A face set is picked", icon="FACE_MAPS")
 
 
 def register() -> None:
-    """Make the switches known to Blender."""
-    for name, (label, description, _) in FOLDS.items():
-        setattr(bpy.types.WindowManager, name, bpy.props.BoolProperty(name=label, description=description))
+    """Make the switch known to Blender."""
+    setattr(
+        bpy.types.WindowManager,
+        ADVANCED,
+        bpy.props.BoolProperty(name="Advanced", description="Show masks, pins, limits, and how the surface is found"),
+    )
 
 
 def unregister() -> None:
-    """Take them back."""
-    for name in FOLDS:
-        delattr(bpy.types.WindowManager, name)
+    """Take it back."""
+    delattr(bpy.types.WindowManager, ADVANCED)

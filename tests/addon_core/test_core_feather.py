@@ -157,12 +157,12 @@ def test_feather_and_weights_are_multiplied() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"outline": "MENDED"}, "Boundary: Smooth"),
-        ({"continuity": "G2"}, "Join: Curvature"),
+        ({"outline": "MENDED"}, "Smooth Boundary"),
+        ({"continuity": "G2"}, "Continuity: Curvature"),
     ],
 )
 def test_options_that_a_band_can_not_have_are_refused(options: dict[str, object], text: str) -> None:
-    with pytest.raises(ValueError, match=f"^{text}.*Feather 0$"):
+    with pytest.raises(ValueError, match=f"^{text}.*Falloff 0$"):
         fair(swollen(), feather=WIDTH, **options)
-    with pytest.raises(ValueError, match=f"^{text}.*no Factor Group and no Mask$"):
+    with pytest.raises(ValueError, match=f"^{text}.*no Vertex Group and no Mask$"):
         fair(replace(swollen(), parts=soft(0.6)), **BY_GROUP, **options)

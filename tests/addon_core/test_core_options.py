@@ -8,8 +8,10 @@ from typing import Any
 import pytest
 
 import fairing
-from core.fill_pieces import SHAPES, FillOptions
-from core.options import EQUATIONS, INNER_FAIRNESS, METHODS, OTHERWISE, FairOptions
+from core.fill_options import FILL_EQUATIONS as SHAPES
+from core.fill_pieces import FillOptions
+from core.option_items import DISTRIBUTIONS, EQUATIONS, METHODS, OTHERWISE, identifiers
+from core.options import FairOptions
 from fairing import _core
 
 
@@ -52,7 +54,7 @@ def test_a_value_of_another_kind_is_refused_by_its_name(wrong: dict[str, Any], s
 def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
     with pytest.raises(TypeError, match=r"There is no property 'spacings': did you mean 'spacing'\?"):
         options.named({"spacings": 1.0})
-    with pytest.raises(TypeError, match=r"'nonsense': there are .*equation"):
+    with pytest.raises(TypeError, match=r"'nonsense': there are .*shape"):
         options.named({"nonsense": 1})
     assert options.named({"spacing": 2.0}).spacing == 2.0
 
@@ -99,8 +101,8 @@ def test_the_words_are_the_engines() -> None:
     words = _core.WORDS
     for option, choices in (
         ("equation", (*EQUATIONS[1:], EQUATIONS[0])),  # the default comes first in Blender's menu
-        ("otherwise", OTHERWISE),
-        ("inner_fairness", INNER_FAIRNESS[1:]),
+        ("otherwise", OTHERWISE[::-1]),  # of a checkbox: what stands for off comes first
+        ("inner_fairness", identifiers(DISTRIBUTIONS)[1:]),
         ("method", METHODS),
     ):
         assert tuple(choice.lower() for choice in choices) == words[option]

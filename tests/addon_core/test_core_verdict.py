@@ -86,7 +86,7 @@ def test_a_clean_result_is_good(fine: Evidence) -> None:
 def test_a_hard_edge_that_was_rounded_deserves_a_look(fine: Evidence) -> None:
     verdict = judged(replace(fine, rounded=ints(3, 8)), outline="MENDED")
     assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [3, 8], (GROW, AS_SELECTED))
-    assert verdict.reason == "Boundary: Smooth has rounded a hard edge outside at 2 vertices: choose As Selected"
+    assert verdict.reason == "Smooth Boundary has rounded a hard edge outside at 2 vertices: turn it off"
 
 
 def test_a_knob_deserves_a_look(fine: Evidence) -> None:

@@ -66,7 +66,7 @@ def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() 
         "No fair surface fits these boundary loops: a loft joins them",
     )
     assert reported(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0)) == (
-        "Boundary: Smooth was left out: with 2 boundary vertices moved, the result is worse",
+        "Smooth Boundary was left out: with 2 boundary vertices moved, the result is worse",
     )
     assert reported(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == (
         "2 vertices of a noisy boundary keep their place",

@@ -24,7 +24,7 @@ GROUND = {"loading", "preferences", "translations"}  # modules beside the rooms 
 BLENDER = {
     "core": set(),
     "host": {"blf", "bpy", "mathutils"},
-    "mesh": {"bpy", "bmesh"},
+    "mesh": {"bpy", "bmesh", "mathutils"},
     "run": {"bpy"},
     "follow": {"bpy"},
     "show": {"bpy", "gpu", "gpu_extras", "blf"},

@@ -23,3 +23,12 @@ def inspect(obj: Any, faces: Any, **options: Any) -> Any:
         return module("follow.inspection").inspect(obj, module("core.options").FairOptions(**options))
     finally:
         meshes.leave()
+
+
+def give_options(stand: Any, **chosen: Any) -> Any:
+    """Give a stand-in for the operator `mesh.fair_region` its options, and return it."""
+    fair = module("core.fair_options").FAIR
+    for name, value in {**module("core.option_table").defaults(fair), **chosen}.items():
+        setattr(stand, name, value)
+    stand.take_names_before = lambda: None
+    return stand

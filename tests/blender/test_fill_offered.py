@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,47 +15,31 @@ from test_panel import Layout
 from test_fill import border_edges, open_sphere
 
 
-class Rows(Layout):
-    """Remembers which of its rows are greyed out."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.rows: list[Any] = []
-
-    def row(self, **_rest: Any) -> Any:
-        row = Layout(self.reported)
-        self.rows.append(row)
-        return row
+def redo_panel(**chosen: Any) -> list[str]:
+    """Return the options that are in sight."""
+    layout = Layout()
+    values = {**module("core.option_table").defaults(fill_table()), **chosen}
+    shown = SimpleNamespace(layout=layout, table=fill_table(), preset_menu="", **values)
+    module("run.fill").MESH_OT_fair_fill.draw(shown, bpy.context)
+    return layout.reported
 
 
-def redo_panel(**chosen: Any) -> Rows:
-    rows = Rows()
-    options = module("core.filling").FillOptions(**chosen)
-    values = {field.name: getattr(options, field.name) for field in fields(options)}
-    module("run.fill").MESH_OT_fair_fill.draw(SimpleNamespace(layout=rows, **values), bpy.context)
-    return rows
+def fill_table() -> Any:
+    return module("core.fill_options").FILL
 
 
-def test_the_redo_panel_has_every_option() -> None:
-    names = [field.name for field in fields(module("core.filling").FillOptions)]
-    assert sorted(redo_panel().reported) == sorted(names)
+def test_the_shape_is_hidden_where_positions_alone_are_met() -> None:
+    assert "shape" in redo_panel()
+    assert "shape" not in redo_panel(continuity="G0")
 
 
-def test_the_join_is_greyed_out_for_shapes_that_have_none() -> None:
-    for equation, active in (
-        ("AUTOMATIC", True),
-        ("HARMONIC", True),
-        ("LEAST_VARIATION", False),
-        ("MINIMAL_ENERGY", False),
-    ):
-        rows = redo_panel(equation=equation)
-        states = dict(zip(rows.reported, (row.active for row in rows.rows), strict=True))
-        assert states.pop("continuity") == active
-        assert all(states.values())
+def test_a_bridge_has_no_islands_nor_hard_edges_to_ask_for() -> None:
+    assert {"islands", "run_on"} <= {*redo_panel()}
+    assert not {"islands", "run_on"} & {*redo_panel(bridge=True)}
 
 
 def test_it_is_in_the_menu_face_and_in_the_context_menu_of_edges_and_vertices() -> None:
-    ui = module("show.ui")
+    ui = module("show.menus")
     assert ui.draw_face_menu in bpy.types.VIEW3D_MT_edit_mesh_faces.draw._draw_funcs
     assert ui.draw_context_menu in bpy.types.VIEW3D_MT_edit_mesh_context_menu.draw._draw_funcs
     face = SimpleNamespace(layout=Layout())

@@ -8,7 +8,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import inspect, module
+from extension import give_options, inspect, module
 
 
 def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
@@ -24,10 +24,7 @@ def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
         def report(self, _kinds: set[str], text: str) -> None:
             said.append(text)
 
-    stand: Any = Stand()
-    options = module("core.options")
-    for name in options.option_names():
-        setattr(stand, name, properties.get(name, getattr(options.FairOptions(), name)))
+    stand = give_options(Stand(), **properties)
     meshes.edit(*objects)
     try:
         stand.execute(bpy.context)

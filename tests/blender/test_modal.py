@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 import meshes
 import pytest
-from extension import module
+from extension import give_options, module
 
 
 def event(kind: str, value: str = "PRESS") -> Any:
@@ -106,10 +106,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         def report(self, _kinds: set[str], _text: str) -> None:
             pass
 
-    operator: Any = Stand()
-    options = module("core.options")
-    for name in options.option_names():
-        setattr(operator, name, getattr(options.FairOptions(), name))
+    operator = give_options(Stand())
     monkeypatch.setattr(operators.job, "solve", slow)
     monkeypatch.setattr(background, "has_events", lambda _context: True)
     monkeypatch.setattr(background, "MOMENT", 10.0 if quick else 0.01)

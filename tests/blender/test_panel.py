@@ -40,6 +40,9 @@ class Layout:
     def _child(self, **_rest: Any) -> Layout:
         return Layout(self.reported)
 
+    def menu(self, name: str, **_rest: Any) -> None:
+        self.reported.append(name)
+
     column = row = split = box = _child
 
 
@@ -116,7 +119,8 @@ def test_drawing_the_panel_never_looks(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(watch, "inspect", forbidden)
     text = drawn("VIEW3D_PT_fairing_selection")
-    assert str(int(meshes.free_vertices(obj, faces).sum())) in text.splitlines()
+    assert text == "Ready"
+    assert str(int(meshes.free_vertices(obj, faces).sum())) in drawn("VIEW3D_PT_fairing_counts").splitlines()
     watch.watch.stale = True
     assert drawn("VIEW3D_PT_fairing_selection") == text
     if bpy.app.timers.is_registered(watch._look_later):
@@ -151,7 +155,7 @@ def test_large_meshes_are_looked_at_on_demand() -> None:
         assert "mesh.fair_inspect" in drawn("VIEW3D_PT_fairing_selection")
         assert not bpy.app.timers.is_registered(watch._look_later)
         assert bpy.ops.mesh.fair_inspect() == {"FINISHED"}
-        assert "Free Vertices" in drawn("VIEW3D_PT_fairing_selection")
+        assert "Free Vertices" in drawn("VIEW3D_PT_fairing_counts")
     finally:
         preferences.property_unset("inspect_up_to")
 
@@ -165,27 +169,42 @@ def test_report_is_drawn() -> None:
         assert check.value in text
 
 
-def in_redo_panel(opened: bool, **chosen: Any) -> list[str]:
+def in_redo_panel(opened: bool, operator: str = "fair", **chosen: Any) -> list[str]:
     """Return the options that the redo panel shows, in its order."""
     obj = meshes.grid()
-    panel, names = module("run.redo_panel"), module("core.options").option_names()
+    panel, table = module("run.redo_panel"), module("core.option_table")
+    options = {"fair": module("core.fair_options").FAIR, **vars(module("core.fill_options"))}[operator]
     layout, manager = Layout(), bpy.context.window_manager
-    for name in panel.FOLDS:
-        setattr(manager, name, opened)
-    panel.draw_options(layout, module("core.options").FairOptions(**chosen), obj, manager)
-    return [text for text in layout.reported if text in names]
+    setattr(manager, panel.ADVANCED, opened)
+    shown = SimpleNamespace(table=options, preset_menu="", **{**table.defaults(options), **chosen})
+    panel.draw_options(layout, shown, obj, manager)
+    return [text for text in layout.reported if table.named(options, text)]
 
 
 EVERYDAY = [
     "factor",
-    "equation",
-    "mesh",
+    "shape",
+    "bulge",
+    "continuity",
+    "boundary_normals",
+    "remesh",
     "inner_fairness",
     "detail",
-    "feather",
-    "boundary_normals",
-    "continuity",
-    "outline",
+    "falloff",
+    "smooth_boundary",
+]
+STATES: list[dict[str, Any]] = [
+    {name: value}
+    for name, values in {
+        "shape": ["AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION"],
+        "continuity": ["G0", "G1", "G2"],
+        "remesh": [True],
+        "detail": [0.5],
+        "falloff": [0.2],
+        "smooth_boundary": [True],
+        "multigrid": [True],
+    }.items()
+    for value in values
 ]
 
 
@@ -193,28 +212,114 @@ def test_redo_panel_shows_what_is_set_often() -> None:
     assert in_redo_panel(opened=False) == EVERYDAY
 
 
+@pytest.mark.parametrize("first", STATES)
+@pytest.mark.parametrize("second", STATES)
+def test_redo_panel_never_shows_more_than_twelve(first: Any, second: Any) -> None:
+    assert len(in_redo_panel(opened=False, **{**first, **second})) <= 12
+
+
 def test_redo_panel_has_every_option() -> None:
-    everything = in_redo_panel(True, equation="CONSTANT", detail=0.5, pin_group="Pin", pin_edges="SEAM")
-    found = everything + in_redo_panel(True, mesh="NEW")
+    everything = in_redo_panel(True, detail=0.5, pin_group="Pin", pin_edges="SEAM", multigrid=True)
+    found = [*everything, *in_redo_panel(True, remesh=True), *in_redo_panel(True)]
     assert len(everything) == len(set(everything))
-    assert set(found) == set(module("core.options").option_names())
+    # The eyedropper stands for a number.
+    assert {*found, "detail_face_set"} == {option.name for option in module("core.fair_options").FAIR}
+
+
+@pytest.mark.parametrize("first", STATES)
+@pytest.mark.parametrize("second", STATES)
+def test_what_is_hidden_has_no_effect(first: Any, second: Any) -> None:
+    """Nothing that the panel hides changes what the engine is asked for, but for what is reported as idle."""
+    table, fair = module("core.option_table"), module("core.fair_options").FAIR
+    options = module("core.options").FairOptions
+    chosen = {**table.defaults(fair), **first, **second}
+    plain = options.named(chosen)
+    for option in fair:
+        if option.shown(SimpleNamespace(**chosen)) or option.name.startswith("detail_"):
+            continue
+        other = {str: "X", float: 0.3, bool: not option.default, int: 3}[type(option.default)]
+        if option.items:
+            other = option.items[-1][0]
+        changed = options.named({**chosen, option.name: other})
+        refused = ("falloff", "vertex_group", "use_mask", "smooth_boundary", "detail")
+        if option.name not in refused and not (chosen["remesh"] and option.name == "inner_fairness"):
+            assert table.named(fair, option.name).target in changed.idle or changed == plain, option.name
+
+
+@pytest.mark.parametrize("operator", ["FILL", "FILLET"])
+def test_other_redo_panels_are_of_the_same_kind(operator: str) -> None:
+    shown = in_redo_panel(False, operator)
+    everything = in_redo_panel(True, operator)
+    assert 4 <= len(shown) <= 9
+    assert {*everything} == {option.name for option in vars(module("core.fill_options"))[operator]}
+
+
+def test_every_kind_of_button_is_drawn_without_an_object() -> None:
+    fair = module("core.fair_options").FAIR
+    layout, manager = Layout(), bpy.context.window_manager
+    shown = SimpleNamespace(table=fair, preset_menu="", **module("core.option_table").defaults(fair))
+    module("run.redo_panel").draw_options(layout, shown, None, manager)
+    assert "factor" in layout.reported
+
+
+def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
+    shown = meshes.report()
+    shown.verdict, shown.reason, shown.written, shown.objects = "LOOK", "It is so", True, "Grid"
+    shown.remedies, shown.warnings, shown.free_vertices = "GROW,SMOOTH_OUTLINE,EVEN_CURVATURE", "One\nTwo", 5
+    assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Look here", "It is so", "Least Variation"]
+    details = drawn("VIEW3D_PT_fairing_details").splitlines()
+    assert details[:6] == ["Grid", "mesh.fair_spots", "Grow by a Ring", "Smooth Boundary", "One", "Two"]
+    shown.verdict, shown.reason, shown.remedies = "GOOD", "", ""
+    assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Good", "One"]
+    assert drawn("VIEW3D_PT_fairing_details").splitlines()[:2] == ["Grid", "Two"]
+    module("run.report_properties").clear(shown)
 
 
 def presets() -> list[Path]:
-    return sorted(
-        path for folder in bpy.utils.preset_paths("operator/mesh.fair_region") for path in Path(folder).glob("*.py")
-    )
+    return [
+        path for operator in ("mesh.fair_region", "mesh.fair_fill") for path in module("run.presets").files(operator)
+    ]
 
 
-def test_presets_hold_valid_options() -> None:
-    found = presets()
-    assert len(found) >= 5
-    for path in found:
-        values = dict(line.split(" = ") for line in path.read_text().splitlines() if line.startswith("op."))
-        options = {name.removeprefix("op."): eval(value) for name, value in values.items()}
-        module("core.options").FairOptions(**options)
-        obj, faces = meshes.domed_grid()
-        assert meshes.fair(obj, faces, **options) == {"FINISHED"}
+def test_presets_are_those_of_the_list_and_set_every_option() -> None:
+    """`python scripts/option_tables.py` renews them."""
+    listed = module("core.presets")
+    for operator, (table, names) in listed.PRESETS.items():
+        found = list(module("run.presets").files(operator))
+        assert [path.stem.replace("_", " ") for path in found] == list(names)
+        for path, name in zip(found, names, strict=True):
+            assert module("run.presets").read(path) == listed.preset(operator, name)
+            assert module("run.presets").read(path).keys() == {option.name for option in table}
+    assert listed.OF_FAIR["Remove Feature"] == {}  # the defaults
+
+
+@pytest.mark.parametrize("name", ["Remove Feature", "Repair Scan", "Limb or Tube", "Class A", "Fillet", "Soften"])
+def test_presets_run(name: str) -> None:
+    obj, faces = meshes.domed_grid()
+    assert meshes.fair(obj, faces, **module("core.presets").preset("mesh.fair_region", name)) == {"FINISHED"}
+
+
+def test_presets_are_offered_beside_the_button() -> None:
+    layout = Layout()
+    module("run.presets").draw_runs(layout, "mesh.fair_fill")
+    assert layout.reported == ["Fill Holes", "Small Holes Only", "Flat Lid", "Bridge", "Class A"]
+
+
+def test_what_the_last_run_had_is_shown_and_reset() -> None:
+    """By its label; the cross brings the default back."""
+    chosen = module("show.chosen_options")
+    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
+    for name in chosen.last_chosen(bpy.context):
+        last.property_unset(name)
+    assert chosen.last_chosen(bpy.context) == {}
+    last.factor, last.remesh, last.shape = 0.5, True, "MINIMAL_ENERGY"
+    layout = Layout()
+    chosen.draw(layout, bpy.context)
+    labels = [text for text in layout.reported if not text.startswith("mesh.")]
+    assert labels == ["Factor", "0.5", "Shape", "Minimal Energy", "Remesh", "on", "Fair with These"]
+    for name in ("factor", "remesh", "shape"):
+        assert bpy.ops.mesh.fair_reset(option=name) == {"FINISHED"}
+    assert chosen.last_chosen(bpy.context) == {}
 
 
 @pytest.mark.parametrize(("locale", "text"), [("de_DE", "Qualitätsanzeige"), ("fr_FR", "Affichage de la qualité")])
@@ -244,7 +349,7 @@ def test_every_option_and_choice_has_a_german_name() -> None:
     german = module("translations").languages()["de"]
     same = {"Global", "Multigrid", "None", "Sharp", "Seam", "Crease", "Custom Normals"}  # Blender's own, or names
     for option in bpy.ops.mesh.fair_region.get_rna_type().properties:
-        if option.identifier != "rna_type":
+        if option.identifier != "rna_type" and not option.is_hidden:
             names = [option.name, *(item.name for item in getattr(option, "enum_items", ()))]
             assert [name for name in names if name not in german and name not in same] == []
 

@@ -8,6 +8,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from extension import module
 
 NOISE = 0.01
 LIMIT = 0.4  # faces above this height are selected
@@ -132,6 +133,22 @@ def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:
     sets = obj.data.attributes.new(".sculpt_face_set", "INT", "FACE")
     sets.data.foreach_set("value", np.where(within, 7, 1).astype(np.int32))
     return obj, faces
+
+
+def test_a_picked_face_set_gives_its_skin() -> None:
+    """The eyedropper's run: the region of the last one, as if it had been asked for the first time."""
+    asked, faces = with_a_hole()
+    picked, _ = with_a_hole()
+    fair(asked, faces, detail=1.0, detail_face_set=7)
+    meshes.select(picked, faces)
+    meshes.edit(picked)
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert module("mesh.painted").edited_face_set_at(picked.data, (0, 0, -3), (0, 0, 1)) == 7
+    assert module("mesh.painted").edited_face_set_at(picked.data, (0, 0, 3), (0, 0, -1)) == 1
+    assert module("mesh.painted").edited_face_set_at(picked.data, (0, 0, -3), (0, 0, -1)) == 0
+    assert module("run.pick_skin").run_with_skin_of(bpy.context, 7) == {"FINISHED"}
+    meshes.leave()
+    assert np.array_equal(meshes.positions(picked), meshes.positions(asked))
 
 
 def test_a_filled_hole_takes_the_skin_of_a_group_or_a_face_set() -> None:

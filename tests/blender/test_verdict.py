@@ -52,7 +52,7 @@ def test_what_is_not_usable_leaves_every_bit_and_shows_its_spots() -> None:
     assert "Not usable" in text
     assert report.reason.split()[-1] in text
     assert "Nothing was changed" in text
-    assert "Write It All the Same" in text
+    assert "Apply Anyway" in drawn("VIEW3D_PT_fairing_details")
     meshes.leave()
     bpy.context.tool_settings.mesh_select_mode = (False, False, True)
     after = meshes.in_edit_mode_once(obj, faces)

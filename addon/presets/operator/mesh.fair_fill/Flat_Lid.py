@@ -1,0 +1,18 @@
+import bpy
+
+op = bpy.context.active_operator
+
+op.shape = "AUTOMATIC"
+op.continuity = "G0"
+op.bridge = False
+op.run_on = False
+op.spacing = 1.0
+op.quads = False
+op.equal_edges = False
+op.subdivide_boundary = False
+op.max_vertices = 0
+op.limit_total = 0
+op.islands = False
+op.longest = 0
+op.longest_length = 0.0
+op.allow_folds = False
