@@ -68,3 +68,19 @@ def test_page_and_template_have_the_same_words(page: str, template: str) -> None
     assert len(words) > 4
     pattern = ".*?".join(re.escape(part) for part in words)
     assert re.fullmatch(pattern, (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
+
+
+def test_every_page_of_the_docs_is_in_the_sites_menu() -> None:
+    """And the menu names no page that isn't there."""
+    menu = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").split("\nnav:\n")[1]
+    named = set(re.findall(r"[\w/]+\.md", menu)) - {"CONTRIBUTING.md", "CHANGELOG.md"}
+    assert named == {str(page.relative_to(ROOT / "docs")) for page in PAGES if ROOT / "docs" in page.parents}
+
+
+def test_pictures_are_shown_and_are_not_too_large() -> None:
+    """400 kB each, 12 MB in all."""
+    pictures = {path.name: path.stat().st_size for path in (ROOT / "docs/pictures").iterdir()}
+    shown = {Path(link).name for page in PAGES for link in LINK.findall(page.read_text(encoding="utf-8"))}
+    assert set(pictures) - shown == set()
+    assert max(pictures.values()) <= 400_000
+    assert sum(pictures.values()) <= 12_000_000

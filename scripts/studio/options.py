@@ -94,13 +94,8 @@ def checkered_ear() -> Chosen:
 
 def faired(scene: Callable[[], Chosen], runs: dict[str, dict[str, Any]]) -> list[list[Row]]:
     """The scene, then results with options, by their captions."""
-    made = {name: tools.fair_region(accept="ALL", **options) for name, options in runs.items()}
+    made = {name: tools.fair_region(allow_folds=True, **options) for name, options in runs.items()}
     return [[Row("Before", scene, "faces", made, striped=False)]]
-
-
-def constant(bulge: float) -> dict[str, Any]:
-    """Options of a load."""
-    return {"equation": "CONSTANT", "bulge": bulge}
 
 
 SHEETS = {
@@ -108,21 +103,28 @@ SHEETS = {
     "guide_shape": faired(
         ball,
         {
-            "Automatic": {},
-            "Minimal Energy": {"equation": "MINIMAL_ENERGY"},
-            "Even Curvature": {"equation": "LEAST_VARIATION"},
-            "Soap Film": {"equation": "MINIMAL"},
+            "Harmonic": {"shape": "HARMONIC"},
+            "Minimal Energy": {"shape": "MINIMAL_ENERGY"},
+            "Continuity: Position": {"continuity": "G0"},
         },
     ),
-    "guide_bulge": faired(
-        hill, {"Bulge -.5": constant(-0.5), "Bulge 0": {}, "Bulge .3": constant(0.3), "Bulge .6": constant(0.6)}
-    ),
+    "guide_bulge": faired(hill, {f"Bulge {bulge:g}": {"bulge": bulge} for bulge in (-0.5, 0.0, 0.3, 0.6)}),
     "guide_vertices": faired(
-        checkered_ear, {"Uniform": {"inner_fairness": "UNIFORM"}, "Conformal": {"inner_fairness": "CONFORMAL"}}
+        checkered_ear,
+        {
+            "Uniform": {"inner_fairness": "UNIFORM"},
+            "Keep Texture": {"inner_fairness": "CONFORMAL"},
+            "Keep Spacing": {"inner_fairness": "INVERSE_DISTANCE"},
+            "Keep Proportions": {"inner_fairness": "SHAPE_PRESERVING"},
+        },
     ),
     "guide_tangent": faired(
         mesa,
-        {"Surrounding": {}, "Average": {"boundary_normals": "AVERAGE"}, "Custom": {"boundary_normals": "CUSTOM"}},
+        {
+            "Surroundings": {"boundary_normals": "SURROUNDING"},
+            "Average": {"boundary_normals": "AVERAGE"},
+            "Custom Normals": {"boundary_normals": "CUSTOM"},
+        },
     ),
     "guide_pins": faired(hill, {"No pin": {}, "A point": {"pin_group": "Top"}, "A ring": {"pin_group": "Ring"}}),
     "guide_pin_edges": faired(hill, {"No pin": {}, "A line": {"pin_edges": "SEAM"}}),
