@@ -23,6 +23,7 @@ CALLS: dict[str, Callable[[Any], Any]] = {
     "vertex_normals": lambda triangles: fairing.vertex_normals(PATCH.vertices, triangles),
     "cotan_laplacian": lambda triangles: fairing.cotan_laplacian(PATCH.vertices, triangles),
     "conformal_distortion": lambda triangles: fairing.conformal_distortion(PATCH.vertices, PATCH.vertices, triangles),
+    "deviation": lambda triangles: fairing.deviation(PATCH.vertices, PATCH.vertices, triangles),
     "surrounding_normals": lambda triangles: fairing.surrounding_normals(PATCH.vertices, triangles, [0]),
 }
 

@@ -2,6 +2,7 @@
 #include "bindings/convert.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
+#include "geometry/nearest_point.h"
 #include "geometry/self_intersection.h"
 #include "mesh/loops.h"
 
@@ -57,6 +58,10 @@ py::array conformal_distortion_array(const DoubleArray& reference, const DoubleA
     return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
 }
 
+py::array signed_distance_array(const DoubleArray& at, const DoubleArray& reference, const IntArray& triangles) {
+    return from_vector(signed_distances(to_points(at), to_points(reference), to_triangles(triangles)));
+}
+
 }  // namespace
 
 void bind_measure(py::module_& module) {
@@ -70,6 +75,7 @@ void bind_measure(py::module_& module) {
     module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"), py::arg("near"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
                py::arg("triangles"));
+    module.def("signed_distances", &signed_distance_array, py::arg("at"), py::arg("reference"), py::arg("triangles"));
 }
 
 }  // namespace fairing::bindings

@@ -7,44 +7,13 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/nearest_point.h"
+
 namespace fairing {
 
 namespace {
 
 constexpr std::size_t most_triangles = 64;  // of a search around one
-
-// Barycentric coordinates of the foot of the perpendicular on the plane of a, b, c; may be negative.
-Vector3 plane_weights(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
-    const Vector3 n = (b - a).cross(c - a);
-    const double squared = n.squaredNorm();
-    if (!(squared > 0.0)) return Vector3::Constant(1.0 / 3.0);
-    const double u = n.dot((c - b).cross(p - b)) / squared;
-    const double v = n.dot((a - c).cross(p - c)) / squared;
-    return {u, v, 1.0 - u - v};
-}
-
-// Nearest point of a segment as the weight of its end.
-double segment_weight(const Vector3& p, const Vector3& a, const Vector3& b) {
-    const double squared = (b - a).squaredNorm();
-    return squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
-}
-
-// Nearest point of the border of a triangle.
-Vector3 border_weights(const Vector3& p, const std::array<Vector3, 3>& corners) {
-    Vector3 best(1.0, 0.0, 0.0);
-    double least = (p - corners[0]).squaredNorm();
-    for (int k = 0; k < 3; ++k) {
-        const int l = (k + 1) % 3;
-        const double s = segment_weight(p, corners[k], corners[l]);
-        const double distance = (p - (1.0 - s) * corners[k] - s * corners[l]).squaredNorm();
-        if (distance >= least) continue;
-        least = distance;
-        best.setZero();
-        best[k] = 1.0 - s;
-        best[l] = s;
-    }
-    return best;
-}
 
 }  // namespace
 
@@ -65,7 +34,7 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
     for (int step = 0; step < longest_walk; ++step) {
         const auto corners = patch_.triangles.col(triangle);
         const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
-        const Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
+        const Vector3 weights = plane_weights(position, points);
         int outside = 0;
         if (face_normal(triangle).isZero()) break;  // no foot: without an area it would hold every walk
         if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
@@ -86,8 +55,7 @@ SurfacePoint TargetSurface::nearest_around(const Vector3& position, int start) c
         const int triangle = found[k];
         const auto corners = patch_.triangles.col(triangle);
         const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
-        Vector3 weights = plane_weights(position, points[0], points[1], points[2]);
-        if (!(weights.minCoeff() >= 0.0)) weights = border_weights(position, points);
+        const Vector3 weights = nearest_weights(position, points);
         const Vector3 foot = weights[0] * points[0] + weights[1] * points[1] + weights[2] * points[2];
         const double distance = (position - foot).squaredNorm();
         if (distance < least) {

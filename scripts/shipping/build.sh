@@ -71,6 +71,9 @@ make_sdist() {
     cp -r "$cross/openmesh/src/OpenMesh/Core" "$third/openmesh/src/OpenMesh"
     cp -r "$cross"/openmesh/src/OpenMesh/Tools/{Decimater,Utils} "$third/openmesh/src/OpenMesh/Tools"
     cp -r /usr/include/eigen3/Eigen "$third/eigen"
+    mkdir -p "$third/eigen/unsupported/Eigen/src"
+    cp /usr/include/eigen3/unsupported/Eigen/BVH "$third/eigen/unsupported/Eigen"
+    cp -r /usr/include/eigen3/unsupported/Eigen/src/BVH "$third/eigen/unsupported/Eigen/src"
     cp "$cross/openmesh/LICENSE" "$staging/LICENSE.OpenMesh"
     cp /usr/share/doc/libeigen3-dev/copyright "$staging/LICENSE.Eigen"
     find "$staging" -name __pycache__ -prune -exec rm -r {} +

@@ -129,3 +129,25 @@ def conformal_distortion(reference: npt.ArrayLike, vertices: npt.ArrayLike, tria
     m0 = _arguments.floats("reference", reference, points.shape[0])
     faces = _arguments.triangles_within(triangles, points.shape[0])
     return _core.conformal_distortion(m0, points, faces)
+
+
+def deviation(vertices: npt.ArrayLike, reference: npt.ArrayLike, triangles: npt.ArrayLike) -> FloatArray:
+    """(n,) signed distance of each vertex to another surface, in the unit of the positions.
+
+    vertices: (n, 3); the surface: ``triangles`` (m, 3) over the positions ``reference`` (k, 3). Positive on the side
+    from which its triangles are counter-clockwise, by the normal at the nearest point, which on edges and corners is
+    the mean by angles (Baerentzen & Aanaes 2005); beyond the border of an open surface the sign is that of its nearest
+    triangles' side. NaN at vertices that aren't finite; triangles with such a corner are left out. MeshError where a
+    triangle names a vertex that isn't there, ValueError where no triangle is left.
+    """
+    points = _arguments.floats("vertices", vertices)
+    surface = _arguments.floats("reference", reference)
+    faces = _arguments.triangles_within(triangles, surface.shape[0])
+    faces = faces[np.isfinite(surface[faces]).all(axis=(1, 2))]
+    if len(faces) == 0:
+        raise ValueError("triangles: no triangle with finite corners is there to measure from")
+    found = np.full(len(points), np.nan)
+    finite = np.isfinite(points).all(axis=1)
+    used, named = np.unique(faces, return_inverse=True)
+    found[finite] = _core.signed_distances(points[finite], surface[used], named.reshape(-1, 3).astype(np.int32))
+    return found
