@@ -65,14 +65,13 @@ make_zip() {
 make_sdist() {
     local staging=$build/staging/sdist third=$build/staging/sdist/third_party
     rm -rf "$staging"
-    mkdir -p "$staging" "$third/openmesh/src/OpenMesh/Tools" "$third/eigen"
+    mkdir -p "$staging" "$third/openmesh/src/OpenMesh/Tools" "$third/eigen/unsupported/Eigen/src"
     cp -r "${engine[@]}" README.md CHANGELOG.md tests docs "$staging"
     rm -r "$staging"/docs/{pictures,dev} "$staging"/tests/{blender,addon_core}
     cp -r "$cross/openmesh/src/OpenMesh/Core" "$third/openmesh/src/OpenMesh"
     cp -r "$cross"/openmesh/src/OpenMesh/Tools/{Decimater,Utils} "$third/openmesh/src/OpenMesh/Tools"
     cp -r /usr/include/eigen3/Eigen "$third/eigen"
-    mkdir -p "$third/eigen/unsupported/Eigen/src"
-    cp /usr/include/eigen3/unsupported/Eigen/BVH "$third/eigen/unsupported/Eigen"
+    cp -r /usr/include/eigen3/unsupported/Eigen/BVH "$third/eigen/unsupported/Eigen"
     cp -r /usr/include/eigen3/unsupported/Eigen/src/BVH "$third/eigen/unsupported/Eigen/src"
     cp "$cross/openmesh/LICENSE" "$staging/LICENSE.OpenMesh"
     cp /usr/share/doc/libeigen3-dev/copyright "$staging/LICENSE.Eigen"

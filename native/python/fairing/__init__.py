@@ -57,6 +57,7 @@ from fairing._shape import (
 from fairing._solver import Solver
 from fairing._subdivided import SubdividedEdges, subdivide_edges
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
+from fairing.objects import Made, fair_faces, fill_holes, fillet_edges
 
 __all__ = [
     "CODES",
@@ -73,6 +74,7 @@ __all__ = [
     "Girth",
     "GrownOutline",
     "HoleLoops",
+    "Made",
     "MendedOutline",
     "MeshError",
     "Needles",
@@ -98,9 +100,12 @@ __all__ = [
     "expected_vertices",
     "fair",
     "fair_edges",
+    "fair_faces",
     "feather_weights",
     "fill",
+    "fill_holes",
     "fillet",
+    "fillet_edges",
     "flank",
     "flipped_triangles",
     "girth",

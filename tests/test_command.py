@@ -1,0 +1,142 @@
+"""python -m fairing on files, with meshio and trimesh where they are installed."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+from fairing.command import arguments, batch
+from fairing.command.verdict import GOOD, LOOK, UNUSABLE, judged
+from test_mesh_objects import COLUMNS, dented, holed, radius, split, tube
+
+
+@pytest.fixture
+def meshio() -> Any:
+    return pytest.importorskip("meshio")
+
+
+@pytest.fixture
+def scan(meshio: Any, tmp_path: Path) -> Path:
+    """A tube with a hole of 12 edges; its ends have 32."""
+    points, triangles = holed()
+    meshio.Mesh(points, [("triangle", triangles)], {"height": points[:, 2]}).write(tmp_path / "scan.ply")
+    return tmp_path / "scan.ply"
+
+
+def report_of(tmp_path: Path, *words: object) -> tuple[int, list[dict[str, Any]]]:
+    """Run with a report; return the exit status and what it says of each file."""
+    report = tmp_path / "report.json"
+    status = batch.main([*map(str, words), "--json", str(report)])
+    return status, json.loads(report.read_text(encoding="utf-8"))
+
+
+def test_fill(meshio: Any, scan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, (report,) = report_of(tmp_path, "fill", scan, "--longest", 20)
+    written = meshio.read(scan.with_name("scan_filled.ply"))
+    assert (status, report["verdict"], report["converged"]) == (0, "good", True)
+    assert abs(radius(written.points) - 1).max() < 1e-4
+    assert len(written.points) - len(holed()[0]) == report["vertices"] > 0
+    assert abs(written.point_data["height"] - written.points[:, 2]).max() < 0.02
+    assert report["left_open"] == 0 and report["written"].endswith("scan_filled.ply")
+    assert capsys.readouterr().out.startswith(f"{scan}: good")
+
+
+def test_fair(meshio: Any, tmp_path: Path) -> None:
+    points, quads, selected = dented()
+    source, target = tmp_path / "dented.vtk", tmp_path / "new" / "fair.vtk"
+    meshio.Mesh(points, [("quad", quads)], {}, {"dent": [selected.astype(np.int32)]}).write(source)
+    (tmp_path / "faces.txt").write_text("\n".join(map(str, np.flatnonzero(selected))))
+    for how in (["--select", "dent"], ["--faces", tmp_path / "faces.txt"]):
+        status, (report,) = report_of(tmp_path, "fair", source, "-o", target, *how)
+        assert (status, report["verdict"]) == (0, "good"), report
+        assert abs(radius(meshio.read(target).points) - 1).max() < 1e-4
+        target.unlink()
+    status, (report,) = report_of(tmp_path, "fair", source, "-o", target, "--sphere", 0, 0, 0, 0.01)
+    assert (status, "no face" in report["reason"], target.exists()) == (3, True, False)
+
+
+def test_fillet(tmp_path: Path) -> None:
+    trimesh = pytest.importorskip("trimesh")
+    trimesh.creation.box().export(tmp_path / "box.obj")
+    status, (report,) = report_of(tmp_path, "fillet", tmp_path / "box.obj", "--width", 0.2)
+    rounded = trimesh.load(report["written"], force="mesh", process=False)
+    assert status in (0, 1) and report["converged"]
+    assert 0.85 < rounded.volume < 1.0 and rounded.is_watertight
+
+
+def test_measure(scan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    status, (report,) = report_of(tmp_path, "measure", scan)
+    assert status == 0
+    assert sorted(hole["edges"] for hole in report["holes"]) == [12, 32, 32]
+    longest = max(hole["length"] for hole in report["holes"])
+    assert longest == pytest.approx(2 * COLUMNS * np.sin(np.pi / COLUMNS), rel=1e-5)
+    assert (report["hard_edges"], report["crossing_triangles"], report["outer_borders"]) == (0, 0, 0)
+    assert "3 holes of 12, 32, 32 edges" in capsys.readouterr().out
+
+
+def test_several_files_at_once(meshio: Any, scan: Path, tmp_path: Path) -> None:
+    """Each in a process; what is wrong with one stops no other, the reports are in the order of the files."""
+    broken, closed = tmp_path / "broken.ply", tmp_path / "closed.ply"
+    broken.write_text("ply\n")
+    points, quads = tube()
+    meshio.Mesh(points, [("triangle", split(quads))]).write(closed)
+    names = [broken, scan, tmp_path / "missing.ply", closed]
+    status, reports = report_of(
+        tmp_path, "fill", *names, "--longest", 20, "--into", tmp_path / "out", "--jobs", 2, "--format", ".off"
+    )
+    assert status == 3
+    assert [Path(report["file"]).name for report in reports] == [name.name for name in names]
+    assert [report["verdict"] for report in reports] == [UNUSABLE, GOOD, UNUSABLE, UNUSABLE]
+    assert reports[3]["code"] == "NO_BOUNDARY" and "no such file" in reports[2]["reason"]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["scan_filled.off"]
+
+
+def test_from_a_shell(scan: Path) -> None:
+    """The exit status and the report on the standard output; no bar where no terminal is."""
+    command = [sys.executable, "-m", "fairing", "fill", str(scan), "--longest", "20", "--json", "-"]
+    done = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ), check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)[0]["verdict"] == GOOD
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("fill a.ply b.ply -o c.ply", "--into"),
+        ("fair a.ply", "--select"),
+        ("fillet a.ply", "--width"),
+        ("fill a.ply --jobs 0", "--jobs"),
+        ("", "COMMAND"),
+    ],
+)
+def test_wrong_arguments_end_with_two(words: str, said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        arguments.parsed(words.split())
+    assert ended.value.code == 2
+    assert said in capsys.readouterr().err
+
+
+def test_formats_that_no_library_joins(tmp_path: Path) -> None:
+    status, (report,) = report_of(tmp_path, "fill", tmp_path / "a.glb", "--format", ".vtk")
+    assert status == 3
+    assert "meshio knows" in report["reason"]
+
+
+def test_the_verdict_looks_at_warnings_and_the_join() -> None:
+    points, quads, selected = dented()
+    good = fairing.fair_faces((points, quads), selected).result
+    assert judged(good) == (GOOD, "")
+    kinked = points.copy()
+    kinked[COLUMNS * 11 :, 0] += 3.0  # the upper end stands aside: no tube of constant slope
+    grade, reason = judged(fairing.fair_faces((kinked, quads), selected).result)
+    assert grade in (LOOK, UNUSABLE) and reason
+    stopped = fairing.fair_faces((points, quads), selected, max_iterations=1, otherwise="stop").result
+    assert stopped.converged or judged(stopped)[0] == UNUSABLE
