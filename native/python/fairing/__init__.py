@@ -10,6 +10,7 @@ from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._fillet import fillet
+from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Surface
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
@@ -59,8 +60,10 @@ from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, 
 __all__ = [
     "CODES",
     "LIMITS",
+    "Boundary",
     "BoundaryNormals",
     "Cancelled",
+    "Curves",
     "Diagnostic",
     "EdgesThrough",
     "FairEdges",
@@ -71,15 +74,20 @@ __all__ = [
     "Girth",
     "GrownOutline",
     "HoleLoops",
+    "Layout",
     "MendedOutline",
     "MeshError",
     "Needles",
+    "Options",
     "PairedQuads",
     "PaperOptions",
     "RemeshResult",
+    "Skin",
     "Solver",
     "SolverError",
+    "Solving",
     "SubdividedEdges",
+    "Surface",
     "SurroundingNormals",
     "VisibleJoin",
     "__version__",
