@@ -26,7 +26,7 @@ from .run.operators import MESH_OT_fair_region
 from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import fillet_preview, marks, menus, overlay, ui
+from .show import fillet_preview, keymap, marks, menus, overlay, tab, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
 
@@ -54,6 +54,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         MESH_OT_fair_pick_skin,
         MESH_OT_fair_reset,
         *presets.CLASSES,
+        *menus.MENUS,
         *TOOLS,
         MESH_OT_fair_again,
         watch.MESH_OT_fair_inspect,
@@ -81,6 +82,8 @@ def register() -> None:
     live.register()
     copies.register()
     marks.register()
+    tab.register()
+    keymap.register()
     undone.register()
     file_owned.register()
     translations.register()
@@ -95,6 +98,8 @@ def unregister() -> None:
     translations.unregister()
     file_owned.unregister()
     undone.unregister()
+    keymap.unregister()
+    tab.unregister()
     marks.unregister()
     copies.unregister()
     live.unregister()
