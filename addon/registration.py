@@ -18,6 +18,7 @@ from .host import handlers
 from .preferences import FairPreferences
 from .run import cli, compare, presets, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
+from .run.background import MESH_OT_fair_cancel
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
@@ -51,6 +52,7 @@ _register_classes, _unregister_classes = bpy.utils.register_classes_factory(
         compare.MESH_OT_fair_compare,
         MESH_OT_fair_spots,
         MESH_OT_fair_reselect,
+        MESH_OT_fair_cancel,
         MESH_OT_fair_pick_skin,
         MESH_OT_fair_reset,
         *presets.CLASSES,
