@@ -5,7 +5,9 @@ No postponed annotations here: Blender reads them as property definitions.
 """
 
 import bpy
-from bpy.props import IntProperty
+from bpy.props import IntProperty, StringProperty
+
+from .tab_name import USUAL, changed
 
 BACKGROUND_FROM = 4000  # free vertices: about a third of a second
 INSPECT_UP_TO = 30_000  # faces: about 0.15 s
@@ -32,12 +34,20 @@ class FairPreferences(bpy.types.AddonPreferences):
         soft_max=1_000_000,
     )
 
+    tab: StringProperty(
+        name="Sidebar Tab",
+        description="The tab of the 3D view's sidebar that holds the panels; several add-ons can share one",
+        default=USUAL,
+        update=changed,
+    )
+
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw both numbers."""
+        """Draw all three."""
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "background_from")
         layout.prop(self, "inspect_up_to")
+        layout.prop(self, "tab")
 
 
 def _chosen(context: bpy.types.Context) -> FairPreferences | None:
@@ -55,3 +65,9 @@ def inspect_up_to(context: bpy.types.Context) -> int:
     """Return the number of faces up to which the panel looks by itself."""
     chosen = _chosen(context)
     return INSPECT_UP_TO if chosen is None else int(chosen.inspect_up_to)
+
+
+def sidebar_tab(context: bpy.types.Context) -> str:
+    """Return the name of the sidebar's tab."""
+    chosen = _chosen(context)
+    return (chosen.tab.strip() if chosen is not None else "") or USUAL

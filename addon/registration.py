@@ -18,6 +18,7 @@ from .host import handlers
 from .preferences import FairPreferences
 from .run import cli, compare, presets, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
+from .run.background import MESH_OT_fair_cancel
 from .run.curvature import MESH_OT_fair_curvature
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
@@ -26,41 +27,44 @@ from .run.operators import MESH_OT_fair_region
 from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import fillet_preview, marks, menus, overlay, ui
+from .show import fillet_preview, keymap, marks, menus, overlay, tab, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
 
-_register_classes, _unregister_classes = bpy.utils.register_classes_factory(
-    (
-        FairPreferences,
-        FairCheck,
-        FairReport,
-        FairProgress,
-        FairOverlay,
-        FairLive,
-        MESH_OT_fair_region,
-        MESH_OT_fair_masked,
-        copies.OBJECT_OT_fair_copy,
-        copies.OBJECT_OT_fair_copies_update,
-        MESH_OT_fair_fill,
-        MESH_OT_fair_fillet,
-        MESH_OT_fair_live_region,
-        MESH_OT_fair_live_select,
-        MESH_OT_fair_live_far_side,
-        MESH_OT_fair_live_forget,
-        compare.MESH_OT_fair_compare,
-        MESH_OT_fair_spots,
-        MESH_OT_fair_reselect,
-        MESH_OT_fair_pick_skin,
-        MESH_OT_fair_reset,
-        *presets.CLASSES,
-        *TOOLS,
-        MESH_OT_fair_again,
-        watch.MESH_OT_fair_inspect,
-        MESH_OT_fair_curvature,
-        *ui.PANELS,
-    )
+_CLASSES: tuple[Any, ...] = (
+    FairPreferences,
+    FairCheck,
+    FairReport,
+    FairProgress,
+    FairOverlay,
+    FairLive,
+    MESH_OT_fair_region,
+    MESH_OT_fair_masked,
+    copies.OBJECT_OT_fair_copy,
+    copies.OBJECT_OT_fair_copies_update,
+    MESH_OT_fair_fill,
+    MESH_OT_fair_fillet,
+    MESH_OT_fair_live_region,
+    MESH_OT_fair_live_select,
+    MESH_OT_fair_live_far_side,
+    MESH_OT_fair_live_forget,
+    compare.MESH_OT_fair_compare,
+    MESH_OT_fair_spots,
+    MESH_OT_fair_reselect,
+    MESH_OT_fair_cancel,
+    MESH_OT_fair_pick_skin,
+    MESH_OT_fair_reset,
+    *presets.CLASSES,
+    *menus.MENUS,
+    *TOOLS,
+    MESH_OT_fair_again,
+    watch.MESH_OT_fair_inspect,
+    MESH_OT_fair_curvature,
+    *ui.PANELS,
 )
+for _class in _CLASSES:  # tooltips break their lines by themselves
+    _class.bl_description = " ".join((_class.__doc__ or "").split())
+_register_classes, _unregister_classes = bpy.utils.register_classes_factory(_CLASSES)
 _commands: list[Any] = []  # handles that Blender wants back at unregistering
 _folder = str(Path(__file__).parent)  # holds presets/operator
 
@@ -81,6 +85,8 @@ def register() -> None:
     live.register()
     copies.register()
     marks.register()
+    tab.register()
+    keymap.register()
     undone.register()
     file_owned.register()
     translations.register()
@@ -95,6 +101,8 @@ def unregister() -> None:
     translations.unregister()
     file_owned.unregister()
     undone.unregister()
+    keymap.unregister()
+    tab.unregister()
     marks.unregister()
     copies.unregister()
     live.unregister()

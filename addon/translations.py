@@ -1,7 +1,8 @@
 """Texts in other languages, for `bpy.app.translations`.
 
-A language is a file languages/CODE.json: English texts with their translations. Labels, tooltips and menu entries are
-looked up by Blender itself; sentences that are put together at run time stay English.
+A language is a file languages/CODE.json: English texts with their translations. To add one, copy de.json, translate its
+right-hand sides, and give Blender's names of it to _LOCALES; tests/blender/test_languages.py says what is missing.
+Labels, tooltips and menu entries are looked up by Blender itself; sentences put together at run time stay English.
 """
 
 from __future__ import annotations

@@ -16,10 +16,14 @@ TIGHT = 1e-10
 def fair_patch(patch: Patch, **options: Any) -> fairing.FairResult:
     """The patch from its outline and the normals there, starting from a membrane."""
     settings: dict[str, Any] = {"tolerance": TIGHT, **options}
-    return fairing.fair(
-        shapes.start_from_nothing(patch), patch.triangles,
-        fixed=patch.fixed, fixed_normals=patch.fixed_normals, **settings,
-    )  # fmt: skip
+    boundary = fairing.Boundary(patch.fixed, patch.fixed_normals)
+    return called(shapes.start_from_nothing(patch), patch.triangles, boundary, settings)
+
+
+def called(vertices: Any, triangles: Any, boundary: fairing.Boundary, settings: dict[str, Any]) -> fairing.FairResult:
+    """A call with options by name."""
+    apart = {name: settings.pop(name) for name in ("progress", "threads") if name in settings}
+    return fairing.fair(vertices, triangles, boundary, fairing.Options.of(**settings), **apart)
 
 
 @lru_cache(maxsize=64)
@@ -32,10 +36,7 @@ def solved(family: str, n_free: int, style: Style | None = None) -> tuple[Patch,
 def fair_blend(patch: blend.Blend, **options: Any) -> fairing.FairResult:
     """The three-cylinder blend from its rims."""
     settings: dict[str, Any] = {"tolerance": TIGHT, **options}
-    return fairing.fair(
-        patch.vertices, patch.triangles,
-        fixed=patch.fixed, fixed_normals=patch.fixed_normals, **settings,
-    )  # fmt: skip
+    return called(patch.vertices, patch.triangles, fairing.Boundary(patch.fixed, patch.fixed_normals), settings)
 
 
 def codes(result: fairing.FairResult) -> set[str]:

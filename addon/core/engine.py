@@ -80,22 +80,23 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
             "or choose At Pinned Edges: Averaged"
         )
     reads = options.reads_surroundings
+    boundary = fairing.Boundary(
+        patch.fixed,
+        problem.normals,
+        problem.curvatures if options.joins_curvature else None,
+        problem.outside if reads else None,
+    )
+    wanted = fairing.Options.of(
+        neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
+        outline=options.outline.lower(),
+        weights=problem.weights,
+        detail_from=problem.sample if options.copies_detail else None,
+        **_held_inside(patch, options),
+        **options.engine_arguments(),
+    )
+    points = problem.posed if reads else problem.posed[: len(patch.vertices)]
     with naming_the_band(options), in_mesh_words(problem.origin):
-        return fairing.fair(
-            problem.posed if reads else problem.posed[: len(patch.vertices)],
-            patch.triangles,
-            fixed=patch.fixed,
-            fixed_normals=problem.normals,
-            fixed_curvatures=problem.curvatures if options.joins_curvature else None,
-            neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
-            outline=options.outline.lower(),
-            outside=problem.outside if reads else None,
-            weights=problem.weights,
-            detail_from=problem.sample if options.copies_detail else None,
-            progress=progress,
-            **_held_inside(patch, options),
-            **options.engine_arguments(),
-        )
+        return fairing.fair(points, patch.triangles, boundary, wanted, progress=progress)
 
 
 def go_on(progress: Progress | None) -> None:

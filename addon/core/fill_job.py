@@ -156,10 +156,11 @@ class Job:
         self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool = False
     ) -> fairing.FillResult:
         options = self.options
+        surface = fairing.Surface(options.equation.lower(), continuity="G2" if options.joins_curvature else "G1")
         return fairing.fill(
             self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
-            bridge=bridge, spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
-            equation=options.equation.lower(), continuity="G2" if options.joins_curvature else "G1",
+            fairing.Options(surface), bridge=bridge,
+            spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
             max_vertices=options.max_vertices, edges=options.hard_edges.lower(), wires=local.drawn,
             marked=within(marked_edges(self.world), local.vertices), progress=progress,
         )  # fmt: skip

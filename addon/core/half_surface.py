@@ -93,9 +93,10 @@ def half_surface(job: Fills, mesh: MeshArrays, half: Half, progress: Progress | 
     own = np.concatenate([places[rim], curve.places[::-1]])
     result = fairing.fill(
         own, np.empty((0, 3), dtype=np.int64), [np.arange(len(own))[:: -1 if other.world.mirrored else 1]],
+        fairing.Options(fairing.Surface(job.options.equation.lower())),
         normals=np.concatenate([slopes, curve.normals[::-1]]), edges="ignored",
         spacing=0.0 if job.options.spacing == 1.0 else job.options.spacing * float(edges.mean()),
-        inner=job.options.inner.lower(), equation=job.options.equation.lower(),
+        inner=job.options.inner.lower(),
         max_vertices=job.options.max_vertices,
     )  # fmt: skip
     inside = np.concatenate([curve.places[::-1], result.vertices])

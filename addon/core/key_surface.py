@@ -72,11 +72,13 @@ def _faired(surface: NewSurface, around: Surroundings, there: Floats, start: Flo
     if not (np.linalg.norm(normals, axis=1) > 0.0).all():
         return None
     try:
-        found = fairing.fair(
-            np.concatenate([there[rim], start]), surface.triangles, fixed=rim, fixed_normals=normals,
-            equation=surface.equation, otherwise="stop", start="given", inner_fairness="conformal",
-            reference=surface.points, max_iterations=_MOST_STEPS,
-        )  # fmt: skip
+        options = fairing.Options(
+            fairing.Surface(surface.equation, otherwise="stop"),
+            fairing.Layout("conformal", reference=surface.points),
+            solving=fairing.Solving(start="given", max_iterations=_MOST_STEPS),
+        )
+        points = np.concatenate([there[rim], start])
+        found = fairing.fair(points, surface.triangles, fairing.Boundary(rim, normals), options)
     except (fairing.MeshError, fairing.SolverError):
         return None
     if not found.converged or {warning.code for warning in found.warnings} & _WRONG:

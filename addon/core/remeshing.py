@@ -184,13 +184,12 @@ def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progre
     arguments = {**options.engine_arguments(), "creases": patch.creases, "smooth_curves": patch.smooth_curves}
     for name in ("method", "levels", "detail", "detail_size"):
         del arguments[name]
-    if problem.curvatures is not None:
-        arguments["fixed_curvatures"] = problem.curvatures
+    boundary = fairing.Boundary(patch.fixed, problem.normals, problem.curvatures)
     with in_mesh_words(problem.origin):
         return fairing.remesh(
-            problem.posed[: len(patch.vertices)], patch.triangles, fixed=patch.fixed, fixed_normals=problem.normals,
+            problem.posed[: len(patch.vertices)], patch.triangles, boundary, fairing.Options.of(**arguments),
             kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(),
-            max_vertices=options.max_vertices, progress=progress, **arguments,
+            max_vertices=options.max_vertices, progress=progress,
         )  # fmt: skip
 
 

@@ -145,9 +145,10 @@ def round_arrays(
     with in_mesh_words(as_given):
         result = fairing.fillet(
             world.positions, world.triangles, world.edges[seams],
+            fairing.Options(fairing.Surface(continuity=options.continuity)),
             width=options.width * factors, width_2=None if second == options.width else second * factors,
             walls=world.edges[hard(world) & ~seams], profile=options.profile, spacing=options.spacing,
-            continuity=options.continuity, max_vertices=options.max_vertices,
+            max_vertices=options.max_vertices,
             progress=progress,
         )  # fmt: skip
     near = world.triangles[result.origin[0]][np.arange(len(result.vertices)), result.origin[1].argmax(axis=1)]

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import bpy
 from bpy_extras import view3d_utils
 
+from ..translations import translated
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -21,7 +23,7 @@ class Picks:
     def pick(self, context: bpy.types.Context, text: str) -> set[str]:
         """Begin to wait; text: what is to be clicked."""
         context.window.cursor_modal_set("EYEDROPPER")
-        context.workspace.status_text_set(f"{text}    [Esc] Cancel")
+        context.workspace.status_text_set(f"{translated(text)}    [Esc] {translated('Cancel')}")
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 

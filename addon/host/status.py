@@ -5,6 +5,10 @@ from typing import Any
 import bpy
 from mathutils import Vector
 
+from ..preferences import sidebar_tab
+from ..translations import translated
+
+CANCEL = "mesh.fair_cancel"
 ASKEW = 0.5  # cosine between the view and a surface's normal, below which little can be seen of the surface
 
 
@@ -13,8 +17,38 @@ def show_progress(context: bpy.types.Context, fraction: float, stage: str) -> No
     progress = context.window_manager.fairing_progress
     progress.running, progress.fraction, progress.stage = True, fraction, stage
     context.window_manager.progress_update(fraction)
-    context.workspace.status_text_set(f"Fairing: {fraction:.0%}  {stage}    [Esc] Cancel")
+    context.workspace.status_text_set(_draw_status)
     redraw_sidebars(context)
+
+
+def draw_progress(layout: Any, context: bpy.types.Context) -> None:
+    """Draw how far the run is, and the button that cancels it."""
+    fraction = context.window_manager.fairing_progress.fraction
+    layout.progress(factor=fraction, text=f"{translated('Solving…')} {fraction:.0%}")
+    layout.operator(CANCEL, icon="CANCEL")
+
+
+def over_buttons(context: bpy.types.Context, event: Any) -> bool:
+    """Return whether the mouse is over the status bar, or over our tab: what is clicked there is no edit."""
+    window, x, y = context.window, getattr(event, "mouse_x", None), getattr(event, "mouse_y", None)
+    if window is None or x is None or y is None:
+        return False
+    for area in window.screen.areas:
+        if area.x <= x < area.x + area.width and area.y <= y < area.y + area.height:
+            return area.type == "VIEW_3D" and any(_is_ours(region, x, y, context) for region in area.regions)
+    return bool(y < min(area.y for area in window.screen.areas))
+
+
+def _is_ours(region: Any, x: int, y: int, context: bpy.types.Context) -> bool:
+    inside = region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
+    return inside and region.type == "UI" and getattr(region, "active_panel_category", "") == sidebar_tab(context)
+
+
+def _draw_status(header: Any, context: bpy.types.Context) -> None:
+    row = header.layout.row(align=True)
+    row.ui_units_x = 16
+    draw_progress(row, context)
+    header.layout.label(text="Cancel", icon="EVENT_ESC")
 
 
 def hide_progress(context: bpy.types.Context) -> None:

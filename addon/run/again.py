@@ -97,7 +97,8 @@ WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
 
 def best_first(remedies: str) -> list[str]:
     """Return the ways that a report names, what helps most first."""
-    return sorted(filter(None, remedies.split(",")), key=_ORDER.index)
+    known = {way: k for k, way in enumerate(_ORDER)}
+    return sorted(filter(None, remedies.split(",")), key=lambda way: known.get(way, -1))
 
 
 class MESH_OT_fair_again(bpy.types.Operator):

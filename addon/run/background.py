@@ -9,7 +9,7 @@ import bpy
 
 from ..core import runner
 from ..core.engine import Progress
-from ..host.status import hide_progress, show_progress
+from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
 from ..translations import translated
 from . import job
 
@@ -22,6 +22,8 @@ _VIEW_EVENTS = {
     "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "TRACKPADPAN", "TRACKPADZOOM", "MOUSEROTATE",
     "NUMPAD_1", "NUMPAD_3", "NUMPAD_5", "NUMPAD_7", "NUMPAD_PERIOD", "NDOF_MOTION",
 }  # fmt: skip
+
+_POINTER_EVENTS = {"LEFTMOUSE", "MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}  # to the button that cancels
 
 Work = Callable[[Progress], Any]
 
@@ -49,6 +51,7 @@ class Signs:
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
+        self.unwanted = False  # a button has asked for the end
         manager = context.window_manager
         self._timer = manager.event_timer_add(TICK, window=context.window)
         manager.progress_begin(0.0, 1.0)
@@ -66,6 +69,25 @@ class Signs:
 
 
 _shown: list[Signs] = []
+
+
+class MESH_OT_fair_cancel(bpy.types.Operator):
+    """Give the run up; nothing changes"""
+
+    bl_idname = CANCEL
+    bl_label = "Cancel"
+    bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, _context: bpy.types.Context) -> bool:
+        """There must be one."""
+        return bool(_shown)
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        """Have its operator end it at its next look."""
+        for signs in _shown:
+            signs.unwanted = True
+        return {"FINISHED"}
 
 
 def stop_all() -> None:
@@ -108,7 +130,8 @@ class Watched:
         if self._run.cancelled:
             self.cancel(context)
             return {"CANCELLED"}
-        if event.type == "ESC" and event.value == "PRESS":
+        unwanted = self._signs is not None and self._signs.unwanted
+        if unwanted or (event.type == "ESC" and event.value == "PRESS"):
             self.cancel(context)
             self.report({"INFO"}, translated(CANCELLED))
             return {"CANCELLED"}
@@ -116,7 +139,8 @@ class Watched:
             if self._run.finished:
                 return self._collect(context)
             show_progress(context, self._run.fraction, self._run.stage)
-        return {"PASS_THROUGH"} if event.type in _VIEW_EVENTS else {"RUNNING_MODAL"}
+        passes = event.type in _VIEW_EVENTS or (event.type in _POINTER_EVENTS and over_buttons(context, event))
+        return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """Give the run up; Blender calls this too, when it closes a window."""

@@ -11,10 +11,12 @@ import numpy as np
 
 import fairing
 
+from ..core.arrays import Floats
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.places import as_indices
+from ..core.region import MeshArrays
 from ..core.remeshing import Remeshed
 from ..core.report import is_written
 from ..core.verdict import NotUsable
@@ -55,6 +57,15 @@ def fair_faces(
     progress: Progress | None = None,
 ) -> Fairing:
     """Do the work of `fair_mesh`, with all its errors but NotUsable; what is not usable is not written."""
+    arrays, world = read(mesh, faces, matrix, options)
+    outcome = fair_arrays(arrays, world, options, progress)
+    if is_written([outcome], options):
+        write(mesh, outcome)
+    return outcome
+
+
+def read(mesh: bpy.types.Mesh, faces: Sequence[int], matrix: Any, options: FairOptions) -> tuple[MeshArrays, Floats]:
+    """Return the mesh with these faces selected, and the matrix as numbers; raises what `fair_mesh` does."""
     if options.mesh == "NEW":
         mesh_io.check_new_faces(mesh_io.user_of(mesh))
     chosen = as_indices("faces", faces, len(mesh.polygons))
@@ -62,13 +73,10 @@ def fair_faces(
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    outcome = fair_arrays(arrays, world, options, progress)
-    if is_written([outcome], options):
-        _write(mesh, outcome)
-    return outcome
+    return arrays, world
 
 
-def _write(mesh: bpy.types.Mesh, outcome: Fairing) -> None:
+def write(mesh: bpy.types.Mesh, outcome: Fairing) -> None:
     if isinstance(outcome, Remeshed):
         remeshed.write_mesh(mesh, outcome)
     else:

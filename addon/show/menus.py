@@ -6,6 +6,9 @@ from typing import Any
 
 import bpy
 
+from ..follow.copies import OBJECT_OT_fair_copy
+from ..follow.taking import MESH_OT_fair_live_region
+from ..run.compare import MESH_OT_fair_compare
 from ..run.fill import MESH_OT_fair_fill
 from ..run.fillet import MESH_OT_fair_fillet
 from ..run.masked import MESH_OT_fair_masked
@@ -13,24 +16,50 @@ from ..run.operators import MESH_OT_fair_region
 
 
 def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
-    """Add the operators to the menu Face."""
+    """Add to the menu Face, which has Grid Fill."""
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_region.bl_idname)
     menu.layout.operator(MESH_OT_fair_fill.bl_idname)
 
 
 def draw_edge_menu(menu: Any, _context: bpy.types.Context) -> None:
-    """Add Fair Fillet to the menu Edge, to be drawn by the mouse."""
+    """Add to the menu Edge, which has Bridge Edge Loops; the fillet is drawn by the mouse."""
     menu.layout.separator()
     menu.layout.operator_context = "INVOKE_DEFAULT"
+    menu.layout.operator(MESH_OT_fair_fill.bl_idname, text="Fair Bridge").bridge = True
+    menu.layout.operator(MESH_OT_fair_fill.bl_idname)
     menu.layout.operator(MESH_OT_fair_fillet.bl_idname)
+
+
+def draw_vertex_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add to the menu Vertex: a vertex of a hole names it."""
+    menu.layout.separator()
+    menu.layout.operator(MESH_OT_fair_fill.bl_idname)
+
+
+def draw_clean_up_menu(menu: Any, _context: bpy.types.Context) -> None:
+    """Add to Mesh, Clean Up, which has Fill Holes."""
+    menu.layout.separator()
+    menu.layout.operator(MESH_OT_fair_fill.bl_idname, text="Fair Fill Holes")
 
 
 def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:
     """Add to the context menu, which vertices, edges and faces share, what fits the selection."""
-    faces = context.tool_settings.mesh_select_mode[2]
+    _, edges, faces = context.tool_settings.mesh_select_mode
     menu.layout.separator()
     menu.layout.operator((MESH_OT_fair_region if faces else MESH_OT_fair_fill).bl_idname)
+    if edges:
+        menu.layout.operator_context = "INVOKE_DEFAULT"
+        menu.layout.operator(MESH_OT_fair_fillet.bl_idname)
+
+
+def draw_object_menu(menu: Any, context: bpy.types.Context) -> None:
+    """Add to the menu Object what needs no edit mode."""
+    if context.active_object is not None and context.active_object.type == "MESH":
+        menu.layout.separator()
+        menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Vertex Group").source = "VERTEX_GROUP"
+        menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Face Set").source = "FACE_SET"
+        menu.layout.operator(OBJECT_OT_fair_copy.bl_idname)
 
 
 def draw_mask_menu(menu: Any, _context: bpy.types.Context) -> None:
@@ -45,10 +74,37 @@ def draw_face_set_menu(menu: Any, _context: bpy.types.Context) -> None:
     menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Face Set").source = "FACE_SET"
 
 
+class VIEW3D_MT_fair_pie(bpy.types.Menu):
+    """All of Intrinsic Fairing that fits the mode, to be bound to a key"""
+
+    bl_label = "Fair"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw what is most needed on the left and on the right."""
+        pie = self.layout.menu_pie()
+        if context.mode == "EDIT_MESH":
+            pie.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
+            pie.operator(MESH_OT_fair_fill.bl_idname, icon="MESH_ICOSPHERE")
+            pie.operator(MESH_OT_fair_fill.bl_idname, text="Fair Bridge", icon="MOD_SKIN").bridge = True
+            pie.operator(MESH_OT_fair_fillet.bl_idname, icon="MOD_BEVEL")
+            pie.operator(MESH_OT_fair_live_region.bl_idname, icon="PLAY")
+            pie.operator(MESH_OT_fair_compare.bl_idname, icon="ARROW_LEFTRIGHT")
+            return
+        sources = {"FACE_SET": "Fair Face Set", "MASK": "Fair Masked"}
+        if context.mode != "SCULPT":
+            sources = {"FACE_SET": "Fair Face Set", "VERTEX_GROUP": "Fair Vertex Group", "LIVE": "Fair Live Region"}
+        for source, text in sources.items():
+            pie.operator(MESH_OT_fair_masked.bl_idname, text=text, icon="MOD_SMOOTH").source = source
+
+
+MENUS = (VIEW3D_MT_fair_pie,)
 ENTRIES = (
     ("VIEW3D_MT_edit_mesh_faces", draw_face_menu),
     ("VIEW3D_MT_edit_mesh_edges", draw_edge_menu),
+    ("VIEW3D_MT_edit_mesh_vertices", draw_vertex_menu),
+    ("VIEW3D_MT_edit_mesh_clean", draw_clean_up_menu),
     ("VIEW3D_MT_edit_mesh_context_menu", draw_context_menu),
+    ("VIEW3D_MT_object", draw_object_menu),
     ("VIEW3D_MT_mask", draw_mask_menu),
     ("VIEW3D_MT_face_sets", draw_face_set_menu),
 )

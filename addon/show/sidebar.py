@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-TAB = "Fairing"
+from ..tab_name import USUAL
 
 
 class SidebarPanel:
@@ -12,7 +12,7 @@ class SidebarPanel:
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
-    bl_category = TAB
+    bl_category = USUAL
 
 
 def pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:

@@ -12,6 +12,7 @@ from ..follow.live_operators import (
     MESH_OT_fair_live_select,
 )
 from ..follow.taking import MESH_OT_fair_live_region
+from ..host.status import draw_progress
 from ..host.text import draw_text
 from ..run.compare import MESH_OT_fair_compare
 from ..run.curvature import MESH_OT_fair_curvature
@@ -35,10 +36,8 @@ class VIEW3D_PT_fairing(SidebarPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the button and the progress."""
         layout = self.layout
-        progress = context.window_manager.fairing_progress
-        if progress.running:
-            layout.progress(factor=progress.fraction, text=f"{progress.fraction:.0%}  {progress.stage}")
-            layout.label(text="cancels", icon="EVENT_ESC")
+        if context.window_manager.fairing_progress.running:
+            draw_progress(layout, context)
             return
         column = layout.column(align=True)
         column.scale_y = 1.3

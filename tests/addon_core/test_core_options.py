@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from typing import Any
 
 import pytest
@@ -86,9 +85,8 @@ def test_what_belongs_to_pinned_edges_is_idle_without_them() -> None:
 
 
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
-    known = inspect.signature(fairing.fair).parameters
     given = FairOptions().resolved(False).engine_arguments()
-    assert set(given) <= set(known)
+    fairing.Options.of(**given)
     assert FairOptions(tolerance=1e-3, levels=4).engine_arguments()["tolerance"] == 1e-3
     assert FairOptions(levels=4).engine_arguments()["levels"] == 4
 
@@ -106,7 +104,9 @@ def test_the_words_are_the_engines() -> None:
         ("method", METHODS),
     ):
         assert tuple(choice.lower() for choice in choices) == words[option]
-    defaults = {name: value.default for name, value in inspect.signature(fairing.fair).parameters.items()}
+    groups = vars(fairing.Options()).values()
+    defaults = {name: value for group in groups for name, value in vars(group).items()}
+    defaults["inner_fairness"] = "uniform"  # which None is for fair
     given = FairOptions().resolved(False).engine_arguments()
     assert given == {name: defaults[name] for name in given} | {"equation": "automatic"}
 

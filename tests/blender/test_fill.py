@@ -491,11 +491,12 @@ def test_a_surface_that_is_not_usable_is_reported_to_scripts(tmp_path: Any) -> N
 
 def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
-    assert {p.identifier: p.default for p in found} == {
-        "equation": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "inner": "OUTLINE",
-        "quads": False, "longest": 0, "longest_length": 0.0, "max_vertices": 0, "limit_total": 0, "accept": "USABLE",
-        "hard_edges": "RUN_ON", "islands": False, "subdivide_boundary": False,
+    assert {p.identifier: p.default for p in found if not p.is_hidden} == {
+        "shape": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "equal_edges": False,
+        "quads": False, "longest": 0, "longest_length": 0.0, "max_vertices": 0, "limit_total": 0,
+        "allow_folds": False, "run_on": True, "islands": False, "subdivide_boundary": False,
     }  # fmt: skip
+    assert {p.identifier for p in found if p.is_hidden} == {"equation", "inner", "hard_edges", "accept"}
     assert all(p.description for p in found)
 
 

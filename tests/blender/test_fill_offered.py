@@ -8,7 +8,7 @@ from typing import Any
 import bpy
 import meshes
 import pytest
-from extension import module
+from extension import ID, module
 from test_new_mesh import dented, fair_new
 from test_panel import Layout
 
@@ -38,18 +38,62 @@ def test_a_bridge_has_no_islands_nor_hard_edges_to_ask_for() -> None:
     assert not {"islands", "run_on"} & {*redo_panel(bridge=True)}
 
 
-def test_it_is_in_the_menu_face_and_in_the_context_menu_of_edges_and_vertices() -> None:
-    ui = module("show.menus")
-    assert ui.draw_face_menu in bpy.types.VIEW3D_MT_edit_mesh_faces.draw._draw_funcs
-    assert ui.draw_context_menu in bpy.types.VIEW3D_MT_edit_mesh_context_menu.draw._draw_funcs
-    face = SimpleNamespace(layout=Layout())
-    ui.draw_face_menu(face, bpy.context)
-    assert face.layout.reported == ["mesh.fair_region", "mesh.fair_fill"]
-    for mode, offered in (("VERT", "mesh.fair_fill"), ("EDGE", "mesh.fair_fill"), ("FACE", "mesh.fair_region")):
+def offered(draw: str, context: Any = None) -> list[str]:
+    """Return what an entry adds to its menu."""
+    menu = SimpleNamespace(layout=Layout())
+    getattr(module("show.menus"), draw)(menu, bpy.context if context is None else context)
+    reported: list[str] = menu.layout.reported
+    return reported
+
+
+def test_it_is_in_the_menus_where_one_looks_for_it() -> None:
+    menus = module("show.menus")
+    for name, draw in menus.ENTRIES:
+        assert draw in getattr(bpy.types, name).draw._draw_funcs, name
+    assert offered("draw_face_menu") == ["mesh.fair_region", "mesh.fair_fill"]
+    assert offered("draw_edge_menu") == ["Fair Bridge", "mesh.fair_fill", "mesh.fair_fillet"]
+    assert offered("draw_vertex_menu") == ["mesh.fair_fill"]
+    assert offered("draw_clean_up_menu") == ["Fair Fill Holes"]
+    for mode, what in (
+        ("VERT", ["mesh.fair_fill"]),
+        ("EDGE", ["mesh.fair_fill", "mesh.fair_fillet"]),
+        ("FACE", ["mesh.fair_region"]),
+    ):
         tools = SimpleNamespace(mesh_select_mode=tuple(mode == each for each in ("VERT", "EDGE", "FACE")))
-        menu = SimpleNamespace(layout=Layout())
-        ui.draw_context_menu(menu, SimpleNamespace(tool_settings=tools))
-        assert menu.layout.reported == [offered]
+        assert offered("draw_context_menu", SimpleNamespace(tool_settings=tools)) == what
+
+
+def test_object_mode_offers_it_for_meshes_only() -> None:
+    assert offered("draw_object_menu", SimpleNamespace(active_object=None)) == []
+    meshes.grid()
+    assert offered("draw_object_menu") == ["Fair Vertex Group", "Fair Face Set", "object.fair_copy"]
+
+
+@pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "OBJECT"])
+def test_every_entry_of_the_pie_exists(mode: str) -> None:
+    """Eight at most, as a pie has; each an operator that is registered."""
+    meshes.grid()
+    bpy.ops.object.mode_set(mode=mode)
+    layout = Layout()
+    layout.menu_pie = lambda: layout  # type: ignore[attr-defined]
+    bpy.types.VIEW3D_MT_fair_pie.draw(SimpleNamespace(layout=layout), bpy.context)
+    assert 2 <= len(layout.reported) <= 8
+    assert len(set(layout.reported)) == len(layout.reported)
+    bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def test_the_tab_has_the_name_that_the_preferences_give() -> None:
+    preferences = bpy.context.preferences.addons[ID].preferences
+    panels = module("show.ui").PANELS
+    try:
+        preferences.tab = "Item"
+        assert {panel.bl_category for panel in panels} == {"Item"}
+        assert all(panel.is_registered for panel in panels)
+        preferences.tab = "  "
+        assert {panel.bl_category for panel in panels} == {"Fairing"}
+    finally:
+        preferences.property_unset("tab")
+        module("show.tab").move()
 
 
 def test_a_new_mesh_under_multiresolution_is_refused() -> None:

@@ -73,6 +73,102 @@ def test_escape_leaves_every_bit(go_on: threading.Event) -> None:
     assert meshes.contents(obj) == before
 
 
+def test_the_button_cancels_as_escape_does(go_on: threading.Event) -> None:
+    obj, faces = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, faces)
+    assert not bpy.ops.mesh.fair_cancel.poll()
+    operator = started(obj, faces, go_on)
+    assert bpy.ops.mesh.fair_cancel() == {"FINISHED"}
+    assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
+    assert operator.reported == [({"INFO"}, "Fairing was cancelled; nothing has changed")]
+    assert not bpy.context.window_manager.fairing_progress.running
+    assert not bpy.ops.mesh.fair_cancel.poll()
+    go_on.set()
+    assert operator._run.wait(10.0)
+    meshes.leave()
+    assert meshes.contents(obj) == before
+
+
+def windowed(category: str) -> Any:
+    """A context with a 3D view of 800 x 500 pixels above the status bar, its sidebar on the right."""
+    sidebar = SimpleNamespace(type="UI", x=600, y=20, width=200, height=500, active_panel_category=category)
+    main = SimpleNamespace(type="WINDOW", x=0, y=20, width=800, height=500)
+    area = SimpleNamespace(type="VIEW_3D", x=0, y=20, width=800, height=500, regions=[main, sidebar])
+    window = SimpleNamespace(screen=SimpleNamespace(areas=[area]))
+    return SimpleNamespace(window=window, preferences=bpy.context.preferences)
+
+
+@pytest.mark.parametrize(
+    ("place", "category", "passes"),
+    [
+        ((700, 300), "Fairing", True),  # our tab
+        ((700, 300), "Item", False),  # another one
+        ((300, 300), "Fairing", False),  # the mesh
+        ((300, 10), "Item", True),  # the status bar
+    ],
+)
+def test_clicks_reach_the_buttons_that_cancel(place: Any, category: str, passes: bool) -> None:
+    click = SimpleNamespace(type="LEFTMOUSE", value="PRESS", mouse_x=place[0], mouse_y=place[1])
+    assert module("host.status").over_buttons(windowed(category), click) == passes
+
+
+def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sculpt mode goes on meanwhile; what comes out is what a script gets, and nothing where the mesh has changed."""
+    masked, background = module("run.masked"), module("run.background")
+    scripted, faces = meshes.domed_grid()
+    obj, _ = meshes.domed_grid()
+    for each in (scripted, obj):
+        mask = each.data.attributes.new(".sculpt_mask", "FLOAT", "POINT")
+        values = [0.0] * len(each.data.vertices)
+        for face in faces.nonzero()[0]:
+            for vertex in each.data.polygons[face].vertices:
+                values[vertex] = 1.0
+        mask.data.foreach_set("value", values)
+    bpy.context.view_layer.objects.active = scripted
+    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", True, source="MASK") == {"FINISHED"}
+    bpy.context.view_layer.objects.active = obj
+    before, solve = meshes.positions(obj), masked.solve
+
+    def slow(*arguments: Any) -> Any:
+        assert go_on.wait(10.0)
+        return solve(*arguments)
+
+    def started_masked() -> Any:
+        methods = {**vars(background.Watched), **vars(masked.MESH_OT_fair_masked)}
+        methods = {name: value for name, value in methods.items() if not name.startswith("__") and name != "bl_rna"}
+        watching = lambda stand, context: setattr(stand, "_signs", background.Signs(context))  # noqa: E731
+        stand = type("Stand", (), {**methods, "_start_watching": watching, "report": lambda *_: None})()
+        give_options(stand)
+        stand.source, stand.face_set, stand.group = "MASK", 0, ""
+        assert stand.invoke(bpy.context, event("LEFTMOUSE")) == {"RUNNING_MODAL"}
+        return stand
+
+    monkeypatch.setattr(masked, "solve", slow)
+    monkeypatch.setattr(background, "has_events", lambda _context: True)
+    monkeypatch.setattr(background, "MOMENT", 0.01)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    try:
+        changed = started_masked()
+        assert bpy.context.mode == "SCULPT"
+        assert not bpy.ops.mesh.fair_masked.poll()
+        go_on.set()
+        assert changed._run.wait(10.0)
+        bpy.ops.object.mode_set(mode="OBJECT")
+        meshes.move(obj, before + 1.0)
+        bpy.ops.object.mode_set(mode="SCULPT")
+        assert changed.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
+        bpy.ops.object.mode_set(mode="OBJECT")
+        meshes.move(obj, before)
+        bpy.ops.object.mode_set(mode="SCULPT")
+        stand = started_masked()
+        assert stand._run.wait(10.0)
+        assert stand.modal(bpy.context, event("TIMER")) == {"FINISHED"}
+        assert bpy.context.mode == "SCULPT"
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+    assert meshes.positions(obj).tobytes() == meshes.positions(scripted).tobytes()
+
+
 @pytest.mark.parametrize("quick", [True, False])
 def test_few_vertices_go_to_the_background_when_they_take_long(
     quick: bool, go_on: threading.Event, monkeypatch: pytest.MonkeyPatch

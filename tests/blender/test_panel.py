@@ -336,24 +336,6 @@ def test_texts_in_another_language(locale: str, text: str) -> None:
     assert bpy.app.translations.pgettext_iface("Quality Overlay") == english
 
 
-def test_every_text_that_is_translated_exists() -> None:
-    folder = Path(module().__file__).parent
-    sources = "".join(path.read_text() for path in folder.rglob("*.py"))
-    languages = module("translations").languages()
-    assert {"de", "fr"} <= set(languages)
-    for texts in languages.values():
-        assert [text for text in texts if f'"{text}"' not in sources] == []
-
-
-def test_every_option_and_choice_has_a_german_name() -> None:
-    german = module("translations").languages()["de"]
-    same = {"Global", "Multigrid", "None", "Sharp", "Seam", "Crease", "Custom Normals"}  # Blender's own, or names
-    for option in bpy.ops.mesh.fair_region.get_rna_type().properties:
-        if option.identifier != "rna_type" and not option.is_hidden:
-            names = [option.name, *(item.name for item in getattr(option, "enum_items", ()))]
-            assert [name for name in names if name not in german and name not in same] == []
-
-
 def footprint() -> dict[str, Any]:
     """Everything that an add-on may leave behind."""
     handlers = bpy.app.handlers

@@ -11,6 +11,7 @@ from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._fillet import fillet
 from fairing._foreign import refuse_foreign as _refuse_foreign
+from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Surface
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
@@ -62,8 +63,10 @@ from fairing.objects import Made, fair_faces, fill_holes, fillet_edges
 __all__ = [
     "CODES",
     "LIMITS",
+    "Boundary",
     "BoundaryNormals",
     "Cancelled",
+    "Curves",
     "Diagnostic",
     "EdgesThrough",
     "FairEdges",
@@ -74,16 +77,21 @@ __all__ = [
     "Girth",
     "GrownOutline",
     "HoleLoops",
+    "Layout",
     "Made",
     "MendedOutline",
     "MeshError",
     "Needles",
+    "Options",
     "PairedQuads",
     "PaperOptions",
     "RemeshResult",
+    "Skin",
     "Solver",
     "SolverError",
+    "Solving",
     "SubdividedEdges",
+    "Surface",
     "SurroundingNormals",
     "VisibleJoin",
     "__version__",

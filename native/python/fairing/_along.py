@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from fairing import _arguments, _core, _cut_loops, _loops, _short_edges
-from fairing._fair import fair
+from fairing._fair import solved
+from fairing._groups import Boundary, Options
 from fairing._loops import Outline
 from fairing._new_mesh import read_only, report_fields
 from fairing._run_on import Curves
@@ -83,8 +84,10 @@ class _Along:
     def _solved(self, around: IntArray, mesh: tuple[FloatArray, IntArray], progress: Progress | None) -> FairResult:
         fixed, normals, creases = self._held
         chosen = {name: self.options[name] for name in _TAKEN if name in self.options}
-        return fair(
-            *mesh, fixed=fixed, fixed_normals=normals, creases=creases, equation="least_variation",
+        threads = chosen.pop("threads", 0)
+        options = Options.of(
+            **chosen, creases=creases, equation="least_variation",
             inner_fairness=self.options.get("inner_fairness", "conformal"),
-            outside=around if len(around) else None, progress=progress, **chosen,
         )  # fmt: skip
+        boundary = Boundary(fixed, normals, outside=around if len(around) else None)
+        return solved(*mesh, boundary, options, progress, threads)

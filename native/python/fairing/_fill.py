@@ -11,8 +11,10 @@ from fairing import (
     _arguments,
     _run_on,
 )
+from fairing._adopted import taken
 from fairing._chosen import Wanted, blamed, chosen_loops, fillable
 from fairing._fill_task import Task
+from fairing._groups import Options
 from fairing._new_mesh import FillResult, read_only
 from fairing._patch import refuse_made_here, spacing_of
 from fairing._types import MeshError
@@ -23,6 +25,7 @@ def fill(
     vertices: npt.ArrayLike,
     triangles: npt.ArrayLike,
     loops: Any = None,
+    options: Options | None = None,
     *,
     normals: Any = None,
     bridge: bool = False,
@@ -36,7 +39,8 @@ def fill(
     wires: npt.ArrayLike | None = None,
     marked: npt.ArrayLike | None = None,
     progress: Progress | None = None,
-    **options: Any,
+    threads: int = 0,
+    **before: Any,
 ) -> FillResult:
     """Fill holes, or join boundary loops, with the fairest surface that continues the surroundings.
 
@@ -59,6 +63,8 @@ def fill(
     normals : (n, 3), (Σ k, 3) float, or a list with a (k, 3) for each loop
         Normals at the boundary, of any length but zero; of the vertices, where n is Σ k and they are no list.
         Default: :func:`fairing.surrounding_normals`.
+    options : Options
+        Those of :func:`fairing.fair` that don't concern the mesh given or its boundary.
     bridge : bool
         False: each loop gets a surface of its own. True: one surface joins all loops, a tube between two, a blend
         between more.
@@ -90,10 +96,10 @@ def fill(
         Edges that are hard whatever they bend.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
-    options
-        Those of :func:`fairing.fair` that don't concern the boundary: ``equation``, ``load``, ``bulge``,
-        ``continuity``, ``tolerance``, ``max_iterations``, ``threads``, … By default ``inner_fairness`` keeps the
-        triangles' shapes.
+    threads : int
+        As for :func:`fairing.fair`.
+    before
+        Fields of ``options`` as keyword arguments: deprecated.
 
     Raises
     ------
@@ -107,23 +113,24 @@ def fill(
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
+    given = taken("fill", options, before, threads)
     points = _arguments.floats("vertices", vertices)
     around = _arguments.triangles_within(triangles, len(points))
     limit = _arguments.whole("longest", longest, 0)
     length = spacing_of(spacing, inner)
-    refuse_made_here(options, progress)
+    refuse_made_here(given, progress)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     if _arguments.finite("longest_length", longest_length) < 0:
         raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
-    if fixed_curvatures is not None and options.get("continuity", "G1") != "G2":
+    if fixed_curvatures is not None and given.get("continuity", "G1") != "G2":
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     finite = np.isfinite(points).all(axis=1)
     known = around if finite.all() else around[finite[around].all(axis=1)]
     broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
     wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
     chosen = chosen_loops(points, around, wanted)
-    task = Task(points, known, bool(bridge), length, max_vertices, broken, options, _rising(progress))
+    task = Task(points, known, bool(bridge), length, max_vertices, broken, given, _rising(progress))
     while True:
         try:
             values = task.filled(chosen)

@@ -9,7 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
+from fairing._adopted import taken
 from fairing._first_mesh import FirstMesh, first_mesh, without_specks
+from fairing._groups import Options
 from fairing._interpolate import interpolate
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FilletResult, read_only, report_fields
@@ -25,6 +27,7 @@ def fillet(
     vertices: npt.ArrayLike,
     triangles: npt.ArrayLike,
     seam: npt.ArrayLike | None = None,
+    options: Options | None = None,
     *,
     width: npt.ArrayLike,
     width_2: npt.ArrayLike | None = None,
@@ -33,7 +36,8 @@ def fillet(
     spacing: float = 0.0,
     max_vertices: int = 0,
     progress: Progress | None = None,
-    **options: Any,
+    threads: int = 0,
+    **before: Any,
 ) -> FilletResult:
     """Round seams: replace what lies within ``width`` of them, along the surface, by the fairest surface.
 
@@ -49,6 +53,9 @@ def fillet(
     triangles : (m, 3) int
     seam : (e, 2) int
         Edges between two triangles. Default: all of :func:`fairing.hard_edges`.
+    options : Options
+        Those of :func:`fairing.fair` that don't concern the boundary, ``continuity`` among them: "G1" is tangent to
+        both sides, "G2" continues their curvature, too.
     width : float or (n,) float
         How far the fillet reaches on either side, a length; of the vertices, where it varies: those of the seams count,
         and lengths in between are interpolated along each edge.
@@ -70,9 +77,10 @@ def fillet(
         More new vertices than that are refused, as by :func:`fairing.remesh`.
     progress : callable(fraction, stage) -> None | bool
         As for :func:`fairing.fair`.
-    options
-        Those of :func:`fairing.fair` that don't concern the boundary, ``continuity`` among them: "G1" is tangent to
-        both sides, "G2" continues their curvature, too.
+    threads : int
+        As for :func:`fairing.fair`.
+    before
+        Fields of ``options`` as keyword arguments: deprecated.
 
     Raises
     ------
@@ -83,10 +91,11 @@ def fillet(
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
+    given = taken("fillet", options, before, threads)
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))
     _seams.check_finite(points, faces)
-    refuse_made_here(options, progress)
+    refuse_made_here(given, progress)
     seams, ends = _seams.seams_and_walls(points, faces, seam, walls)
     widths = (
         _seams.width_of("width", width, seams, len(points)),
@@ -103,7 +112,7 @@ def fillet(
     if len(cut["swallowed"]):
         raise _too_wide(cut["swallowed"], both, seams)
     watch.lap("cut")
-    return _filled(points, faces, seams, cut, Wishes(length, shape, both, ends, options, watch))
+    return _filled(points, faces, seams, cut, Wishes(length, shape, both, ends, given, watch))
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from fairing import _arguments
 from fairing._fair import fair
+from fairing._groups import Boundary, Options
 from fairing._measure import boundary_loops
 from fairing._outline import bad_outline, surrounding_normals
 from fairing._shape import LIMITS
@@ -62,13 +63,14 @@ class _Mesh:
 
     def faired(self, selected: Mask, options: dict[str, Any]) -> FairResult:
         """With the normals of the surroundings."""
+        chosen = dict(options)
+        threads, progress = chosen.pop("threads", 0), chosen.pop("progress", None)
         inside, outside = self.triangles[selected], self.triangles[~selected]
         outline = self.outline(selected)
         normals = surrounding_normals(self.vertices, outside, outline).normals
         known = np.linalg.norm(normals, axis=1) > 0
-        return fair(
-            self.vertices, inside, fixed=outline[known], fixed_normals=normals[known], outside=outside, **options
-        )
+        boundary = Boundary(outline[known], normals[known], outside=outside)
+        return fair(self.vertices, inside, boundary, Options.of(**chosen), threads=threads, progress=progress)
 
 
 def grown_outline(

@@ -12,7 +12,8 @@ from fairing import (
     _core,
     _options,
 )
-from fairing._fair import fair
+from fairing._fair import solved
+from fairing._groups import Boundary, Options
 from fairing._measure import boundary_loops
 from fairing._new_mesh import Origin, read_only
 from fairing._types import FairResult, FloatArray, IntArray
@@ -95,12 +96,10 @@ class Patch:
 
     def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
-        if outside is not None and len(outside):
-            chosen["outside"] = outside
-        return fair(
-            self.vertices, self.triangles, fixed=self.fixed, fixed_normals=self.normals, start=start,
-            progress=progress, **chosen,
-        )  # fmt: skip
+        threads, curvatures = chosen.pop("threads", 0), chosen.pop("fixed_curvatures", None)
+        around = outside if outside is not None and len(outside) else None
+        boundary = Boundary(self.fixed, self.normals, curvatures, around)
+        return solved(self.vertices, self.triangles, boundary, Options.of(**chosen, start=start), progress, threads)
 
 
 def _free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:

@@ -8,6 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
+from fairing._adopted import adopted, flat
+from fairing._groups import Boundary, Options
 from fairing._inner_vertices import with_inner_vertices
 from fairing._new_mesh import RemeshResult, read_only, report_fields
 from fairing._patch import (
@@ -27,15 +29,16 @@ from fairing._watch import Progress, Watch
 def remesh(
     vertices: npt.ArrayLike,
     triangles: npt.ArrayLike,
+    boundary: Boundary | npt.ArrayLike | None = None,
+    options: Options | None = None,
     *,
-    fixed: npt.ArrayLike | None = None,
-    fixed_normals: npt.ArrayLike | None = None,
     kept: npt.ArrayLike | None = None,
     spacing: float = 0.0,
     inner: str | None = None,
     max_vertices: int = 0,
     progress: Progress | None = None,
-    **options: Any,
+    threads: int = 0,
+    **before: Any,
 ) -> RemeshResult:
     """Fair a patch on a new mesh: :func:`fairing.fair`, and then other vertices and triangles for its surface.
 
@@ -55,14 +58,16 @@ def remesh(
     solved, and by the faired one. 0: 20 times as many as the old surface would have with that spacing, or 50 000 where
     that is less, 4 000 000 at most.
     """
+    around, chosen = adopted("remesh", boundary, options, before)
+    given = flat(chosen, threads, around.curvatures)
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))
-    held, given_normals = _arguments.boundary(fixed, fixed_normals)
+    held, given_normals = _arguments.boundary(around.vertices, around.normals)
     lines = _arguments.edges_of("kept", kept, faces)
     length = spacing_of(spacing, inner)
-    outside = options.pop("outside", None)
-    refuse_made_here(options, progress)
-    if options.get("equation") == "minimal":
+    outside = around.outside
+    refuse_made_here(given, progress)
+    if given.get("equation") == "minimal":
         raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
     watch = Watch(progress)
     base = len(points)
@@ -73,19 +78,19 @@ def remesh(
     most = Limit.of(_count_on(old, length), max_vertices)
     border = old.border()
     most.check(most.flat, border)
-    report = old.faired("outline", outside, options, watch.part(0, 0.4))
+    report = old.faired("outline", outside, given, watch.part(0, 0.4))
     watch.lap("first")
     if given_normals is None:
         averaged = _core.vertex_normals(points, faces, "averaged")
         held, given_normals = report.fixed, averaged[report.fixed]
     solved = Patch(report.vertices, faces, held, given_normals)
     most.check(solved.expected_new(length), border)
-    new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), options, watch.part(0.4, 0.6))
+    new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), given, watch.part(0.4, 0.6))
     watch.lap("mesh")
     values = report_fields(report, base)
     added = len(new.vertices) - base
     if added >= min(LEAST_COUNT, len(np.setdiff1d(faces, report.fixed))):
-        values = report_fields(new.faired("given", outside, options, watch.part(0.6, 1.0)), base)
+        values = report_fields(new.faired("given", outside, given, watch.part(0.6, 1.0)), base)
         values["triangles"] = new.triangles
     else:
         values.update(cut_fields(new, base))

@@ -1,0 +1,102 @@
+"""Every language is whole: what a person reads of the interface is there in German and in French, and nothing else."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import bpy
+import pytest
+from extension import module
+
+SHOWS = re.compile(r"^([A-Z0-9]+_(OT|PT|MT)_\w+)$")  # classes whose label and tooltip Blender shows
+SAYS = {"report", "require", "require_edit_mode", "translated", "pick"}
+LANGUAGES = ["de", "fr"]
+# Blender shows nothing of these, or has them in its own language files.
+NOT_SHOWN = {"", "Undo", "Before Fair Masked", "Select Region", "*"}
+
+
+def sources() -> Iterator[ast.Module]:
+    """Yield the add-on's modules, as they are installed."""
+    folder = Path(module().__file__).parent
+    for path in folder.rglob("*.py"):
+        if "presets" not in path.relative_to(folder).parts:
+            yield ast.parse(path.read_text(encoding="utf-8"))
+
+
+def constants(node: ast.AST) -> Iterator[str]:
+    """Yield the texts that an argument may be: both of an `if`."""
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.IfExp):
+        yield from constants(node.body)
+        yield from constants(node.orelse)
+
+
+def of_call(node: ast.Call) -> Iterator[str]:
+    name = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+    for keyword in node.keywords:
+        if keyword.arg == "text" or (keyword.arg in ("name", "description") and name.endswith("Property")):
+            yield from constants(keyword.value)
+    if name in SAYS:
+        for argument in node.args:
+            yield from constants(argument)
+
+
+def of_class(node: ast.ClassDef) -> Iterator[str]:
+    if SHOWS.match(node.name):
+        yield " ".join((ast.get_docstring(node) or "").split())
+        for line in node.body:
+            if isinstance(line, ast.Assign) and getattr(line.targets[0], "id", "") == "bl_label":
+                yield from constants(line.value)
+
+
+def of_operators() -> Iterator[str]:
+    """Yield labels and tooltips of all options and choices that are offered."""
+    for room in (bpy.ops.mesh, bpy.ops.object):
+        for name in dir(room):
+            if name.startswith("fair") and not name.endswith("preset_add"):
+                for option in getattr(room, name).get_rna_type().properties:
+                    if option.identifier not in ("rna_type", "option") and not option.is_hidden:
+                        yield from (option.name, option.description)
+                        for item in getattr(option, "enum_items", ()):
+                            yield from (item.name, item.description)
+
+
+def shown() -> set[str]:
+    found: set[str] = set()
+    for tree in sources():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Call):
+                found.update(of_call(node))
+            elif isinstance(node, ast.ClassDef):
+                found.update(of_class(node))
+    found.update(of_operators(), module("core.option_shared").GROUPS, module("core.option_shared").FOLDED)
+    found.add(module("core.fill_options").HOLES)
+    return {text for text in found - NOT_SHOWN if any(letter.isalpha() for letter in text)}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_language_has_every_text(language: str) -> None:
+    assert sorted(shown() - module("translations").languages()[language].keys()) == []
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_language_has_nothing_that_is_not_said(language: str) -> None:
+    said: set[str] = set()
+    for tree in sources():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                said.update((node.value, " ".join(node.value.split())))
+    assert sorted(module("translations").languages()[language].keys() - said) == []
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_no_translation_is_empty_or_has_lost_its_figures(language: str) -> None:
+    for text, translation in module("translations").languages()[language].items():
+        assert translation.strip()
+        fields: Any = re.findall(r"\{[^}]*\}", text)
+        assert sorted(fields) == sorted(re.findall(r"\{[^}]*\}", translation)), text
