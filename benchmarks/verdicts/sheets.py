@@ -103,15 +103,19 @@ def _new(data: Any) -> Floats:
 
 
 def save(names: list[str], results: Path, folder: Path) -> None:
-    """Write sheets of ROWS jobs each."""
+    """Write sheets of ROWS jobs each, but for those that are there and newer than their jobs."""
     folder.mkdir(parents=True, exist_ok=True)
-    there = [name for name in names if (results / f"{name}.npz").exists()]
-    for first in range(0, len(there), ROWS):
+    for first in range(0, len(names), ROWS):
+        path = folder / f"sheet_{first // ROWS:02d}.png"
+        there = [name for name in names[first : first + ROWS] if (results / f"{name}.npz").exists()]
+        newest = max(((results / f"{name}.npz").stat().st_mtime for name in there), default=0.0)
+        if not there or (path.exists() and path.stat().st_mtime > newest):
+            continue
         rows = []
-        for name in there[first : first + ROWS]:
+        for name in there:
             with np.load(results / f"{name}.npz") as data:
                 rows.append(row(name, data))
         sheet = Image.new("RGB", (rows[0].width, sum(one.height for one in rows)), "white")
         for k, one in enumerate(rows):
             sheet.paste(one, (0, k * one.height))
-        sheet.save(folder / f"sheet_{first // ROWS:02d}.png")
+        sheet.save(path)
