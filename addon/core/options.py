@@ -24,6 +24,7 @@ ACCEPT = ("USABLE", "ALL")
 MESHES = ("KEEP", "NEW")
 INNER = ("OUTLINE", "EVEN")
 FACTOR_MASKS = ("IGNORED", "USED")
+KEYS = ("ACTIVE", "ALL")
 LEAST_SPACING = 0.05  # of the boundary's edges
 
 _CHOICES = {
@@ -42,6 +43,7 @@ _CHOICES = {
     "mesh": MESHES,
     "inner": INNER,
     "factor_mask": FACTOR_MASKS,
+    "keys": KEYS,
 }
 
 
@@ -84,6 +86,7 @@ class FairOptions:
     subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as those of a new mesh
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
     max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
+    keys: str = "ACTIVE"  # ALL: with the Basis every shape key is faired, each from its own surroundings
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
 
     def __post_init__(self) -> None:
@@ -222,6 +225,7 @@ class FairOptions:
             "pin_curve": self.pins_sharp and self.method == "GLOBAL",
             "pin_slope": self.pin_edges != "NONE",
             "open_border": self.mesh == "KEEP",
+            "keys": self.mesh == "KEEP",  # a new mesh fairs them all
         }
         default = FairOptions()
         return tuple(name for name, read in only.items() if not read and getattr(self, name) != getattr(default, name))

@@ -91,6 +91,12 @@ _OPEN_BORDERS = (
 )
 
 
+_KEYS = (
+    ("ACTIVE", "Active", "The active shape key; where that is the Basis, keys relative to it follow"),
+    ("ALL", "All", "With the Basis every shape key that bends the selection, each from its own surroundings"),
+)
+
+
 class FairProperties(SurfaceProperties, SkinProperties):
     """The properties of `mesh.fair_region`; names and defaults are those of options.FairOptions."""
 
@@ -188,6 +194,7 @@ class FairProperties(SurfaceProperties, SkinProperties):
         precision=3,
         subtype="FACTOR",
     )
+    keys: EnumProperty(name="Keys", description="Which shape keys are faired", items=_KEYS, default="ACTIVE")
     open_border: EnumProperty(
         name="Open Border",
         description="What becomes of open borders inside the selection",

@@ -14,7 +14,15 @@ from scenes import Ints, Mask, Scene
 SEEDS = (0, 1, 2, 3)
 FIRST_HALF = (0, 1)  # seeds to learn from; the others count at the end
 SCANS = ("demosthenes-low-res", "boot", "skull_low_resolution", "hammer")
-CHARACTERS = ("ict_head", "mh_body", "stuffedtoy", "penguin", "goathead", "cat-low-resolution", "scorpion_low_resolution")
+CHARACTERS = (
+    "ict_head",
+    "mh_body",
+    "stuffedtoy",
+    "penguin",
+    "goathead",
+    "cat-low-resolution",
+    "scorpion_low_resolution",
+)
 COARSE = ("hand_lowres", "spot_low_resolution", "fish_low_resolution", "spot_control_mesh")
 SOLIDS = ("wingnut", "cycloidal", "featuretype")
 
@@ -52,7 +60,9 @@ def _tip(names: tuple[str, ...], low: float, high: float, shift: int = 0, **opti
     return made
 
 
-def _filled(names: tuple[str, ...], low: float, high: float, shift: int = 0, **options: Any) -> Callable[[Any, int], Job]:
+def _filled(
+    names: tuple[str, ...], low: float, high: float, shift: int = 0, **options: Any
+) -> Callable[[Any, int], Job]:
     def made(rng: Any, seed: int) -> Job:
         scene = scenes.real(names[(seed + shift) % len(names)])
         pick = selections.tip if seed % 2 else selections.anywhere
@@ -119,7 +129,14 @@ def boss(rng: Any, seed: int) -> Job:
     plate = scenes.box(24, (1, 1, 0.3))
     top = scenes.moved(scenes.tube(np.array([[0, 0, z] for z in (0.1, 0.35, 0.55)]), np.array([0.25, 0.25, 0.25]), 32))
     centre = rng.uniform(-0.3, 0.3, 2)
-    lid = scenes.Scene(np.vstack([top.vertices, [[0, 0, 0.1], [0, 0, 0.55]]]), [*top.faces, *[[(j + 1) % 32, j, 96] for j in range(32)], *[[64 + j, 64 + (j + 1) % 32, 97] for j in range(32)]])
+    lid = scenes.Scene(
+        np.vstack([top.vertices, [[0, 0, 0.1], [0, 0, 0.55]]]),
+        [
+            *top.faces,
+            *[[(j + 1) % 32, j, 96] for j in range(32)],
+            *[[64 + j, 64 + (j + 1) % 32, 97] for j in range(32)],
+        ],
+    )
     whole = scenes.joined(plate, scenes.moved(lid, by=(*centre, 0)))
     places = selections.centres(whole)
     near = np.linalg.norm(places[:, :2] - centre, axis=1) < rng.uniform(0.42, 0.6)
@@ -129,7 +146,11 @@ def boss(rng: Any, seed: int) -> Job:
 def lathe(rng: Any, seed: int) -> Job:
     """A dent in a turned part: in its side, or over the rim of its lid."""
     z = np.linspace(-1, 1, 40)
-    rim = np.concatenate([[0.05], np.full(40, 0.6), [0.05]]) if seed % 2 else 0.6 + 0.15 * np.cos(2 * np.pi * np.r_[-1, z, 1] / 2)
+    rim = (
+        np.concatenate([[0.05], np.full(40, 0.6), [0.05]])
+        if seed % 2
+        else 0.6 + 0.15 * np.cos(2 * np.pi * np.r_[-1, z, 1] / 2)
+    )
     path = np.column_stack([np.zeros((42, 2)), np.r_[-1.001, z, 1.001] if seed % 2 else np.r_[-1.05, z, 1.05]])
     solid = scenes.tube(path, rim, 64)
     at = np.array([0.6, 0, rng.uniform(-0.3, 0.3)])
@@ -144,11 +165,16 @@ def union(rng: Any, seed: int) -> Job:
     path = np.array([[0, 0, z] for z in np.linspace(0.0, 2.2, 30)])
     pipe = scenes.tube(path, np.full(30, rng.uniform(0.25, 0.5)), 32)
     count = len(pipe.vertices)
-    lids = [*[[(j + 1) % 32, j, count] for j in range(32)], *[[count - 32 + j, count - 32 + (j + 1) % 32, count + 1] for j in range(32)]]
+    lids = [
+        *[[(j + 1) % 32, j, count] for j in range(32)],
+        *[[count - 32 + j, count - 32 + (j + 1) % 32, count + 1] for j in range(32)],
+    ]
     pipe = Scene(np.vstack([pipe.vertices, path[[0, -1]]]), [*pipe.faces, *lids])
     whole = scenes.joined(ball, scenes.moved(pipe, (0, leaning, 0), (shift, 0, 0)))
     on_ball = np.abs(np.linalg.norm(whole.vertices, axis=1) - 1) < 0.012
-    return Job(whole, selections.seam_band(whole, on_ball, float(rng.uniform(0.12, 0.3))), {"mesh": "NEW"} if seed == 3 else {})
+    return Job(
+        whole, selections.seam_band(whole, on_ball, float(rng.uniform(0.12, 0.3))), {"mesh": "NEW"} if seed == 3 else {}
+    )
 
 
 def voxel_letter(rng: Any, _seed: int) -> Job:
@@ -187,7 +213,10 @@ def pipes(rng: Any, seed: int) -> Job:
     z = np.linspace(0, 2, 20)
     first = scenes.tube(np.column_stack([0 * z, 0 * z, z - 3.2]), np.full(20, 0.8), 32)
     second = scenes.moved(scenes.tube(np.column_stack([0 * z, 0 * z, z + 1.2]), np.full(20, radius), 32), (0, angle, 0))
-    both = Scene(np.vstack([first.vertices, second.vertices]), first.faces + [[v + len(first.vertices) for v in f] for f in second.faces])
+    both = Scene(
+        np.vstack([first.vertices, second.vertices]),
+        first.faces + [[v + len(first.vertices) for v in f] for f in second.faces],
+    )
     count = len(first.vertices)
     rim = np.concatenate([np.arange(count - 32, count), count + np.arange(32)])
     return Job(both, np.zeros(len(both.faces), dtype=bool), {"bridge": True}, rim)
@@ -224,7 +253,9 @@ def noise(rng: Any, seed: int) -> Job:
     """A ball as a rough scan has it, with a swelling."""
     ball = scenes.noisy(scenes.sphere(5), rng, (0.03, 0.12, 0.06, 0.2)[seed])
     swollen = scenes.bump(ball, np.array([0, 0, 1.0]), 0.2, 0.2)
-    return Job(swollen, selections.ball(swollen, [0, 0, 1.0], 0.6), ({}, {"outline": "MENDED"}, {}, {"feather": 0.2})[seed])
+    return Job(
+        swollen, selections.ball(swollen, [0, 0, 1.0], 0.6), ({}, {"outline": "MENDED"}, {}, {"feather": 0.2})[seed]
+    )
 
 
 def pins(rng: Any, seed: int) -> Job:
@@ -268,7 +299,9 @@ def keyed(rng: Any, seed: int) -> Job:
     swollen = scenes.bump(head, np.array([0, 0, 1.0]), 0.15, 0.2)
     at = np.array(([0.5, 0, 0.85], [0, 0.1, 1.0], [0.7, 0, 0.7], [0, 0, -1.0])[seed])
     key = scenes.bump(swollen, at, 0.25, float(rng.uniform(0.2, 0.5))).vertices
-    return Job(replace(swollen, keys={"Basis": swollen.vertices, "Big": key}), selections.ball(swollen, [0, 0, 1.1], 0.55))
+    return Job(
+        replace(swollen, keys={"Basis": swollen.vertices, "Big": key}), selections.ball(swollen, [0, 0, 1.1], 0.55)
+    )
 
 
 def tight(rng: Any, seed: int) -> Job:
@@ -321,7 +354,12 @@ def cloth(rng: Any, seed: int) -> Job:
 def shaped(rng: Any, seed: int) -> Job:
     """Other shapes: soap film, minimal energy, bulge, least variation."""
     scene = scenes.real(("penguin", "ict_head", "stuffedtoy", "goathead")[seed])
-    option = ({"equation": "MINIMAL"}, {"equation": "MINIMAL_ENERGY"}, {"equation": "CONSTANT", "bulge": 0.1}, {"equation": "LEAST_VARIATION"})
+    option = (
+        {"equation": "MINIMAL"},
+        {"equation": "MINIMAL_ENERGY"},
+        {"equation": "CONSTANT", "bulge": 0.1},
+        {"equation": "LEAST_VARIATION"},
+    )
     return Job(scene, selections.anywhere(scene, rng, 0.08, 0.14), option[seed])
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import pickle
+import shutil
+import sys
 import time
 from pathlib import Path
 from typing import Any
@@ -18,12 +21,17 @@ ROOT = Path(__file__).resolve().parents[2]
 FIELDS = ("verdict", "reason", "remedies", "warnings", "join_worst")
 
 
-def install() -> None:
-    """Install the packaged zip."""
+def install(from_tree: bool) -> None:
+    """Install the packaged zip; from_tree: with the add-on of this tree, and the module in build/native/package."""
     (path,) = (ROOT / "build" / "package").glob("*-linux_x64.zip")
     bpy.ops.extensions.package_install_files(
-        repo="user_default", filepath=str(path), enable_on_install=True, overwrite=True
+        repo="user_default", filepath=str(path), enable_on_install=not from_tree, overwrite=True
     )
+    if from_tree:
+        extensions = Path(os.environ["BLENDER_USER_RESOURCES"]) / "extensions"
+        shutil.copytree(ROOT / "addon", extensions / "user_default" / "intrinsic_fairing", dirs_exist_ok=True)
+        sys.path.insert(0, str(ROOT / "build" / "native" / "package"))  # before the wheel
+        bpy.ops.preferences.addon_enable(module="bl_ext.user_default.intrinsic_fairing")
 
 
 def _put(scene: Scene) -> Any:
@@ -73,7 +81,7 @@ def _made(name: str, folder: Path) -> Job:
     path = folder / f"{name}.pickle"
     if not path.exists():
         path.write_bytes(pickle.dumps(jobs.make(name)))
-    made: Job = pickle.loads(path.read_bytes())  # noqa: S301 - our own
+    made: Job = pickle.loads(path.read_bytes())
     return made
 
 
@@ -83,7 +91,12 @@ def run(name: str, folder: Path) -> dict[str, Any]:
     job = _made(name, folder)
     obj = _put(job.scene)
     before, triangles, faces = _shown(obj)
-    found: dict[str, Any] = {"before": before, "triangles": triangles, "chosen": job.chosen[faces], "half": jobs.is_first(name)}
+    found: dict[str, Any] = {
+        "before": before,
+        "triangles": triangles,
+        "chosen": job.chosen[faces],
+        "half": jobs.is_first(name),
+    }
     if job.face_set is not None:
         old, deleted = job.face_set
         found["old"], found["old_chosen"] = _old(old, deleted)
@@ -113,15 +126,14 @@ def _old(old: Scene, deleted: Any) -> tuple[Floats, Floats]:
     return points, areas
 
 
-def sweep(names: list[str], folder: Path) -> None:
+def sweep(names: list[str], folder: Path, from_tree: bool) -> None:
     """Run jobs one after the other into a folder, one file each."""
-    install()
+    install(from_tree)
     made = folder.parent / "jobs"
     for place in (folder, made):
         place.mkdir(parents=True, exist_ok=True)
     for name in names:
         try:
             np.savez(folder / f"{name}.npz", **run(name, made))
-        except Exception as error:  # noqa: BLE001 - a job that can't be made is listed, the others go on
+        except Exception as error:
             print(f"{name}: {error!r}", flush=True)
-

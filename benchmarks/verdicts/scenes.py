@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 from numpy.typing import NDArray
+
 from polygons import read_polygons
 
 Floats = NDArray[np.float64]
@@ -188,7 +189,11 @@ def sheet(cells: int, height: Any, reach: float = 1.0) -> Scene:
     steps = np.linspace(-reach, reach, cells + 1)
     x, y = (places.ravel() for places in np.meshgrid(steps, steps))
     row = cells + 1
-    faces = [[row * j + i, row * j + i + 1, row * (j + 1) + i + 1, row * (j + 1) + i] for j in range(cells) for i in range(cells)]
+    faces = [
+        [row * j + i, row * j + i + 1, row * (j + 1) + i + 1, row * (j + 1) + i]
+        for j in range(cells)
+        for i in range(cells)
+    ]
     return Scene(np.column_stack([x, y, height(x, y)]), faces)
 
 

@@ -48,7 +48,13 @@ def _pieces(scene: Scene, chosen: Mask) -> Ints:
     """(f,) the number of the piece, joined by edges, that each chosen face is in; −1 elsewhere."""
     places = np.flatnonzero(chosen)
     owner = np.repeat(places, [len(scene.faces[k]) for k in places])
-    ends = np.array([sorted((a, b)) for k in places for a, b in zip(scene.faces[k], scene.faces[k][1:] + scene.faces[k][:1], strict=True)]).reshape(-1, 2)
+    ends = np.array(
+        [
+            sorted((a, b))
+            for k in places
+            for a, b in zip(scene.faces[k], scene.faces[k][1:] + scene.faces[k][:1], strict=True)
+        ]
+    ).reshape(-1, 2)
     _, edge = np.unique(ends, axis=0, return_inverse=True)
     count = len(scene.faces)
     joined = coo_array((np.ones(len(owner)), (owner, count + edge.ravel())), shape=(count + len(owner),) * 2)

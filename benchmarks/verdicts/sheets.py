@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
+
 from rasteriser import View, rasterise
 
 Floats = NDArray[np.float64]
@@ -22,7 +23,9 @@ LIGHTS = (((-0.5, 0.6, 0.62), 0.75), ((0.8, 0.1, 0.55), 0.3), ((0.1, -0.9, 0.4),
 
 def corner_normals(vertices: Floats, triangles: Ints) -> Floats:
     """(m, 3, 3): smooth over edges that are flatter than SMOOTH, split at others."""
-    areas = np.cross(vertices[triangles[:, 1]] - vertices[triangles[:, 0]], vertices[triangles[:, 2]] - vertices[triangles[:, 0]])
+    areas = np.cross(
+        vertices[triangles[:, 1]] - vertices[triangles[:, 0]], vertices[triangles[:, 2]] - vertices[triangles[:, 0]]
+    )
     unit = areas / np.linalg.norm(areas, axis=1)[:, None].clip(1e-300)
     corners = triangles.ravel()
     order = np.argsort(corners, kind="stable")
@@ -85,7 +88,10 @@ def row(name: str, data: Any) -> Image.Image:
     plain = np.zeros(len(data["after_triangles"]), dtype=bool)
     pictures = []
     for view in views(points, areas):
-        pictures += [tiles(before, triangles, chosen, view)[0], *tiles(data["after"], data["after_triangles"], plain, view)]
+        pictures += [
+            tiles(before, triangles, chosen, view)[0],
+            *tiles(data["after"], data["after_triangles"], plain, view),
+        ]
     picture = Image.new("RGB", (SIZE * len(pictures), SIZE + TITLE), "white")
     picture.paste(Image.fromarray((255 * np.hstack(pictures).clip(0, 1)).astype(np.uint8)), (0, TITLE))
     free = len(np.unique(triangles[chosen])) if chosen.any() else 0

@@ -34,4 +34,15 @@ def text(names: list[str], results: Path) -> str:
         (apart if (grade == "GOOD") != (judgement == "keep") else reasons).append(line)
     rows = [f"| {grade} | " + " | ".join(str(counts[grade, each]) for each in JUDGEMENTS) + " |" for grade in GRADES]
     head = f"| | {' | '.join(JUDGEMENTS)} |\n| --- | --: | --: | --: |"
-    return "\n".join([head, *rows, "", "Apart:", *apart, "", "Alike:", *(line for line in reasons if "|  " not in line and not line.endswith("| "))])
+    return "\n".join(
+        [
+            head,
+            *rows,
+            "",
+            "Apart:",
+            *apart,
+            "",
+            "Alike:",
+            *(line for line in reasons if "|  " not in line and not line.endswith("| ")),
+        ]
+    )
