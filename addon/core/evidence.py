@@ -11,6 +11,7 @@ from .arrays import Floats, Ints
 from .eaten import Eaten
 from .engine import Problem, Result
 from .findings import Finding, Origin, found
+from .lost import Lost
 from .quality import Join, Quality
 from .region import nothing
 from .selection import LeftOut
@@ -44,6 +45,7 @@ class Evidence:
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
     pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
     flank: Flank | None = None
+    lost: Lost = field(default_factory=Lost)
     left_out: LeftOut = field(default_factory=LeftOut)
     seams: Ints = field(default_factory=nothing)  # mesh vertices of held seams of doubled vertices that show as crests
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points

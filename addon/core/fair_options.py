@@ -8,6 +8,7 @@ from .option_items import (
     DISTRIBUTIONS,
     FACTOR_MASKS,
     FAIRED,
+    KEYS,
     MESHES,
     METHODS,
     OTHERWISE,
@@ -157,6 +158,17 @@ FAIR: Table = (
         field="factor_mask",
         values=FACTOR_MASKS,
         before=(Before("factor_mask", FACTOR_MASKS),),
+    ),
+    Option(
+        "all_keys",
+        "All Keys",
+        "With the Basis every shape key that bends the selection is faired, each from its own surroundings. Otherwise "
+        "only the active one, and keys relative to it follow",
+        False,
+        PARTS,
+        shown=lambda o: not o.remesh,
+        field="keys",
+        values=KEYS,
     ),
     Option(
         "detail_from",

@@ -25,7 +25,7 @@ from .neighbourhood import Neighbourhood
 from .parted import parted, stars_of
 from .passes import numbered_by_pass
 from .quality import join_at
-from .region import MeshArrays, nothing, to_local
+from .region import MeshArrays, to_local
 from .sentences import in_mesh_words, sentences
 from .verdict import UNUSABLE, Verdict
 
@@ -98,7 +98,7 @@ class Job:
         numbers = np.concatenate([rim, len(local.vertices) + np.arange(len(inside))])
         at = np.sort(rim)
         join = join_at(local.vertices[at], fairing.visible_join(joined, numbers[triangles], local.around, at))
-        surface = Surface(points, triangles, found.surface.result, join, nothing())
+        surface = Surface(points, triangles, found.surface.result, join)
         return Piece(
             loops=(loop,),
             points=points,
@@ -177,8 +177,7 @@ class Job:
         join = join_at(vertices[rim], fairing.visible_join(whole, result.triangles, around, rim))
         across = number.across(result, local.drawn)
         slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
-        tangent_only = np.unique(np.concatenate([nothing(), *(vertices[warning.elements] for warning in slopes)]))
-        surface = Surface(points, triangles, result, join, tangent_only, across.edges)
+        surface = Surface(points, triangles, result, join, across.edges)
         verdict = judge(world, outline, surface, vertices[around])
         return Piece(
             loops=tuple(loops),

@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .looks import STAND_INS, girth_reason, kink_reason, slope_reason
+from .looks import STAND_INS, girth_reason, kink_reason, sunken_reason
 from .piercing import Sheet, crossing, near
 from .quality import Join
 from .region import MeshArrays, nothing
@@ -28,7 +28,6 @@ class Surface:
     triangles: Ints
     result: fairing.FillResult
     join: Join
-    tangent_only: Ints  # mesh vertices where a curvature was asked for and is not continued
     across: Ints = field(default_factory=nothing)  # (c, 2) edges of curves across it, in numbers of the points
 
 
@@ -60,9 +59,22 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> V
     if uneven:
         hint = "" if result.equation == "least_variation" else ": choose the shape Least Variation"
         return Verdict(LOOK, uneven + hint, np.unique(outline))
-    if len(surface.tangent_only):
-        return Verdict(LOOK, slope_reason(surface.tangent_only), surface.tangent_only)
+    depth = _depth(world, outline, around, surface)
+    if depth > fairing.LIMITS["sunken"] and result.equation != "minimal":
+        return Verdict(LOOK, sunken_reason(depth), np.unique(outline))
     return Verdict(GOOD)
+
+
+def _depth(world: MeshArrays, outline: Ints, around: Ints, surface: Surface) -> float:
+    """Return how far the surface sinks below the lines that run on across it from around."""
+    if not len(around) or len(surface.across):  # edges that run on through it
+        return 0.0
+    vertices, numbers = np.unique(around, return_inverse=True)
+    rim = np.searchsorted(vertices, outline)
+    found = fairing.surrounding_normals(world.positions[vertices], numbers.reshape(-1, 3), np.unique(rim)).normals
+    normals = np.zeros_like(surface.points)
+    normals[: len(outline)] = found[np.searchsorted(np.unique(rim), rim)]
+    return fairing.sunken(surface.points, surface.triangles, normals, fixed=np.arange(len(outline)))[0]
 
 
 def _outlines(count: int, edges: str) -> str:

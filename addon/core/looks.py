@@ -8,13 +8,11 @@ import fairing
 
 from .arrays import Floats, Ints
 from .engine import Result
-from .evidence import NOTHING, Evidence, Found, corners_of
+from .evidence import NOTHING, Evidence, Found
 from .options import FairOptions
 from .quality import Join
-from .selection import LeftOut
 from .words import counted
 
-MANY_LEFT_OUT = 3  # faces that a careless lasso leaves out; one or two may be meant
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
@@ -31,20 +29,6 @@ def visible(evidence: Evidence, options: FairOptions) -> Found:
         if reason[0]:
             return reason
     return NOTHING
-
-
-def are_many(left_out: LeftOut) -> bool:
-    """Return whether so many faces are left out that it can't be meant."""
-    return left_out.count >= MANY_LEFT_OUT
-
-
-def _holed(evidence: Evidence, _options: FairOptions) -> Found:
-    if not are_many(evidence.left_out):
-        return NOTHING
-    reason = (
-        f"{evidence.left_out.count} faces inside are left out of the selection, so that their places stay: add them"
-    )
-    return reason, evidence.left_out.vertices
 
 
 def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
@@ -80,12 +64,6 @@ def kink_reason(join: Join) -> str:
     if join.worst_seen >= fairing.LIMITS["turned_back"]:
         return f"The surface turns back from the slope around it at {text} of the boundary, by {join.worst_seen:.0f}°"
     return f"A kink shows at {text} of the boundary, of {join.worst_seen:.0f}° at worst"
-
-
-def slope_reason(vertices: Ints) -> str:
-    """Return the sentence for boundary vertices where a curvature was asked for and is not continued."""
-    text = counted(len(vertices), "vertex", "vertices")
-    return f"The curvature outside is not continued at {text} of the boundary, as was asked for"
 
 
 def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
@@ -200,13 +178,9 @@ def _points(evidence: Evidence) -> Floats:
 
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
-    """Report what was asked for and not given: curvature that is continued, the old skin."""
-    curvature = evidence.named("G2_NOT_MET")
-    if len(curvature):
-        return slope_reason(np.unique(curvature)), curvature
+    """Report the old skin where it was asked for and not given."""
     if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
-        outline = evidence.problem.patch.vertices[evidence.problem.patch.outline]
-        return "The detail asked for could not be put back: the result is smooth", outline
+        return "The detail asked for could not be put back: the result is smooth", _outline(evidence)
     return NOTHING
 
 
@@ -217,17 +191,46 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
     return f"{_KNOT.format(text)}: to be rid of them, delete the faces and use Fair Fill", evidence.squeezed
 
 
-def _needles(evidence: Evidence, _options: FairOptions) -> Found:
-    needles = np.setdiff1d(evidence.after.shown, evidence.before.needles)
-    if not len(needles):
+def _sunken(evidence: Evidence, options: FairOptions) -> Found:
+    lost = evidence.lost
+    if not len(lost.deepest) or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
-    return counted(len(needles), "face is a needle", "faces are needles"), corners_of(evidence.problem, needles)
+    return sunken_reason(lost.depth), lost.deepest
+
+
+def sunken_reason(depth: float) -> str:
+    """Return the sentence for a surface that sinks by a share of its width below the lines that run on across it."""
+    return f"The surface sinks by {depth:.0%} of its width: a ridge, a bevel or a girth is lost"
+
+
+def _smoother(evidence: Evidence, options: FairOptions) -> Found:
+    if not evidence.lost.is_smoother or options.detail > 0.0 or options.factor < 1.0:
+        return NOTHING
+    return "The surface is smoother than around: its skin is gone", _outline(evidence)
+
+
+def _outline(evidence: Evidence) -> Ints:
+    patch = evidence.problem.patch
+    found: Ints = patch.vertices[patch.outline]
+    return found
+
+
+def _moved_border(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.lost.border):
+        return NOTHING
+    return "The open border has moved far into the surface, or off it", evidence.lost.border
+
+
+def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.lost.key):
+        return NOTHING
+    return "A shape key that is shown keeps a shape of its own here: fair that key, too", evidence.lost.key
 
 
 # The first that finds something gives the reason.
 _LOOKS = (
-    *(_holed, _pierced, _seamed, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
-    *(_substituted, _uneven, _refused, _squeezed, _needles),
+    *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
+    *(_substituted, _uneven, _sunken, _refused, _squeezed, _smoother),
 )
 
 

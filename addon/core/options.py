@@ -17,6 +17,7 @@ from .option_items import (
     FACTOR_MASKS,
     FAIRED,
     INNER,
+    KEYS,
     MESHES,
     METHODS,
     OTHERWISE,
@@ -48,6 +49,7 @@ _CHOICES = {
     "mesh": MESHES,
     "inner": INNER,
     "factor_mask": FACTOR_MASKS,
+    "keys": KEYS,
 }
 
 
@@ -90,6 +92,7 @@ class FairOptions:
     subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as those of a new mesh
     quads: bool = False  # a new mesh has quads, as far as pairs of triangles make some
     max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the old surface would have
+    keys: str = "ACTIVE"  # ALL: with the Basis every shape key is faired, each from its own surroundings
     limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the old mesh has
 
     def __post_init__(self) -> None:
@@ -234,6 +237,7 @@ class FairOptions:
             "pin_slope": self.pin_edges != "NONE",
             "otherwise": self.method == "GLOBAL" and self.equation not in ("MINIMAL", "LEAST_VARIATION"),
             "open_border": self.mesh == "KEEP",
+            "keys": self.mesh == "KEEP",  # a new mesh fairs them all
         }
         return tuple(name for name, read in only.items() if not read and self._is_set(name))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, Progress, go_on, islands
 from .evidence import Evidence, Flank
+from .lost import Lost, is_smoother, kept_key, moved_border, sunken
+from .moved_keys import MovedKey
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
 from .quality import Join, Quality
@@ -40,6 +42,7 @@ class Fairing:
     join: Join
     verdict: Verdict
     free_count: int  # of the patch; `vertices` beyond it belong to a fitted boundary or a band
+    keys: tuple[MovedKey, ...] = field(default=(), kw_only=True)  # that were faired as well
 
 
 def outcome(
@@ -76,6 +79,7 @@ def outcome(
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
         flank=flank_of(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
+        lost=_lost(mesh, matrix, problem, after),
     )  # fmt: skip
     go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
@@ -123,6 +127,20 @@ def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
     edges, _ = fairing.edges_with_uses(around)
     edge = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean()
     return Flank(found.boundary.astype(np.int64), found.is_bump, int(np.ceil(found.width / edge)))
+
+
+def _lost(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Lost:
+    """Find what the surface has lost of the shape around it."""
+    patch = problem.patch
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
+        world = mesh.transformed(matrix)
+    offsets = None if mesh.shown_offsets is None else mesh.shown_offsets @ matrix[:3, :3].T
+    return replace(
+        sunken(patch, after[: len(patch.vertices)], problem),
+        is_smoother=is_smoother(world, world.positions, problem, after),
+        border=moved_border(problem, after),
+        key=kept_key(problem, after, offsets),
+    )
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:

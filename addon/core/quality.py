@@ -26,7 +26,6 @@ class Quality:
     folded: Ints
     needles: Ints
     crossing: Ints | None  # None: not looked for
-    shown: Ints = field(default_factory=nothing)  # needles that are seen
 
 
 @dataclass(frozen=True)
@@ -85,9 +84,8 @@ def mean_area(points: Floats, triangles: Ints) -> float:
 
 
 def _measured(patch: Patch, points: Floats, crossing: Ints | None) -> Quality:
-    needles = fairing.needles(points, patch.triangles)
-    every, shown = (np.unique(patch.faces[triangles]) for triangles in (needles.all, needles.seen))
-    return Quality(folded(patch, points), every, crossing, shown)
+    needles: Ints = np.unique(patch.faces[fairing.needles(points, patch.triangles).all])
+    return Quality(folded(patch, points), needles, crossing)
 
 
 def folded(patch: Patch, points: Floats) -> Ints:

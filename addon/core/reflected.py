@@ -71,8 +71,8 @@ class Whole:
 
     def _quality(self, of: Quality) -> Quality:
         count = len(self.half.in_patch)
-        folded, needles, shown = (faces[faces < count] for faces in (of.folded, of.needles, of.shown))
-        return Quality(folded, needles, None if of.crossing is None else of.crossing[of.crossing < count], shown)
+        folded, needles = (faces[faces < count] for faces in (of.folded, of.needles))
+        return Quality(folded, needles, None if of.crossing is None else of.crossing[of.crossing < count])
 
 
 def whole_of(mesh: MeshArrays) -> Whole | None:

@@ -63,6 +63,10 @@ class MeshArrays:
     lines: Mapping[str, Mask] = field(default_factory=dict)
     sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
     reflections: tuple[Reflection, ...] = ()  # that make it whole; see reflected.py
+    shown_offsets: Floats | None = (
+        None  # (n, 3) from the Basis to the keys that are shown; None: it is shown, or no Basis
+    )
+    keys: Mapping[str, Floats] = field(default_factory=dict)  # (n, 3) of each shape key that is to be faired as well
     parts: Floats | None = None  # (n,) each vertex's own factor, 0 … 1; None: 1 inside, 0 outside
 
     def transformed(self, matrix: Floats) -> MeshArrays:

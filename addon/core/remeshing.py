@@ -15,6 +15,7 @@ from .evidence import Evidence
 from .faces import Faces, faces_of, paired_faces
 from .findings import Origin
 from .lines import inner_curves, inner_lines
+from .lost import sunken
 from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
@@ -95,7 +96,7 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
         pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
-        left_out=left_out(mesh),
+        left_out=left_out(mesh), lost=sunken(after.patch, points, problem),
     )  # fmt: skip
     verdict = judge(evidence, options)
     tunnels = () if verdict.grade == GOOD else tunnel_hint(problem.patch)

@@ -12,7 +12,7 @@ from .arrays import Ints
 from .engine import Result
 from .evidence import Evidence
 from .failings import failing
-from .looks import are_many, girth_reason, judges_join, visible
+from .looks import girth_reason, judges_join, visible
 from .options import FairOptions
 from .region import nothing
 
@@ -22,7 +22,7 @@ GRADES = (GOOD, LOOK, UNUSABLE)
 # What may help, each a change for another run.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
-ADD_LEFT_OUT = "ADD_LEFT_OUT"
+ADD_LEFT_OUT, KEEP_DETAIL, ALL_KEYS = "ADD_LEFT_OUT", "KEEP_DETAIL", "ALL_KEYS"
 _OTHERS = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY")  # equations that Least Variation may do better than
 
 
@@ -89,12 +89,14 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     was_tried = stands_in or result.equation == "least_variation"
     offered = {
         GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
-        ADD_LEFT_OUT: are_many(evidence.left_out),
-        GROW: has_outside,
+        ALL_KEYS: len(evidence.lost.key) > 0,
+        KEEP_DETAIL: evidence.lost.is_smoother and options.detail == 0.0,
+        ADD_LEFT_OUT: evidence.left_out.count > 0,
+        GROW: has_outside and not len(evidence.problem.inward),  # over a hard edge a flat cap would become a dome
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0,
-        HOLD_BORDER: bad and options.fairs_border,
+        HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fairs_border,
         EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _OTHERS,
         WRITE: bad and options.accept != "ALL",
     }

@@ -23,6 +23,7 @@ from .free_normals import put_at, renew_at, renew_mesh
 from .marked_lines import lines
 from .mirrored import reflections
 from .set_aside import has_unreached
+from .shown_keys import shown_offsets
 from .weights import group_index, members, weighed
 
 FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
@@ -60,7 +61,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
         else:
             arrays = _selected(mesh, group, options)
         arrays = replace(weighed(arrays, mesh, obj, options), mirror_x=obj.data.use_mirror_x)
-        arrays = replace(arrays, reflections=reflections(obj))
+        arrays = replace(arrays, reflections=reflections(obj), shown_offsets=shown_offsets(obj))
         return arrays if region else with_image(arrays)
 
 
@@ -297,13 +298,13 @@ def _move_keys(keys: bpy.types.Key, vertices: Ints, offsets: Any, basis: Any) ->
     if not keys.use_relative:
         return
     for block in keys.key_blocks:
-        if _follows(block, keys.reference_key):
+        if follows(block, keys.reference_key):
             moved = column(block.data, "co", 3, np.float32)
             moved[vertices] += offsets
             block.data.foreach_set("co", moved.ravel())
 
 
-def _follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
+def follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
     """Return whether a chain of relative keys leads from the block to the basis."""
     seen = set()
     while block != basis and block.name not in seen:

@@ -12,12 +12,14 @@ from bpy.props import EnumProperty
 
 from ..core.verdict import (
     ADD_LEFT_OUT,
+    ALL_KEYS,
     AS_SELECTED,
     EVEN_CURVATURE,
     EVEN_SPREAD,
     GROW,
     GROW_OVER,
     HOLD_BORDER,
+    KEEP_DETAIL,
     SMOOTH_OUTLINE,
     WRITE,
 )
@@ -69,6 +71,8 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
 
 # What each button changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
+    ALL_KEYS: {"keys": "ALL"},
+    KEEP_DETAIL: {"detail": 1.0},
     ADD_LEFT_OUT: {},
     GROW: {},
     GROW_OVER: {},
@@ -80,6 +84,8 @@ CHANGES: dict[str, dict[str, Any]] = {
     WRITE: {"accept": "ALL"},
 }
 _WAYS = (
+    (ALL_KEYS, "All Keys", "Fair every shape key as well, each from its own surroundings"),
+    (KEEP_DETAIL, "Keep Detail", "Fair again, and put the old skin back on the new shape"),
     (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
     (GROW_OVER, "Grow Past Bump", "Select as many rings of faces more as the slope is wide, and fair again"),
@@ -91,7 +97,19 @@ _WAYS = (
     (WRITE, "Apply Anyway", "Write the result as it is, folds and all"),
 )
 # What helps most where several are offered.
-_ORDER = (ADD_LEFT_OUT, GROW_OVER, AS_SELECTED, HOLD_BORDER, EVEN_SPREAD, EVEN_CURVATURE, GROW, SMOOTH_OUTLINE, WRITE)
+_ORDER = (
+    ALL_KEYS,
+    ADD_LEFT_OUT,
+    GROW_OVER,
+    KEEP_DETAIL,
+    AS_SELECTED,
+    HOLD_BORDER,
+    EVEN_SPREAD,
+    EVEN_CURVATURE,
+    GROW,
+    SMOOTH_OUTLINE,
+    WRITE,
+)
 WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
 
 

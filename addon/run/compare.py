@@ -55,8 +55,8 @@ def remember_one(object_name: str, before: Floats, outcome: Fairing, normals: Fl
 
 def _remember(runs: list[tuple[str, Floats, Fairing, Floats | None]]) -> None:
     _last.pairs = tuple(_pair(*run) for run in runs)
-    if any(isinstance(outcome, Remeshed) for _, _, outcome, _ in runs):
-        forget()  # there are no pairs
+    if any(isinstance(outcome, Remeshed) or outcome.keys for _, _, outcome, _ in runs):
+        forget()  # there are no pairs, or more than these
 
 
 def _pair(object_name: str, before: Floats, outcome: Fairing, normals: Floats | None) -> Pair:

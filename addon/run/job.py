@@ -5,7 +5,7 @@ Nothing is written unless all objects can be done.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -20,8 +20,8 @@ from ..core.region import MeshArrays, free_vertices
 from ..core.remeshing import Remeshed
 from ..core.solve import Kept, Solved
 from ..host.context import edited_objects
-from ..mesh import mesh_io, remeshed
-from .fair_arrays import fair_arrays
+from ..mesh import all_keys, mesh_io, remeshed
+from .fair_keys import fair_all_keys
 from .labels import reason_of
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
@@ -74,6 +74,8 @@ def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     if options.mesh == "NEW":
         mesh_io.check_new_faces(obj)
     mesh = mesh_io.read_edit_mesh(obj, options)
+    if options.keys == "ALL" and options.mesh == "KEEP":
+        mesh = replace(mesh, keys=all_keys.read_keys(obj), shown_offsets=None)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     whole = whole_of(mesh)
     free = whole.free_count if whole is not None else int(np.count_nonzero(free_vertices(mesh)))
@@ -98,7 +100,7 @@ def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bo
     for task in tasks:
         part = sub_range(progress, done / total, (done + task.free_count) / total)
         try:
-            outcomes.append(fair_arrays(task.mesh, task.matrix, options, part, kept))
+            outcomes.append(fair_all_keys(task.mesh, task.matrix, options, part, kept))
         except REFUSALS as cause:
             raise Refused(task.object_name, cause) from cause
         done += task.free_count
@@ -137,5 +139,6 @@ def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]
             written.append(remeshed.write_edit_mesh(obj, outcome))
         else:
             mesh_io.write_edit_mesh(obj.data, outcome.vertices, outcome.positions)
+            all_keys.write_keys(obj, outcome.keys)
             written.append(None)
     return written

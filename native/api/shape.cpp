@@ -69,4 +69,16 @@ std::optional<Flank> flank(const MeshInput& input, const Triangles& around) {
     return first;
 }
 
+Sunken sunken_below(const MeshInput& input, const Points& normals) {
+    Sunken deepest;
+    for_each_piece(input, [&](const Patch& patch, const Points& points) {
+        Sunken found = sunken_of(patch, points,
+                                 gather(normals, patch.to_input).rightCols(patch.vertex_count() - patch.free_count));
+        if (found.depth <= deepest.depth) return;
+        for (int& v : found.deepest) v = patch.to_input[v];
+        deepest = std::move(found);
+    });
+    return deepest;
+}
+
 }  // namespace fairing

@@ -5,6 +5,7 @@
 #include "shape/flank.h"
 #include "shape/girth.h"
 #include "shape/knobs.h"
+#include "shape/sunken.h"
 
 namespace fairing {
 
@@ -18,5 +19,8 @@ Knobs knobs(const MeshInput& input, double before);
 
 // The first piece on a flank whose whole boundary has triangles of `around`, which are numbered likewise.
 std::optional<Flank> flank(const MeshInput& input, const Triangles& around);
+
+// The deepest piece, by input vertices. `normals`: one for each input vertex; only those of fixed ones count.
+Sunken sunken_below(const MeshInput& input, const Points& normals);
 
 }  // namespace fairing

@@ -1,6 +1,7 @@
 #include "api/shape.h"
 #include "bindings/convert.h"
 #include "bindings/topics.h"
+#include "shape/grain.h"
 #include "shape/kinks.h"
 #include "shape/limits.h"
 #include "shape/needles.h"
@@ -26,6 +27,17 @@ py::tuple knob_arrays(const DoubleArray& vertices, const IntArray& triangles, co
                       double before) {
     const Knobs found = knobs(input_of(vertices, triangles, fixed), before);
     return py::make_tuple(found.extent, from_indices(found.tops));
+}
+
+py::tuple sunken_arrays(const DoubleArray& vertices, const IntArray& triangles, const DoubleArray& normals,
+                        const std::optional<IntArray>& fixed) {
+    const Sunken found = sunken_below(input_of(vertices, triangles, fixed), to_points(normals));
+    return py::make_tuple(found.depth, from_indices(found.deepest));
+}
+
+bool lost_grain_in(const DoubleArray& before, const DoubleArray& after, const IntArray& inside,
+                   const IntArray& outside) {
+    return has_lost_grain({to_points(before), to_points(after), to_triangles(inside), to_triangles(outside)});
 }
 
 py::object flank_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& around,
@@ -67,6 +79,7 @@ py::dict limits() {
     py::dict named;
     named["waist"] = waist;
     named["balloon"] = balloon;
+    named["sunken"] = sunken;
     named["visible_kink"] = visible_kink;
     named["steep_kink"] = steep_kink;
     named["turned_back"] = turned_back;
@@ -80,6 +93,10 @@ void bind_shape(py::module_& module) {
     module.attr("LIMITS") = limits();
     module.def("girth", &girth_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"));
     module.def("knobs", &knob_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"), py::arg("before"));
+    module.def("sunken", &sunken_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("normals"),
+               py::arg("fixed"));
+    module.def("has_lost_grain", &lost_grain_in, py::arg("before"), py::arg("after"), py::arg("inside"),
+               py::arg("outside"));
     module.def("flank", &flank_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("around"), py::arg("fixed"));
     module.def("needles", &needle_arrays, py::arg("vertices"), py::arg("triangles"));
     module.def("seam_kinks", &seam_kink_array, py::arg("vertices"), py::arg("triangles"), py::arg("held"),

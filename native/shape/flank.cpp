@@ -127,6 +127,14 @@ double end_of_flank(const Leans& outside, double sign, double radius) {
     return static_cast<double>(step + 1) * end_step;
 }
 
+// Whether the surface leaves its boundary so steeply that this is no slope but the stump of a limb.
+bool stands_on_end(const Patch& patch, const Points& points, const Frames& frames) {
+    Vector3 axis = Vector3::Zero();
+    for (const auto corners : patch.triangles.colwise()) axis += area_vector(points, corners);
+    const double facing = (direction(axis).transpose() * frames.normals).mean();
+    return facing < std::cos(steepest_flank * std::numbers::pi / 180.0);
+}
+
 double radius_of(const Points& points, const Triangles& triangles) {
     double doubled = 0.0;
     for (const auto corners : triangles.colwise()) doubled += area_vector(points, corners).norm();
@@ -139,6 +147,7 @@ std::optional<Flank> flank_of(const Patch& patch, const Points& points, const Ar
     const double radius = radius_of(points, patch.triangles);
     if (!is_plain_disc(patch) || !(radius > 0.0)) return std::nullopt;
     const Frames frames = frames_of(patch, points);
+    if (stands_on_end(patch, points, frames)) return std::nullopt;
     const Eigen::Index count = frames.middles.cols();
     const auto inside = means_within(leans(frames, points, patch.triangles, -1.0), inside_band, radius, count);
     double sum = 0.0;

@@ -223,7 +223,7 @@ def test_the_outside_of_a_sheet_is_refused() -> None:
     assert len(error.value.elements) == 32
 
 
-def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) -> Verdict:
+def judged(points: Floats, join: Join, **of_result: object) -> Verdict:
     """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
     flat, triangles, rim = disc(3)
     sheet = polygon_mesh(flat, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
@@ -231,8 +231,7 @@ def judged(points: Floats, join: Join, *tangent_only: int, **of_result: object) 
     usual = {"converged": True, "termination": "converged", "equation": "harmonic", "loops": (np.arange(rim),)}
     usual["girth"] = None
     result = SimpleNamespace(**{**usual, **of_result})
-    only_tangent = np.array(tangent_only, dtype=np.int64)
-    return judge(empty, np.arange(rim), Surface(points, triangles, result, join, only_tangent), empty.triangles)  # type: ignore[arg-type]
+    return judge(empty, np.arange(rim), Surface(points, triangles, result, join), empty.triangles)  # type: ignore[arg-type]
 
 
 def test_what_has_not_converged_is_unusable() -> None:
@@ -267,12 +266,6 @@ def test_a_kink_is_worth_a_look_where_it_is_seen() -> None:
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [2])
     assert "1 vertex of the boundary, of 30°" in verdict.reason
     assert judged(points, joined(20.0, limit=25.0)).grade == GOOD
-
-
-def test_a_curvature_that_is_not_continued_is_worth_a_look() -> None:
-    verdict = judged(disc(3)[0], joined(), 4, 5)
-    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [4, 5])
-    assert "not continued at 2 vertices" in verdict.reason
 
 
 def test_the_curvature_around_is_continued_where_it_can_be() -> None:

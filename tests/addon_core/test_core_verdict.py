@@ -14,10 +14,12 @@ from core.arrays import Ints
 from core.eaten import Eaten
 from core.evidence import Evidence, Flank
 from core.findings import Origin
+from core.lost import Lost
 from core.options import FairOptions
 from core.outcome import outcome
 from core.quality import Join, Quality
 from core.region import MeshArrays
+from core.selection import left_out
 from core.solve import pose, solve
 from core.verdict import (
     ADD_LEFT_OUT,
@@ -28,6 +30,7 @@ from core.verdict import (
     GROW,
     GROW_OVER,
     HOLD_BORDER,
+    KEEP_DETAIL,
     LOOK,
     SMOOTH_OUTLINE,
     UNUSABLE,
@@ -48,6 +51,7 @@ def ints(*numbers: int) -> Ints:
 
 
 CLEAN = Quality(ints(), ints(), ints())
+SEEN = Join(ints(5, 6), np.array([1.0, 20.0]), ints(1))
 
 
 @pytest.fixture(scope="module")
@@ -120,6 +124,48 @@ def test_a_waist_and_a_balloon_deserve_a_look_and_even_curvature(
     assert EVEN_CURVATURE not in judged(taken).remedies  # it is what Automatic has taken
     for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
         assert judged(tube, **meant).grade == GOOD, meant
+
+
+def test_a_surface_that_sinks_deserves_a_look(fine: Evidence) -> None:
+    sunk = replace(fine, lost=Lost(0.07, ints(3, 4)))
+    verdict = judged(sunk)
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [3, 4])
+    assert verdict.reason == "The surface sinks by 7% of its width: a ridge, a bevel or a girth is lost"
+    for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
+        assert judged(sunk, **meant).grade == GOOD, meant
+
+
+def test_a_skin_that_is_gone_deserves_a_look_and_offers_to_keep_it(fine: Evidence) -> None:
+    smooth = replace(fine, lost=Lost(is_smoother=True))
+    verdict = judged(smooth)
+    assert (verdict.grade, verdict.remedies[0]) == (LOOK, KEEP_DETAIL)
+    assert verdict.reason.startswith("The surface is smoother than around")
+    assert judged(smooth, detail=1.0).grade == GOOD
+    assert judged(smooth, factor=0.5).grade == GOOD
+
+
+def test_a_border_that_moved_far_deserves_a_look_and_offers_to_hold_it(fine: Evidence) -> None:
+    verdict = judged(replace(fine, lost=Lost(border=ints(7))), open_border="FAIRED")
+    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [7])
+    assert HOLD_BORDER in verdict.remedies
+
+
+def test_over_a_hard_outline_nothing_is_grown(fine: Evidence) -> None:
+    """The flat top of a box would become a dome."""
+    hard = replace(fine, join=SEEN, problem=replace(fine.problem, inward=ints(1, 2)))
+    assert GROW in judged(replace(fine, join=SEEN)).remedies
+    assert GROW not in judged(hard).remedies
+
+
+@pytest.mark.parametrize(("at", "is_kept"), [(0.0, True), (None, False)])
+def test_a_shown_key_with_a_shape_of_its_own_deserves_a_look(at: float | None, is_kept: bool) -> None:
+    """A hill in the selection; not a key that bends its surroundings, and the selection with them."""
+    x, y = MESH.positions[:, 0], MESH.positions[:, 1]
+    height = 0.3 * x if at is None else 0.5 * np.exp(-20.0 * ((x - at) ** 2 + y**2))
+    keyed = replace(MESH, shown_offsets=np.column_stack([0.0 * x, 0.0 * x, height]))
+    found = outcome(keyed, np.eye(4), FairOptions(), solve(keyed, np.eye(4), FairOptions())).verdict
+    assert (found.grade == LOOK) == is_kept
+    assert ("shape key" in found.reason) == is_kept
 
 
 def test_an_outline_on_a_slope_deserves_a_look_and_offers_the_way_over_it(fine: Evidence) -> None:
@@ -243,10 +289,8 @@ def test_a_smoothed_shape_deserves_a_look(fine: Evidence) -> None:
     assert "old shape" in verdict.reason
 
 
-def test_good_is_only_what_was_asked_for(fine: Evidence) -> None:
-    verdict = judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2")
-    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, fine.problem.vertices[[4, 2]].tolist())
-    assert verdict.reason == "The curvature outside is not continued at 2 vertices of the boundary, as was asked for"
+def test_a_skin_that_was_asked_for_and_is_not_there_deserves_a_look(fine: Evidence) -> None:
+    assert judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2").grade == GOOD  # a note says so
     for skin in ("old_skin", "sample_skin"):
         verdict = judged(with_warning(fine, "REFERENCE_UNUSABLE", ints(), **{skin: 1.0}), detail=1.0)
         assert (verdict.grade, verdict.reason) == (
@@ -344,13 +388,7 @@ def test_what_the_eye_does_not_see_is_good(fine: Evidence) -> None:
     assert judged(replace(fine, join=Join(ints(7), np.array([20.0])))).grade == GOOD  # a coarse cage
 
 
-def test_new_needles_deserve_a_look(fine: Evidence) -> None:
-    needle = replace(CLEAN, needles=ints(FACE), shown=ints(FACE))
-    assert judged(replace(fine, after=needle)).spots.tolist() == CORNERS
-    assert judged(replace(fine, before=needle, after=needle)).grade == GOOD
-
-
-def test_needles_that_no_one_sees_are_good(fine: Evidence) -> None:
+def test_needles_are_counted_and_not_worth_a_word(fine: Evidence) -> None:
     assert judged(replace(fine, after=replace(CLEAN, needles=ints(FACE)))).grade == GOOD
 
 
@@ -389,18 +427,12 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
 
 
-@pytest.mark.parametrize(("count", "grade"), [(1, GOOD), (2, GOOD), (3, LOOK)])
-def test_several_faces_left_out_within_deserve_a_look(count: int, grade: str) -> None:
-    whole = grid(24, 0.6, on_sphere)
-    mesh = without_faces(whole, count)
-    found = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
-    assert (ADD_LEFT_OUT in found.remedies) == (grade == LOOK)
-    if grade == LOOK:
-        assert found.reason.startswith(f"{count} faces inside are left out of the selection")
-        corners = mesh.corner_vertices[(whole.in_patch & ~mesh.in_patch)[mesh.corner_faces]]
-        assert found.spots.tolist() == np.unique(corners).tolist()
-    else:
-        assert "left out of the selection" not in found.reason
+def test_faces_left_out_within_are_offered_where_something_is_wrong(fine: Evidence) -> None:
+    mesh = without_faces(grid(24, 0.6, on_sphere), 3)
+    assert outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict.grade == GOOD
+    kinked = replace(fine, left_out=left_out(mesh), join=SEEN)
+    assert ADD_LEFT_OUT in judged(kinked).remedies
+    assert ADD_LEFT_OUT not in judged(replace(fine, join=SEEN)).remedies
 
 
 def without_faces(mesh: MeshArrays, count: int) -> MeshArrays:

@@ -49,11 +49,13 @@ from fairing._shape import (
     Needles,
     flank,
     girth,
+    has_lost_grain,
     is_spoilt,
     knobs,
     needles,
     rounded_edges,
     seam_kinks,
+    sunken,
 )
 from fairing._solver import Solver
 from fairing._subdivided import SubdividedEdges, subdivide_edges
@@ -119,6 +121,7 @@ __all__ = [
     "girth",
     "grown_outline",
     "hard_edges",
+    "has_lost_grain",
     "hierarchy",
     "hole_loops",
     "interpolate",
@@ -134,6 +137,7 @@ __all__ = [
     "seam_kinks",
     "self_intersections",
     "subdivide_edges",
+    "sunken",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",

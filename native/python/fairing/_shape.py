@@ -86,6 +86,40 @@ def flank(
     return None if found is None else Flank(*found)
 
 
+def sunken(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    normals: npt.ArrayLike,
+    *,
+    fixed: npt.ArrayLike | None = None,
+) -> tuple[float, IntArray]:
+    """(depth, where): how far discs sink below the lines that run on across them, a share of their lengths; 0: nowhere.
+
+    A line runs from one vertex of the boundary to another as a cubic that leaves both along the tangent planes of the
+    ``normals`` there: unit vectors (n, 3), of which only those of the fixed vertices count, and zeros don't. Only lines
+    that go straight on are drawn; the depth is the median over them, and the vertices are those as deep as that,
+    ascending. Components with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
+    """
+    points, faces, held = _bounded(vertices, triangles, fixed)
+    directions = _arguments.floats("normals", normals)
+    if directions.shape != points.shape:
+        raise ValueError(f"normals: expected one for each of {len(points)} vertices, got shape {directions.shape}")
+    return _core.sunken(points, faces, directions, held)
+
+
+def has_lost_grain(before: npt.ArrayLike, after: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
+    """Whether the triangles ``inside`` had the pores and the noise of those ``outside``, (m, 3) each, and have no more.
+
+    Grain turns the normals (n, 3) of a surface away from their means over some six edges: by 1.5° or more in the median
+    and evenly, as features don't. ``before`` and ``after`` are positions (n, 3).
+    """
+    old, new = _arguments.floats("before", before), _arguments.floats("after", after)
+    if old.shape != new.shape:
+        raise ValueError(f"after: expected shape {old.shape} as of before, got {new.shape}")
+    within = _arguments.triangles_within(inside, old.shape[0])
+    return _core.has_lost_grain(old, new, within, _arguments.triangles_within(outside, old.shape[0]))
+
+
 def needles(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> Needles:
     """Triangles without a height, and those of them that are seen."""
     points = _arguments.floats("vertices", vertices)

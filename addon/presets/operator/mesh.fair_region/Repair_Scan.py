@@ -21,6 +21,7 @@ op.falloff = 0.15
 op.smooth_boundary = False
 op.vertex_group = ""
 op.use_mask = False
+op.all_keys = False
 op.detail_from = ""
 op.detail_face_set = 0
 op.pin_group = ""

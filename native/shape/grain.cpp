@@ -1,0 +1,134 @@
+#include "shape/grain.h"
+
+#include <algorithm>
+#include <array>
+
+#include "base/direction.h"
+#include "geometry/angle.h"
+#include "mesh/collapsed.h"
+#include "mesh/edges.h"
+#include "shape/limits.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int steps = 8;           // of smoothing: what is longer than some six edges is shape
+constexpr int mixed_rings = 2;     // from the outline on, where normals know the other side
+constexpr std::size_t fewest = 4;  // vertices that say something
+
+using Marks = std::vector<char>;
+
+Marks corners(const Triangles& triangles, Eigen::Index vertex_count) {
+    Marks found(static_cast<std::size_t>(vertex_count), 0);
+    for (const int v : triangles.reshaped()) found[v] = 1;
+    return found;
+}
+
+void grow(const EdgeTable& edges, int rings, Marks& marked) {
+    for (int ring = 0; ring < rings; ++ring) {
+        Marks next = marked;
+        for (const auto& [a, b] : edges.ends) {
+            if (marked[a]) next[b] = 1;
+            if (marked[b]) next[a] = 1;
+        }
+        marked = std::move(next);
+    }
+}
+
+Points unit_columns(Points vectors) {
+    for (auto column : vectors.colwise()) column = direction(Vector3(column));
+    return vectors;
+}
+
+Points vertex_normals(const Points& points, const Triangles& triangles) {
+    Points sums = Points::Zero(3, points.cols());
+    for (const auto corner : triangles.colwise()) {
+        const Vector3 a = points.col(corner[0]);
+        const Vector3 area = (points.col(corner[1]) - a).cross(Vector3(points.col(corner[2]) - a));
+        for (const int v : corner) sums.col(v) += area;
+    }
+    return unit_columns(std::move(sums));
+}
+
+// Degrees between each vertex's normal and the mean of those around it.
+VectorX deviations(const Points& points, const Triangles& triangles, const EdgeTable& edges) {
+    const Points normals = vertex_normals(points, triangles);
+    VectorX valence = VectorX::Zero(points.cols());
+    for (const auto& [a, b] : edges.ends) {
+        valence[a] += 1.0;
+        valence[b] += 1.0;
+    }
+    Points smooth = normals;
+    for (int step = 0; step < steps; ++step) {
+        Points sums = Points::Zero(3, points.cols());
+        for (const auto& [a, b] : edges.ends) {
+            sums.col(a) += smooth.col(b);
+            sums.col(b) += smooth.col(a);
+        }
+        smooth = 0.5 * (smooth + sums * valence.cwiseMax(1.0).cwiseInverse().asDiagonal());
+    }
+    VectorX degrees(points.cols());
+    for (Eigen::Index v = 0; v < degrees.size(); ++v) {
+        degrees[v] = degrees_between(normals.col(v), Vector3(smooth.col(v)));
+    }
+    return degrees;
+}
+
+struct Quartiles {
+    double lower = 0.0;
+    double median = 0.0;
+    double upper = 0.0;
+};
+
+Quartiles quartiles(const VectorX& values, const Marks& where) {
+    std::vector<double> chosen;
+    for (Eigen::Index v = 0; v < values.size(); ++v) {
+        if (where[static_cast<std::size_t>(v)]) chosen.push_back(values[v]);
+    }
+    std::sort(chosen.begin(), chosen.end());
+    return {chosen[chosen.size() / 4], chosen[chosen.size() / 2], chosen[3 * chosen.size() / 4]};
+}
+
+struct Parts {
+    Marks inside;
+    Marks around;
+};
+
+// The vertices away from the outline, and from where the surroundings end.
+Parts parts_of(const Triangles& inside, const Triangles& outside, const EdgeTable& edges, Eigen::Index vertex_count) {
+    Parts parts{corners(inside, vertex_count), corners(outside, vertex_count)};
+    Marks mixed(parts.inside.size(), 0);
+    for (std::size_t v = 0; v < mixed.size(); ++v) mixed[v] = parts.inside[v] && parts.around[v];
+    for (int e = 0; e < edges.size(); ++e) {
+        if (edges.side_count(e) == 1) mixed[edges.ends[e][0]] = mixed[edges.ends[e][1]] = 1;
+    }
+    grow(edges, mixed_rings, mixed);
+    for (std::size_t v = 0; v < mixed.size(); ++v) {
+        parts.inside[v] = parts.inside[v] && !mixed[v];
+        parts.around[v] = parts.around[v] && !mixed[v];
+    }
+    return parts;
+}
+
+std::size_t count(const Marks& marks) { return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1)); }
+
+}  // namespace
+
+bool has_lost_grain(const Smoothed& mesh) {
+    const Triangles inside = without_collapsed(mesh.inside);
+    const Triangles outside = without_collapsed(mesh.outside);
+    Triangles all(3, inside.cols() + outside.cols());
+    all << inside, outside;
+    const EdgeTable edges = make_edges(all, static_cast<int>(mesh.after.cols()));
+    const Parts parts = parts_of(inside, outside, edges, mesh.after.cols());
+    if (std::min(count(parts.inside), count(parts.around)) < fewest) return false;
+    const VectorX now = deviations(mesh.after, all, edges);
+    const Quartiles around = quartiles(now, parts.around);
+    if (around.median < seen_grain || around.upper > even_grain * around.lower) return false;
+    const Quartiles here = quartiles(now, parts.inside);
+    if (here.median > lost_grain * around.median) return false;
+    return quartiles(deviations(mesh.before, all, edges), parts.inside).median > 0.5 * around.median;
+}
+
+}  // namespace fairing

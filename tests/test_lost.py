@@ -1,0 +1,93 @@
+"""What a surface loses: its girth, below the lines that run on across it, and the grain of its surroundings."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import pytest
+
+import fairing
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+SIZE = 40
+HALF = 14  # of the patch, in cells
+
+
+def sheet() -> tuple[FloatArray, FloatArray, IntArray, npt.NDArray[np.bool_]]:
+    """x, y (n,) over [−1, 1]², the triangles of a grid (m, 3), and which of these are in a square in its middle."""
+    steps = np.linspace(-1.0, 1.0, SIZE + 1)
+    x, y = (places.ravel() for places in np.meshgrid(steps, steps))
+    i, j = (index.ravel() for index in np.mgrid[:SIZE, :SIZE])
+    a = i * (SIZE + 1) + j
+    triangles = np.concatenate(
+        [np.column_stack([a, a + 1, a + SIZE + 2]), np.column_stack([a, a + SIZE + 2, a + SIZE + 1])]
+    )
+    centre = np.stack([x, y], axis=1)[triangles].mean(axis=1)
+    return x, y, triangles, np.abs(centre).max(axis=1) < 2.0 * HALF / SIZE
+
+
+def on_cylinder(x: FloatArray, y: FloatArray, hollow: float) -> tuple[FloatArray, FloatArray]:
+    """Points (n, 3) on a cylinder along y with a hollow in its middle, and the cylinder's normals."""
+    lost = (
+        hollow * np.cos(0.5 * np.pi * np.clip(x / 0.7, -1, 1)) ** 2 * np.cos(0.5 * np.pi * np.clip(y / 0.7, -1, 1)) ** 2
+    )
+    normals = np.column_stack([np.sin(x), 0.0 * x, np.cos(x)])
+    return normals + np.column_stack([0.0 * x, y, 0.0 * x]) - lost[:, None] * normals, normals
+
+
+def depth(hollow: float) -> float:
+    x, y, triangles, inside = sheet()
+    points, normals = on_cylinder(x, y, hollow)
+    used = np.unique(triangles[inside])
+    number = np.full(len(x), -1)
+    number[used] = np.arange(len(used))
+    return fairing.sunken(points[used], number[triangles[inside]], normals[used])[0]
+
+
+def test_a_cylinder_does_not_sink_and_a_hollow_one_does() -> None:
+    assert abs(depth(0.0)) < 0.004
+    found = [depth(hollow) for hollow in (0.05, 0.1, 0.2)]
+    # At a line's middle it is as deep as the hollow; the median is over lines of 0.84 to 1.98 that run beside it, too.
+    for share, hollow in zip(found, (0.05, 0.1, 0.2), strict=True):
+        assert hollow / 1.98 / 2.0 < share < hollow / 0.84
+
+
+def test_lines_that_leave_to_the_other_side_see_no_hollow() -> None:
+    """A dome swells: it is above them."""
+    assert depth(-0.1) == 0.0
+
+
+def test_normals_are_one_for_each_vertex() -> None:
+    with pytest.raises(ValueError, match="normals: expected one for each of 4 vertices"):
+        fairing.sunken(np.eye(4)[:, :3], [[0, 1, 2], [0, 2, 3]], np.zeros((3, 3)))
+
+
+def lost_grain(noise: float, where: str, kept: float = 0.0, ridges: bool = False) -> bool:
+    """Whether grain of that many cells is lost where the patch is smoothed to a share of it."""
+    x, y, triangles, inside = sheet()
+    rng = np.random.default_rng(1)
+    height = rng.normal(size=len(x)) * noise * 2.0 / SIZE
+    if ridges:
+        height = np.where(np.abs(np.round(4.0 * x) - 4.0 * x) < 0.06, 3.0 * noise * 2.0 / SIZE, 0.0)
+    free = np.setdiff1d(triangles[inside], triangles[~inside])
+    before, after = height.copy(), height.copy()
+    after[free] *= kept
+    if where == "around":  # the old patch was smooth already
+        before[free] = 0.0
+    points = [np.column_stack([x, y, 0.3 * np.cos(x) + z]) for z in (before, after)]
+    return fairing.has_lost_grain(*points, triangles[inside], triangles[~inside])
+
+
+def test_grain_that_is_gone_is_lost() -> None:
+    assert lost_grain(0.1, "everywhere")
+    assert not lost_grain(0.1, "everywhere", kept=0.8)  # it was put back
+
+
+def test_no_grain_is_lost_that_is_not_seen_or_was_not_there() -> None:
+    assert not lost_grain(0.005, "everywhere")
+    assert not lost_grain(0.1, "around")
+
+
+def test_features_are_no_grain() -> None:
+    assert not lost_grain(0.1, "everywhere", ridges=True)
