@@ -16,7 +16,7 @@
 #include "boundary/surrounding_fit.h"
 #include "mesh/loops.h"
 
-struct fairing_result {
+struct fairing_result {  // NOLINT(readability-identifier-naming): as the header calls it
     fairing::FairResult found;
     std::string equation;
     std::string termination;

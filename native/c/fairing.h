@@ -13,6 +13,8 @@
 extern "C" {
 #endif
 
+/* NOLINTBEGIN(readability-identifier-naming): C has one room for all names */
+
 #if defined(_WIN32) && defined(FAIRING_BUILDS_LIBRARY)
 #define FAIRING_API __declspec(dllexport)
 #elif defined(_WIN32)
@@ -94,6 +96,8 @@ FAIRING_API const char* fairing_warning_code(const fairing_result* result, int w
 FAIRING_API const char* fairing_warning_message(const fairing_result* result, int warning);
 /* The vertices or triangles that it is about; their number goes to `count`. */
 FAIRING_API const int* fairing_warning_elements(const fairing_result* result, int warning, int* count);
+
+/* NOLINTEND(readability-identifier-naming) */
 
 #ifdef __cplusplus
 }
