@@ -60,7 +60,7 @@ def of_operators() -> Iterator[str]:
         for name in dir(room):
             if name.startswith("fair") and not name.endswith("preset_add"):
                 for option in getattr(room, name).get_rna_type().properties:
-                    if option.identifier not in ("rna_type", "option") and not option.is_hidden:
+                    if option.identifier != "option" and option.type != "POINTER" and not option.is_hidden:
                         yield from (option.name, option.description)
                         for item in getattr(option, "enum_items", ()):
                             yield from (item.name, item.description)
