@@ -103,17 +103,17 @@ def checkered_ear() -> tuple[bpy.types.Object, Any]:
 
 
 def constant(bulge: float) -> dict[str, Any]:
-    return {"equation": "CONSTANT", "bulge": bulge}
+    return {"shape": "HARMONIC", "bulge": bulge}
 
 
 def multigrid(**options: Any) -> dict[str, Any]:
-    return {"method": "PAPER", **options}
+    return {"multigrid": True, **options}
 
 
 WEIGHTS = ("UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING")
 ROWS: dict[str, tuple[Scene, tuple[Options, ...]]] = {
     "factor": (ear, (None, {"factor": 0.5}, {"factor": 1.0})),
-    "shape": (ball, (None, {}, {"equation": "MINIMAL_ENERGY"}, {"equation": "MINIMAL"})),
+    "shape": (ball, (None, {}, {"shape": "MINIMAL_ENERGY"}, {"continuity": "G0"})),
     "bulge": (hill, tuple(constant(b) for b in (-0.5, 0.0, 0.3, 0.6))),
     "vertices": (checkered_ear, (None, *({"inner_fairness": w} for w in WEIGHTS))),
     "tangent": (mesa, (None, *({"boundary_normals": source} for source in ("SURROUNDING", "AVERAGE", "CUSTOM")))),
@@ -141,7 +141,7 @@ def tile(scene: Scene, options: Options, path: Path) -> Path:
         pictures.tint(obj.data, faces)
     if options is not None:
         scenes.select(obj, faces)
-        bpy.ops.mesh.fair_region("EXEC_DEFAULT", accept="ALL", **options)
+        bpy.ops.mesh.fair_region("EXEC_DEFAULT", allow_folds=True, **options)
         bpy.ops.object.mode_set(mode="OBJECT")
         report = bpy.context.window_manager.fairing_report
         print(f"{path.stem}: converged {report.converged}, distortion {report.distortion:.3f}", flush=True)
