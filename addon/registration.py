@@ -24,10 +24,11 @@ from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
+from .run.peek import MESH_OT_fair_peek
 from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import fillet_preview, keymap, marks, menus, overlay, tab, ui
+from .show import fillet_preview, keymap, marks, menus, overlay, tab, tools, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
 
@@ -52,10 +53,12 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_spots,
     MESH_OT_fair_reselect,
     MESH_OT_fair_cancel,
+    MESH_OT_fair_peek,
     MESH_OT_fair_pick_skin,
     MESH_OT_fair_reset,
     *presets.CLASSES,
     *menus.MENUS,
+    *tools.MACROS,
     *TOOLS,
     MESH_OT_fair_again,
     watch.MESH_OT_fair_inspect,
@@ -87,6 +90,7 @@ def register() -> None:
     marks.register()
     tab.register()
     keymap.register()
+    tools.register()
     undone.register()
     file_owned.register()
     translations.register()
@@ -101,6 +105,7 @@ def unregister() -> None:
     translations.unregister()
     file_owned.unregister()
     undone.unregister()
+    tools.unregister()
     keymap.unregister()
     tab.unregister()
     marks.unregister()

@@ -53,7 +53,7 @@ def run(patch: dict[str, Any], out: Path) -> tuple[list[Path], dict[str, str]]:
     stem = real.name(patch).replace(" ", "_")
     paths = [out / f"{stem}_before.png", out / f"{stem}_after.png"]
     pictures.shaded(paths[0])
-    meshes.fair(obj, faces, accept="ALL")
+    meshes.fair(obj, faces, allow_folds=True)
     pictures.shaded(paths[1])
     report = meshes.report()
     figures = {name: report.checks[name].value for name in CHECKS}

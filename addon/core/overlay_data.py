@@ -9,6 +9,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .curvatures import gaussian_curvature, largest_principal
 from .findings import Origin
 from .region import MeshArrays
 from .sentences import in_mesh_words
@@ -24,16 +25,37 @@ class Surface:
     triangles: Ints  # (t, 3)
     normals: Floats  # (n, 3) unit, fitted
     curvature: Floats  # (n,) H in 1/length, negative where it is convex from outside
+    gaussian: Floats  # (n,) K in 1/length²
+    deviation: Floats  # (n,) from the surface before the last run, in world space
+
+    def values(self, mode: str) -> Floats:
+        """Return what is drawn in colours (n,): CURVATURE, GAUSSIAN, PRINCIPAL or DEVIATION."""
+        if mode == "PRINCIPAL":
+            return largest_principal(self.curvature, self.gaussian)
+        return {"GAUSSIAN": self.gaussian, "DEVIATION": self.deviation}.get(mode, self.curvature)
+
+    def usual(self, mode: str) -> float:
+        """The 90th percentile of the values' sizes, so that a few spikes don't wash the colours out.
+
+        Of deviations the largest: most are 0.
+        """
+        used = np.unique(self.triangles)
+        sizes = np.abs(self.values(mode)[used])
+        return float(np.percentile(sizes, 100 if mode == "DEVIATION" else 90)) if len(used) else 0.0
+
+    def largest(self, mode: str) -> float:
+        """The value of the largest size, with its sign."""
+        shown = self.values(mode)[np.unique(self.triangles)]
+        return float(shown[np.abs(shown).argmax()]) if len(shown) else 0.0
 
     @property
     def largest_curvature(self) -> float:
-        """The 90th percentile of |H|, so that a few spikes don't wash the colours out."""
-        used = np.unique(self.triangles)
-        return float(np.percentile(np.abs(self.curvature[used]), 90)) if len(used) else 0.0
+        """The usual size of H."""
+        return self.usual("CURVATURE")
 
 
-def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool) -> Surface:
-    """Measure the patch of the mesh, or the whole of it, in world space.
+def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Floats | None = None) -> Surface:
+    """Measure the patch of the mesh, or the whole of it, in world space; deviation: (n,) of all its vertices.
 
     Raises MeshRefusal where the triangles are no surface, and ValueError for a flat object.
     """
@@ -47,11 +69,14 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool) -> Surface:
     number = np.zeros(len(world.positions), dtype=np.int64)
     number[used] = np.arange(len(used))
     with in_mesh_words(Origin(used, triangles, world.triangle_faces[grown])):
+        normals = fairing.vertex_normals(positions, triangles)
         return Surface(
             positions=positions,
             triangles=number[world.triangles[shown]],
-            normals=fairing.vertex_normals(positions, triangles),
+            normals=normals,
             curvature=fairing.mean_curvature(positions, triangles),
+            gaussian=gaussian_curvature(positions, triangles, normals),
+            deviation=np.zeros(len(used)) if deviation is None else deviation[used],
         )
 
 

@@ -70,6 +70,16 @@ def _pair(object_name: str, before: Floats, outcome: Fairing, normals: Floats | 
     )
 
 
+def positions_before(object_name: str, positions: Floats) -> Floats | None:
+    """Return all positions (n, 3) as they were before the last run; None where it was not about this object."""
+    for pair in _last.pairs:
+        if pair.object_name == object_name and pair.vertex_count == len(positions):
+            before = positions.copy()
+            before[pair.vertices] = pair.before
+            return before
+    return None
+
+
 def forget() -> None:
     """Drop what was kept."""
     _last.pairs = ()

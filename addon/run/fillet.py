@@ -103,6 +103,7 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
     _tasks: list[Task]
     _timer: Any = None
     if TYPE_CHECKING:  # made from a table
+        confirm_on_release: bool
         width: float
         profile: float
         width_group: str
@@ -154,7 +155,8 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         if event.type in ("ESC", "RIGHTMOUSE") and event.value == "PRESS":
             self.cancel(context)
             return {"CANCELLED"}
-        if event.type in ("LEFTMOUSE", "RET", "NUMPAD_ENTER") and event.value == "PRESS":
+        released = self.confirm_on_release and event.type == "LEFTMOUSE" and event.value == "RELEASE"
+        if released or (event.type in ("LEFTMOUSE", "RET", "NUMPAD_ENTER") and event.value == "PRESS"):
             return self._accept(context)
         if event.type == "MOUSEMOVE":
             self._drag(event)

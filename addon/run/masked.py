@@ -13,7 +13,7 @@ from typing import Any
 
 import bpy
 import numpy as np
-from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..core.arrays import Floats, Ints
 from ..core.engine import REFUSALS, Progress
@@ -101,6 +101,12 @@ class MESH_OT_fair_masked(FairProperties, Picks, Watched, bpy.types.Operator):
         min=0,
         options={"HIDDEN"},
     )
+    under_mouse: BoolProperty(
+        name="Under the Mouse",
+        description="Take the face set that the mouse is over, as a tool of the toolbar does",
+        default=False,
+        options={"HIDDEN", "SKIP_SAVE"},
+    )
     group: StringProperty(name="Faces Of", description="Name of the vertex group; empty: the active one")
 
     _task: Task
@@ -121,8 +127,10 @@ class MESH_OT_fair_masked(FairProperties, Picks, Watched, bpy.types.Operator):
         self.layout.prop(self, "source")
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Let a face set be clicked, where several are in sight; fair in the background where that takes a while."""
+        if self.under_mouse:
+            return self._picked(context, event)
         mesh = active_object(context).data
         if self.source != "FACE_SET" or self.face_set or painted.only_visible_face_set(mesh):
             return self._begin_with(context, self._solve_or_start)

@@ -11,7 +11,7 @@ from ..core.fair_options import FAIR
 from ..core.fill_options import FILL, FILLET
 from ..core.option_table import Before, Option, Table, from_names_before, names_before, warn_of_names_before
 
-_OLD = {"HIDDEN", "SKIP_SAVE"}
+_HIDDEN = {"HIDDEN", "SKIP_SAVE"}
 _FRESH = {"SKIP_SAVE"}  # each click begins with the defaults
 
 
@@ -47,7 +47,7 @@ def _ranges(option: Option) -> dict[str, float]:
 
 
 def _old_property(option: Option, before: Before) -> Any:
-    texts = {"name": option.label, "description": f"Now called {option.name}", "options": _OLD}
+    texts = {"name": option.label, "description": f"Now called {option.name}", "options": _HIDDEN}
     if before.values:
         items = tuple((value, value, "") for value in before.values)
         default = before.values[int(option.default)] if option.values else option.default
@@ -94,4 +94,12 @@ class FilletProperties(_Chosen):
     """The options of `mesh.fair_fillet`."""
 
     table = FILLET
-    __annotations__ = properties_of(FILLET)
+    __annotations__ = {
+        **properties_of(FILLET),
+        "confirm_on_release": BoolProperty(
+            name="Confirm on Release",
+            description="Accept when the button of the mouse is let go, as a tool of the toolbar does",
+            default=False,
+            options=_HIDDEN,
+        ),
+    }

@@ -1,4 +1,7 @@
-"""Entries of the keymap without a key: Preferences ▸ Keymap binds them. Recommended: Alt Shift F for the pie menu."""
+"""Entries of the keymap without a key, which Preferences, Keymap binds.
+
+Recommended: Alt Shift F for the pie menu, Alt Shift B to see the shape before as long as it is held.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ from typing import Any
 
 import bpy
 
+from ..run.peek import MESH_OT_fair_peek
 from .menus import VIEW3D_MT_fair_pie
 
 _MODES = (("Mesh", "EMPTY"), ("Sculpt", "EMPTY"), ("Object Mode", "EMPTY"))
@@ -22,6 +26,8 @@ def register() -> None:
         entry = keymap.keymap_items.new("wm.call_menu_pie", "NONE", "PRESS")
         entry.properties.name = VIEW3D_MT_fair_pie.__name__
         _entries.append((keymap, entry))
+        if mode == "Mesh":
+            _entries.append((keymap, keymap.keymap_items.new(MESH_OT_fair_peek.bl_idname, "NONE", "PRESS")))
 
 
 def unregister() -> None:

@@ -13,12 +13,17 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..core import signals
+from ..core.arrays import Floats
 from ..core.options import FairOptions
 from ..core.overlay_data import Surface, make_surface
+from ..core.region import MeshArrays
 from ..host.context import active_object, edited_objects
 from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
 from ..host.status import redraw_views
 from ..mesh import mesh_io
+from ..mesh.deviation import deviation
+from ..run import compare
+from . import legend
 from .overlay_shader import make_shader
 
 DELAY = 0.02  # seconds from a change to the next measurement
@@ -31,6 +36,7 @@ class Overlay:
         self.surfaces: tuple[Surface, ...] = ()
         self.message = ""
         self.handle: Any = None
+        self.legend: Any = None
         self._shader: Any = None
         self._batches: list[Any] = []
 
@@ -43,8 +49,10 @@ class Overlay:
 
     def _surface(self, obj: bpy.types.Object, whole: bool) -> Surface | None:
         mesh = mesh_io.read_shown_mesh(obj, FairOptions())
+        matrix = np.array(obj.matrix_world, dtype=np.float64)
+        wanted = bpy.context.window_manager.fairing_overlay.mode == "DEVIATION"
         try:
-            return make_surface(mesh, np.array(obj.matrix_world, dtype=np.float64), whole)
+            return make_surface(mesh, matrix, whole, _deviation(obj.name, mesh, matrix) if wanted else None)
         except ValueError as cause:  # no surface: a message instead of a wrong picture
             self.message = f"{obj.name}: {cause}"
             return None
@@ -55,9 +63,9 @@ class Overlay:
             return
         if self._shader is None:
             self._shader = make_shader()
-        if not self._batches:
-            self._batches = [_batch(self._shader, surface) for surface in self.surfaces]
         settings = context.window_manager.fairing_overlay
+        if not self._batches:
+            self._batches = [_batch(self._shader, surface, settings.mode) for surface in self.surfaces]
         gpu.state.depth_test_set("LESS_EQUAL")
         gpu.state.blend_set("ALPHA")
         for surface, batch in zip(self.surfaces, self._batches, strict=True):
@@ -82,11 +90,11 @@ def _shown(context: bpy.types.Context) -> list[bpy.types.Object]:
     return [obj] if obj is not None and obj.type == "MESH" else []
 
 
-def _batch(shader: Any, surface: Surface) -> Any:
+def _batch(shader: Any, surface: Surface, mode: str) -> Any:
     content = {
         "position": surface.positions.astype(np.float32),
         "normal": surface.normals.astype(np.float32),
-        "curvature": surface.curvature.astype(np.float32),
+        "curvature": surface.values(mode).astype(np.float32),
     }
     return batch_for_shader(shader, "TRIS", content, indices=surface.triangles.astype(np.int32))
 
@@ -99,12 +107,37 @@ def _set_constants(shader: Any, settings: Any, view: Any, surface: Surface) -> N
     eye = inverse.translation if perspective else inverse.col[2].xyz
     shader.uniform_float("eye", (*eye, float(perspective)))
     shader.uniform_float("lights", (*settings.axis.normalized(), float(settings.stripes)))
-    full_colour = max(surface.largest_curvature, 1e-9) if settings.automatic else settings.range
-    shader.uniform_float("look", (float(settings.mode == "CURVATURE"), full_colour, settings.opacity, 0.0))
+    shader.uniform_float("look", (float(settings.mode != "ZEBRA"), full_colour(settings), settings.opacity, 0.0))
+
+
+def full_colour(settings: Any) -> float:
+    """Return the value with full colour, the same for all that is shown: of a legend there is one."""
+    if not settings.automatic:
+        return float(settings.range)
+    return max(1e-9, *(surface.usual(settings.mode) for surface in overlay.surfaces))
+
+
+def _deviation(name: str, mesh: MeshArrays, matrix: Floats) -> Floats | None:
+    """Return how far each vertex (n,) is from the surface before the last run; None where there was none."""
+    before = compare.positions_before(name, mesh.positions)
+    if before is None:
+        return None
+    found = np.zeros(len(before))
+    moved = np.flatnonzero((before != mesh.positions).any(axis=1))
+    now, then = (places @ matrix[:3, :3].T + matrix[:3, 3] for places in (mesh.positions, before))
+    found[moved] = deviation(now[moved], then, mesh.triangles)
+    return found
 
 
 def _draw() -> None:
     overlay.draw(bpy.context)
+
+
+def _draw_legend() -> None:
+    settings = bpy.context.window_manager.fairing_overlay
+    if overlay.surfaces and settings.mode != "ZEBRA":
+        largest = max((surface.largest(settings.mode) for surface in overlay.surfaces), key=abs)
+        legend.draw(bpy.context, settings.mode, full_colour(settings), largest)
 
 
 def settings_changed(context: bpy.types.Context) -> None:
@@ -120,7 +153,9 @@ def settings_changed(context: bpy.types.Context) -> None:
 def start() -> None:
     """Draw from now on, and follow changes."""
     if overlay.handle is None:
-        overlay.handle = bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW")
+        add = bpy.types.SpaceView3D.draw_handler_add
+        overlay.handle = add(_draw, (), "WINDOW", "POST_VIEW")
+        overlay.legend = add(_draw_legend, (), "WINDOW", "POST_PIXEL")
         listen(bpy.app.handlers.depsgraph_update_post, _on_change)
 
 
@@ -128,8 +163,9 @@ def stop() -> None:
     """Draw no more."""
     if overlay.handle is not None:
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
-        bpy.types.SpaceView3D.draw_handler_remove(overlay.handle, "WINDOW")
-        overlay.handle = None
+        for handle in (overlay.handle, overlay.legend):
+            bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+        overlay.handle = overlay.legend = None
     call_off(_measure_later)
     overlay.clear()
 

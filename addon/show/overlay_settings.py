@@ -12,6 +12,9 @@ from ..core.signals import content_changed, look_changed
 _MODES = (
     ("ZEBRA", "Reflection Lines", "Stripes of light mirrored in the surface: they break at creases, bend at bad joins"),
     ("CURVATURE", "Mean Curvature", "Blue bulges out, red caves in, white is flat on average; fair is without spots"),
+    ("GAUSSIAN", "Gaussian Curvature", "Red is round like a ball, blue is like a saddle, white unrolls flat"),
+    ("PRINCIPAL", "Largest Curvature", "The way it bends most: blue outwards, red inwards"),
+    ("DEVIATION", "Deviation", "How far the last run has moved the surface: red outwards, blue inwards"),
 )
 _SCOPES = (
     ("SELECTION", "Selection", "The selected faces; in object mode the object"),
@@ -28,7 +31,7 @@ class FairOverlay(bpy.types.PropertyGroup):
         default=False,
         update=content_changed,
     )
-    mode: EnumProperty(name="Show", description="What is drawn", items=_MODES, default="ZEBRA", update=look_changed)
+    mode: EnumProperty(name="Show", description="What is drawn", items=_MODES, default="ZEBRA", update=content_changed)
     scope: EnumProperty(
         name="On", description="Where it is drawn", items=_SCOPES, default="SELECTION", update=content_changed
     )
@@ -49,13 +52,13 @@ class FairOverlay(bpy.types.PropertyGroup):
     )
     automatic: BoolProperty(
         name="Automatic Range",
-        description="Full colour at the largest curvature shown",
+        description="Full colour at the largest value shown",
         default=True,
         update=look_changed,
     )
     range: FloatProperty(
         name="Range",
-        description="The mean curvature with full colour, in 1 / length",
+        description="The value with full colour: in 1 / length, for deviations the tolerance as a length",
         default=1.0,
         min=1e-6,
         update=look_changed,

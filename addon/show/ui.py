@@ -126,7 +126,7 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
         column.prop(settings, "automatic")
         row = column.row()
         row.active = not settings.automatic
-        row.prop(settings, "range")
+        row.prop(settings, "range", text="Tolerance" if settings.mode == "DEVIATION" else "Range")
     column.prop(settings, "opacity")
     if overlay.message:
         draw_text(layout, overlay.message, "ERROR")

@@ -203,6 +203,7 @@ class Stand:
             setattr(self, field, 0.0)
         self.width, self.continuity, self.width_group = 0.1, "G1", ""
         self.max_vertices = self.limit_total = 0
+        self.confirm_on_release = False
         self._timer, self._begin = None, 0.0
         self._tasks = fillet.read(bpy.context, "")
 

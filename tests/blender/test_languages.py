@@ -10,7 +10,7 @@ from typing import Any
 
 import bpy
 import pytest
-from extension import module
+from extension import ID, module
 
 SHOWS = re.compile(r"^([A-Z0-9]+_(OT|PT|MT)_\w+)$")  # classes whose label and tooltip Blender shows
 SAYS = {"report", "require", "require_edit_mode", "translated", "pick"}
@@ -60,10 +60,21 @@ def of_operators() -> Iterator[str]:
         for name in dir(room):
             if name.startswith("fair") and not name.endswith("preset_add"):
                 for option in getattr(room, name).get_rna_type().properties:
-                    if option.identifier not in ("rna_type", "option") and not option.is_hidden:
+                    if option.identifier != "option" and option.type != "POINTER" and not option.is_hidden:
                         yield from (option.name, option.description)
                         for item in getattr(option, "enum_items", ()):
                             yield from (item.name, item.description)
+
+
+def of_settings() -> Iterator[str]:
+    """Yield the same of the settings that no operator has."""
+    manager = bpy.context.window_manager
+    for group in (manager.fairing_overlay, manager.fairing_live, bpy.context.preferences.addons[ID].preferences):
+        for option in group.bl_rna.properties:
+            if option.identifier not in ("rna_type", "name", "bl_idname"):
+                yield from (option.name, option.description)
+                for item in getattr(option, "enum_items", ()):
+                    yield from (item.name, item.description)
 
 
 def shown() -> set[str]:
@@ -74,7 +85,9 @@ def shown() -> set[str]:
                 found.update(of_call(node))
             elif isinstance(node, ast.ClassDef):
                 found.update(of_class(node))
-    found.update(of_operators(), module("core.option_shared").GROUPS, module("core.option_shared").FOLDED)
+    found.update(
+        of_operators(), of_settings(), module("core.option_shared").GROUPS, module("core.option_shared").FOLDED
+    )
     found.add(module("core.fill_options").HOLES)
     return {text for text in found - NOT_SHOWN if any(letter.isalpha() for letter in text)}
 

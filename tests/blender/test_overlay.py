@@ -39,6 +39,93 @@ def test_sphere_has_its_normals_and_curvature(overlay: Any, scale: float) -> Non
     assert len(surface.triangles) == 2 * len(obj.data.polygons)
 
 
+@pytest.mark.parametrize("radius", [1.0, 2.5])
+def test_gaussian_and_principal_curvature_of_a_sphere(overlay: Any, radius: float) -> None:
+    obj = meshes.sphere(96)
+    obj.scale = (radius,) * 3
+    bpy.context.view_layer.update()
+    settings().mode, settings().show = "GAUSSIAN", True
+    try:
+        (surface,) = overlay.surfaces
+        np.testing.assert_allclose(surface.gaussian, radius**-2, rtol=0.02)
+        np.testing.assert_allclose(surface.values("PRINCIPAL"), -1.0 / radius, rtol=0.15)
+        assert surface.usual("GAUSSIAN") == pytest.approx(radius**-2, rel=0.02)
+    finally:
+        settings().mode = "ZEBRA"
+
+
+def test_gaussian_curvature_tells_saddles_from_cylinders() -> None:
+    """z = (x² ± y²) / 2 has K = ±1 in the middle, a parabolic cylinder none; the larger principal one bends alike."""
+    curvatures = module("core.curvatures")
+    steps = np.linspace(-0.3, 0.3, 41)
+    x, y = (grid.ravel() for grid in np.meshgrid(steps, steps))
+    corner = (np.arange(40)[:, None] * 41 + np.arange(40)).ravel()
+    triangles = np.concatenate(
+        [np.column_stack([corner, corner + 1, corner + 42]), np.column_stack([corner, corner + 42, corner + 41])]
+    )
+    for factor, gaussian in ((1.0, 1.0), (-1.0, -1.0), (0.0, 0.0)):
+        normals = np.column_stack([-x, -factor * y, np.ones_like(x)])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        points = np.column_stack([x, y, 0.5 * (x**2 + factor * y**2)])
+        found = curvatures.gaussian_curvature(points, triangles, normals)
+        middle = (np.abs(x) < 0.05) & (np.abs(y) < 0.05)
+        np.testing.assert_allclose(found[middle], gaussian, atol=0.03)
+    mean, gauss = np.array([-0.5, 0.5, 0.0]), np.array([0.0, 0.0, -4.0])
+    np.testing.assert_allclose(curvatures.largest_principal(mean, gauss), [-1.0, 1.0, 2.0])
+
+
+def test_gaussian_curvature_survives_triangles_without_an_area() -> None:
+    points = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]], dtype=float)
+    up = np.tile([0.0, 0.0, 1.0], (4, 1))
+    found = module("core.curvatures").gaussian_curvature(points, np.array([[0, 1, 2], [0, 1, 3]]), up)
+    np.testing.assert_array_equal(found, 0.0)
+
+
+def test_deviation_is_the_distance_from_the_shape_before(overlay: Any) -> None:
+    """A bump of a tenth on a sphere goes: its top comes down by as much, and what did not move is 0."""
+    obj = meshes.sphere(48)
+    points = meshes.positions(obj)
+    top = points[:, 2] > 0.9
+    meshes.move(obj, points * (1.0 + 0.1 * top[:, None]))
+    faces = meshes.faces_where(obj, lambda centre: centre.z > 0.8)
+    settings().mode = "DEVIATION"
+    try:
+        settings().show = True
+        meshes.select(obj, faces)
+        meshes.edit(obj)
+        assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
+        overlay.measure(bpy.context)
+        (surface,) = overlay.surfaces
+        highest = surface.positions[:, 2].argmax()
+        assert surface.deviation[highest] == pytest.approx(-0.1, abs=5e-3)
+        assert surface.largest("DEVIATION") == pytest.approx(-0.1, abs=5e-3)
+        assert bpy.ops.mesh.fair_compare() == {"FINISHED"}
+        overlay.measure(bpy.context)
+        assert not overlay.surfaces[0].deviation.any()
+        meshes.leave()
+    finally:
+        settings().mode = "ZEBRA"
+
+
+def test_deviation_has_the_side_of_the_normals() -> None:
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
+    triangles = np.array([[0, 1, 2], [0, 2, 3]])
+    points = np.array([[0.5, 0.5, 0.2], [0.5, 0.5, -0.3], [2.0, 0.5, 0.0]])
+    np.testing.assert_allclose(
+        module("mesh.deviation").deviation(points, square, triangles), [0.2, -0.3, 1.0], atol=1e-6
+    )
+
+
+def test_the_legend_says_what_the_colours_stand_for() -> None:
+    legend = module("show.legend")
+    assert legend.texts("DEVIATION", 0.1, -0.25) == ("Deviation   largest -0.25", "-0.1", "0", "+0.1")
+    ends = legend.colours(np.array([-1.0, 0.0, 1.0]))
+    np.testing.assert_allclose(ends, [legend.LOW, legend.MIDDLE, legend.HIGH])
+    shader = module("show.overlay_shader")._FRAGMENT
+    for colour in (legend.LOW, legend.HIGH):
+        assert "vec3({:.2f}, {:.2f}, {:.2f})".format(*colour) in shader
+
+
 def test_follows_edits(overlay: Any) -> None:
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)

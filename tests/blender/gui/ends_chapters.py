@@ -30,7 +30,7 @@ def _is_running() -> bool:
 def _begin_run() -> Story:
     """Have a run of seconds under way."""
     scenes.hopeless(next(_radii))  # what is found for one is at hand for the next run
-    set_options(equation="HARMONIC", tolerance=1e-14)
+    set_options(shape="HARMONIC", tolerance=1e-14)
     yield 1.0
     bpy.context.window_manager.fairing_report.free_vertices = 0  # of a chapter before
     run_operator()

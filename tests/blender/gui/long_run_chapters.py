@@ -79,7 +79,7 @@ def cancel_a_long_run() -> Story:
 def cancel_a_hopeless_run() -> Story:
     """Few vertices that take long: Blender waits a moment, then goes on in the background."""
     scenes.hopeless()
-    set_options(equation="HARMONIC", tolerance=1e-14)  # Automatic has a surface at once
+    set_options(shape="HARMONIC", tolerance=1e-14)  # Automatic has a surface at once
     open_tab()
     yield 1.0
     before = scenes.contents()

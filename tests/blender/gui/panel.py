@@ -21,6 +21,9 @@ KEYS = {  # run operators, so that they are run by an event as from a menu
 }
 
 
+_entries: dict[str, Any] = {}  # of the keymap
+
+
 def extension() -> None:
     """Install the zip and open the sidebar's tab."""
     bpy.ops.extensions.package_install_files(
@@ -28,7 +31,7 @@ def extension() -> None:
     )
     keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("3D View", space_type="VIEW_3D")
     for operator, key in KEYS.items():
-        keymap.keymap_items.new(operator, key, "PRESS")
+        _entries[operator] = keymap.keymap_items.new(operator, key, "PRESS")
     bpy.context.preferences.view.show_splash = False
     # Else the sidebar's redraws take the whole 3D view along, eight times each: slow without a GPU.
     bpy.context.preferences.system.viewport_aa = "OFF"
@@ -60,7 +63,7 @@ def wait_until(condition: Any, seconds: float) -> Story:
 
 
 def run_operator(operator: str = "mesh.fair_region") -> None:
-    """Run it by an event, with the properties that it had last."""
+    """Run it by an event, with the properties of its key."""
     press(KEYS[operator], *middle())
 
 
@@ -72,11 +75,12 @@ def run_with(operator: str, **properties: Any) -> None:
 
 def set_options(**options: Any) -> None:
     """Have the operator start with its defaults next time, apart from these."""
-    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    for name in module("core.options").option_names():
-        last.property_unset(name)
-    for name, value in options.items():
-        setattr(last, name, value)
+    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")  # what Live goes by
+    for properties in (last, _entries["mesh.fair_region"].properties):
+        for option in module("core.fair_options").FAIR:
+            properties.property_unset(option.name)
+        for name, value in options.items():
+            setattr(properties, name, value)
 
 
 def redo_panel() -> Any:

@@ -91,7 +91,7 @@ def not_usable() -> Story:
     """Half a sphere with a bulge that it hasn't got: nothing changes, the reason and the buttons are there."""
     yield from framed(spoilt_scenes.dome)
     before = scenes.positions()
-    yield from run_and_wait(equation="CONSTANT", bulge=0.3)
+    yield from run_and_wait(shape="HARMONIC", bulge=0.3)
     assert (report().verdict, report().written) == ("UNUSABLE", False), report().reason
     assert scenes.positions().tobytes() == before.tobytes()
     tell(f"not usable: {report().reason}")

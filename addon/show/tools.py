@@ -1,0 +1,175 @@
+"""Tools of the toolbar: draw around faces and let go, drag on an edge, click a face set.
+
+In edit mode each is a macro: Blender's own way to select, then ours. One step of undo takes both back.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bpy
+
+from ..run.masked import MESH_OT_fair_masked
+
+# Of Fair Region, in the header of a tool.
+_IN_HEADER = ("factor", "shape", "continuity", "detail", "falloff", "remesh")
+
+
+class MESH_OT_fair_lasso(bpy.types.Macro):
+    """Draw around the faces to be faired and let go"""
+
+    bl_idname = "mesh.fair_lasso"
+    bl_label = "Fair Lasso"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    steps = ("VIEW3D_OT_select_lasso", "MESH_OT_fair_region")
+
+
+class MESH_OT_fair_paint(bpy.types.Macro):
+    """Paint over the faces to be faired and let go"""
+
+    bl_idname = "mesh.fair_paint"
+    bl_label = "Fair Paint"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    steps = ("VIEW3D_OT_select_circle", "MESH_OT_fair_region")
+
+
+class MESH_OT_fair_fillet_edge(bpy.types.Macro):
+    """Press on an edge and drag: its loop is rounded as far as the mouse goes"""
+
+    bl_idname = "mesh.fair_fillet_edge"
+    bl_label = "Fair Fillet Edge"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+    steps = ("MESH_OT_loop_select", "MESH_OT_fair_fillet")
+
+
+MACROS = (MESH_OT_fair_lasso, MESH_OT_fair_paint, MESH_OT_fair_fillet_edge)
+
+
+class _Tool:
+    bl_space_type = "VIEW_3D"
+    bl_widget = None
+
+
+class FairLassoTool(_Tool, bpy.types.WorkSpaceTool):
+    """Draws around faces."""
+
+    bl_context_mode = "EDIT_MESH"
+    bl_idname = "intrinsic_fairing.lasso"
+    bl_label = "Fair Lasso"
+    bl_description = "Draw around the faces to be faired and let go"
+    bl_icon = "ops.generic.select_lasso"
+    bl_keymap = ((MESH_OT_fair_lasso.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),)
+
+    def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
+        """Draw the options in the header."""
+        _draw_fair(layout, tool, MESH_OT_fair_lasso.bl_idname)
+
+
+class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
+    """Paints over faces."""
+
+    bl_context_mode = "EDIT_MESH"
+    bl_idname = "intrinsic_fairing.paint"
+    bl_label = "Fair Paint"
+    bl_description = "Paint over the faces to be faired and let go"
+    bl_icon = "ops.generic.select_circle"
+    bl_keymap = (
+        (
+            MESH_OT_fair_paint.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS"},
+            {"properties": [("VIEW3D_OT_select_circle", [("wait_for_input", False)])]},
+        ),
+    )
+
+    def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
+        """Draw the radius and the options in the header."""
+        properties = tool.operator_properties(MESH_OT_fair_paint.bl_idname)
+        layout.prop(properties.VIEW3D_OT_select_circle, "radius")
+        _draw_fair(layout, tool, MESH_OT_fair_paint.bl_idname)
+
+
+class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
+    """Drags a fillet out of an edge."""
+
+    bl_context_mode = "EDIT_MESH"
+    bl_idname = "intrinsic_fairing.fillet"
+    bl_label = "Fair Fillet"
+    bl_description = "Press on an edge and drag: its loop is rounded as far as the mouse goes"
+    bl_icon = "ops.mesh.bevel"
+    bl_keymap = (
+        (
+            MESH_OT_fair_fillet_edge.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS"},
+            {"properties": [("MESH_OT_fair_fillet", [("confirm_on_release", True)])]},
+        ),
+    )
+
+    def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
+        """Draw the options in the header."""
+        properties = tool.operator_properties(MESH_OT_fair_fillet_edge.bl_idname).MESH_OT_fair_fillet
+        for name in ("profile", "continuity", "spacing"):
+            layout.prop(properties, name)
+
+
+class _FaceSetTool(_Tool):
+    bl_description = "Click a face set: it becomes the fair surface that continues its surroundings"
+    bl_label = "Fair Face Set"
+    bl_icon = "ops.sculpt.face_set_edit"
+    bl_cursor = "EYEDROPPER"
+    bl_keymap = (
+        (
+            MESH_OT_fair_masked.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS"},
+            {"properties": [("source", "FACE_SET"), ("under_mouse", True)]},
+        ),
+    )
+
+    def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
+        """Draw the options in the header."""
+        properties = tool.operator_properties(MESH_OT_fair_masked.bl_idname)
+        for name in _IN_HEADER:
+            layout.prop(properties, name)
+
+
+class FairFaceSetSculptTool(_FaceSetTool, bpy.types.WorkSpaceTool):
+    """Clicks face sets in sculpt mode."""
+
+    bl_context_mode = "SCULPT"
+    bl_idname = "intrinsic_fairing.face_set"
+
+
+class FairFaceSetObjectTool(_FaceSetTool, bpy.types.WorkSpaceTool):
+    """Clicks face sets in object mode."""
+
+    bl_context_mode = "OBJECT"
+    bl_idname = "intrinsic_fairing.face_set"
+
+
+TOOLS: tuple[Any, ...] = (
+    FairLassoTool,
+    FairPaintTool,
+    FairFilletTool,
+    FairFaceSetSculptTool,
+    FairFaceSetObjectTool,
+)
+
+
+def _draw_fair(layout: Any, tool: Any, macro: str) -> None:
+    properties = tool.operator_properties(macro).MESH_OT_fair_region
+    for name in _IN_HEADER:
+        layout.prop(properties, name)
+
+
+def register() -> None:
+    """Name the steps of the macros, and put the tools at the end of the toolbar."""
+    for macro in MACROS:
+        for step in macro.steps:
+            macro.define(step)
+    for tool in TOOLS:
+        bpy.utils.register_tool(tool, separator=tool in (FairLassoTool, FairFaceSetSculptTool, FairFaceSetObjectTool))
+
+
+def unregister() -> None:
+    """Take the tools back."""
+    for tool in reversed(TOOLS):
+        bpy.utils.unregister_tool(tool)

@@ -1,0 +1,126 @@
+"""The tools of the toolbar: that they are there, what they run, and that they leave nothing behind.
+
+How they feel is for the window: bpy has neither a mouse nor a 3D view.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import ID, give_options, module
+
+
+def in_toolbar(mode: str) -> list[str]:
+    """Return the add-on's tools of a mode, by their names."""
+    found = []
+
+    def look(entry: Any) -> None:
+        if hasattr(entry, "idname"):  # a tool, itself a tuple
+            if entry.idname.startswith("intrinsic_fairing."):
+                found.append(entry.idname.partition(".")[2])
+        elif isinstance(entry, tuple):
+            for each in entry:
+                look(each)
+
+    for entry in bpy.types.VIEW3D_PT_tools_active._tools[mode]:
+        look(entry)
+    return found
+
+
+def test_each_mode_has_its_tools() -> None:
+    assert in_toolbar("EDIT_MESH") == ["lasso", "paint", "fillet"]
+    assert in_toolbar("SCULPT") == ["face_set"]
+    assert in_toolbar("OBJECT") == ["face_set"]
+
+
+def test_they_go_with_the_extension() -> None:
+    import addon_utils
+
+    addon_utils.disable(ID)
+    assert in_toolbar("EDIT_MESH") == in_toolbar("SCULPT") == in_toolbar("OBJECT") == []
+    addon_utils.enable(ID)
+    assert in_toolbar("EDIT_MESH") == ["lasso", "paint", "fillet"]
+
+
+def test_what_they_press_exists() -> None:
+    """Each entry of a keymap names an operator that is there, with properties that it has."""
+    for tool in module("show.tools").TOOLS:
+        for name, event, properties in tool.bl_keymap:
+            room, _, operator = name.partition(".")
+            known = getattr(getattr(bpy.ops, room), operator).get_rna_type().properties.keys()
+            assert event["type"] == "LEFTMOUSE"
+            for option, _ in (properties or {}).get("properties", ()):
+                assert option in known, (name, option)
+        assert tool.bl_label
+        assert tool.bl_description
+
+
+@pytest.mark.parametrize("name", ["lasso", "paint"])
+def test_a_gesture_is_a_selection_and_a_run(name: str) -> None:
+    properties = getattr(bpy.ops.mesh, f"fair_{name}").get_rna_type().properties.keys()
+    assert [key for key in properties if "_OT_" in key][1] == "MESH_OT_fair_region"
+    assert "select" in next(key for key in properties if "_OT_" in key)
+
+
+def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch) -> None:
+    masked = module("run.masked")
+    obj, faces = meshes.domed_grid()
+    by_number, _ = meshes.domed_grid()
+    for each in (obj, by_number):
+        sets = each.data.attributes.new(".sculpt_face_set", "INT", "FACE")
+        sets.data.foreach_set("value", np.where(faces, 7, 3).astype(np.int32))
+    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", True, source="FACE_SET", face_set=7) == {"FINISHED"}
+    bpy.context.view_layer.objects.active = obj
+    picked = int(np.flatnonzero(faces)[0])
+    monkeypatch.setattr(masked, "face_under_mouse", lambda *_: picked)
+    parts = (module("run.background").Watched, module("host.picking").Picks, masked.MESH_OT_fair_masked)
+    methods = {name: value for part in parts for name, value in vars(part).items() if not name.startswith("__")}
+    methods.pop("bl_rna", None)
+    stand = give_options(type("Stand", (), {**methods, "report": lambda *_: None})())
+    stand.source, stand.face_set, stand.group, stand.under_mouse = "FACE_SET", 0, "", True
+    assert stand.invoke(bpy.context, SimpleNamespace(type="LEFTMOUSE", value="PRESS")) == {"FINISHED"}
+    assert meshes.positions(obj).tobytes() == meshes.positions(by_number).tobytes()
+
+
+def test_letting_go_accepts_a_fillet_of_the_tool_alone() -> None:
+    """From the menu the button is pressed once more."""
+    for by_tool, accepted in ((True, True), (False, False)):
+        stand: Any = SimpleNamespace(confirm_on_release=by_tool, _typed=SimpleNamespace(take=lambda *_: False))
+        done: list[bool] = []
+        stand._accept = lambda _context, done=done: done.append(True) or {"FINISHED"}
+        stand._say = lambda _context: None
+        release = SimpleNamespace(type="LEFTMOUSE", value="RELEASE", ascii="")
+        module("run.fillet").MESH_OT_fair_fillet.modal(stand, bpy.context, release)
+        assert bool(done) == accepted
+
+
+def test_a_key_shows_the_shape_before_while_it_is_held() -> None:
+    obj, faces = meshes.domed_grid()
+    before = meshes.positions(obj)
+    meshes.select(obj, faces)
+    meshes.edit(obj)
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
+    peek = module("run.peek").MESH_OT_fair_peek
+    manager = SimpleNamespace(modal_handler_add=lambda _operator: None)
+    real = bpy.context
+    context = SimpleNamespace(
+        window_manager=manager, objects_in_mode_unique_data=real.objects_in_mode_unique_data, mode=real.mode
+    )
+    stand = type("Stand", (), {name: vars(peek)[name] for name in ("invoke", "modal", "cancel")})()
+
+    def shown() -> Any:
+        return module("mesh.mesh_io").edit_positions(obj.data)
+
+    fair = shown()
+    assert stand.invoke(context, SimpleNamespace(type="B", value="PRESS")) == {"RUNNING_MODAL"}
+    np.testing.assert_array_equal(shown(), before)
+    assert stand.modal(context, SimpleNamespace(type="MIDDLEMOUSE", value="PRESS")) == {"PASS_THROUGH"}
+    assert stand.modal(context, SimpleNamespace(type="G", value="PRESS")) == {"RUNNING_MODAL"}
+    assert stand.modal(context, SimpleNamespace(type="B", value="RELEASE")) == {"FINISHED"}
+    np.testing.assert_array_equal(shown(), fair)
+    meshes.leave()
