@@ -235,7 +235,7 @@ _LOOKS = (
 
 
 def _is_meant_to_swell(options: FairOptions) -> bool:
-    return options.detail > 0.0 or (options.equation == "CONSTANT" and options.bulge != 0.0)
+    return options.detail > 0.0 or options.pulls_locally or (options.equation == "CONSTANT" and options.bulge != 0.0)
 
 
 def judges_join(options: FairOptions) -> bool:

@@ -18,6 +18,7 @@ METHODS = ("GLOBAL", "PAPER")
 PIN_EDGES = ("AUTOMATIC", "NONE", "SHARP", "SEAM", "CREASE")
 PIN_CURVES = ("FAIRED", "HELD")
 PIN_SLOPES = ("AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE")
+PIN_PULLS = ("SURFACE", "LOCAL")
 OPEN_BORDERS = ("HELD", "FAIRED")
 OUTLINES = ("GIVEN", "MENDED")
 ACCEPT = ("USABLE", "ALL")
@@ -37,6 +38,7 @@ _CHOICES = {
     "pin_edges": PIN_EDGES,
     "pin_curve": PIN_CURVES,
     "pin_slope": PIN_SLOPES,
+    "pin_pull": PIN_PULLS,
     "open_border": OPEN_BORDERS,
     "outline": OUTLINES,
     "accept": ACCEPT,
@@ -76,6 +78,7 @@ class FairOptions:
     pin_edges: str = "AUTOMATIC"  # SHARP for those that run through the selection, NONE for the others
     pin_curve: str = "FAIRED"  # of SHARP: those that run through become fair themselves; HELD: they stay as they are
     pin_slope: str = "AUTOMATIC"  # of these edges: CREASE for SHARP, AVERAGE for others
+    pin_pull: str = "SURFACE"  # LOCAL: lone pins lift what is around them, the rest is as without them
     pin_radius: float = 0.1  # over which part of the patch's size a pinned vertex lifts the surface
     open_border: str = "HELD"  # FAIRED: it becomes fair, too
     outline: str = "GIVEN"  # MENDED: a noisy boundary is smoothed first, with two rings around it
@@ -171,6 +174,12 @@ class FairOptions:
         return self.pins_running_through and self.equation not in ("CONSTANT", "MINIMAL") and not self.joins_curvature
 
     @property
+    def pulls_locally(self) -> bool:
+        """Whether lone pins lift the surface around them only."""
+        may = bool(self.pin_group) and self.pin_radius > 0.0 and self.mesh == "KEEP" and not self.moves_band
+        return self.pin_pull == "LOCAL" and may
+
+    @property
     def fairs_border(self) -> bool:
         """Whether open borders move."""
         return self.open_border == "FAIRED" and self.method == "GLOBAL"
@@ -225,6 +234,7 @@ class FairOptions:
             "pin_curve": self.pins_sharp and self.method == "GLOBAL",
             "pin_slope": self.pin_edges != "NONE",
             "open_border": self.mesh == "KEEP",
+            "pin_pull": self.pulls_locally,
             "keys": self.mesh == "KEEP",  # a new mesh fairs them all
         }
         default = FairOptions()

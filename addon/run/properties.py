@@ -85,6 +85,10 @@ _PIN_SLOPES = (
     ("SMOOTH", "Smooth Through", "The surface runs through the edges with a slope that it finds"),
     ("AVERAGE", "Averaged", "Both sides take the mean slope of the old faces at the edge"),
 )
+_PIN_PULLS = (
+    ("SURFACE", "The Surface", "It passes through all pins as a whole, and bends everywhere for them"),
+    ("LOCAL", "Around Them", "Lone pins lift what is within three times Pin Radius; the rest is as without them"),
+)
 _OPEN_BORDERS = (
     ("HELD", "Held", "Open borders inside the selection stay where they are"),
     ("FAIRED", "Faired", "Open borders become fair curves, with a free slope"),
@@ -182,6 +186,9 @@ class FairProperties(SurfaceProperties, SkinProperties):
         description="With which slope the surface meets the pinned edges",
         items=_PIN_SLOPES,
         default="AUTOMATIC",
+    )
+    pin_pull: EnumProperty(
+        name="Pins Pull", description="What pinned vertices move", items=_PIN_PULLS, default="SURFACE"
     )
     pin_radius: FloatProperty(
         name="Pin Radius",

@@ -81,6 +81,7 @@ def _draw_outline(group: Any, options: Any) -> None:
 def _draw_held(group: Any, options: Any, obj: bpy.types.Object) -> None:
     group.prop_search(options, "pin_group", obj, "vertex_groups")
     if options.pin_group:
+        group.prop(options, "pin_pull")
         group.prop(options, "pin_radius", slider=True)
     group.prop(options, "pin_edges")
     if options.pin_edges in ("AUTOMATIC", "SHARP"):

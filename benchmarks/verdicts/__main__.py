@@ -32,7 +32,7 @@ def main() -> None:
         "--tree", action="store_true", help="the tree's add-on and build/native's module, not the zip's"
     )
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "verdicts")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()  # jobs may come last
     import bpy  # noqa: F401 - bmesh comes with it
     import jobs
 
