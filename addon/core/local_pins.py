@@ -7,17 +7,14 @@ without them, and then lifted: by bumps with two continuous derivatives (Wendlan
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints, Mask
+from .engine import Problem
 from .region import MeshArrays, free_vertices
-
-if TYPE_CHECKING:
-    from .solve import Solved
 
 WIDTH = 3.0  # of a bump's radius over Pin Radius: it falls to a half at a third of it
 
@@ -31,22 +28,21 @@ def lone_pins(mesh: MeshArrays) -> Mask:
     return lone
 
 
-def pulled(solved: Solved, lone: Mask, radius: float) -> Solved:
-    """Return the answer without the pins, lifted to where they are; radius: of Pin Radius."""
-    problem, patch = solved.problem, solved.problem.patch
+def pulled(problem: Problem, vertices: Floats, lone: Mask, radius: float) -> Floats:
+    """Return the vertices (q, 3) of an answer without the pins lifted to where they are; radius: of Pin Radius."""
+    patch = problem.patch
     pins = np.flatnonzero(lone[patch.vertices])
     own = len(patch.vertices)
-    points = solved.result.vertices.copy()
-    surface = points[:own]
+    surface = vertices[:own]
     size = np.ptp(problem.own_points, axis=0).max()
     reach = np.minimum(WIDTH * radius * size, _to_the_nearest(surface, pins, patch.fixed))
     normals = fairing.vertex_normals(surface, patch.triangles)
     bumps = _bumps(surface, normals, pins, reach)
     wanted = problem.own_points[pins]
-    lifts = np.linalg.solve(bumps[pins], wanted - surface[pins])
-    points[:own] = surface + bumps @ lifts
+    points = vertices.copy()
+    points[:own] += bumps @ np.linalg.solve(bumps[pins], wanted - surface[pins])
     points[pins] = wanted
-    return replace(solved, result=replace(solved.result, vertices=points))
+    return points
 
 
 def _to_the_nearest(points: Floats, pins: Ints, fixed: Ints) -> Floats:

@@ -25,6 +25,7 @@ class Lost:
     depth: float = 0.0  # by which it sinks below the lines that run on across it, of their length
     deepest: Ints = field(default_factory=nothing)
     is_smoother: bool = False  # than around, where the old surface was not
+    is_rougher: bool = False  # than around: crumpled
     border: Ints = field(default_factory=nothing)  # of an open border that has moved far
     key: Ints = field(default_factory=nothing)  # where a shape key that is shown has kept a shape of its own
 

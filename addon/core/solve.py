@@ -66,7 +66,8 @@ def solve(
     if lone is not None and lone.any():
         released = replace(mesh, pinned=mesh.pinned & ~lone)
         without = solve(released, matrix, replace(options, pin_pull="SURFACE"), progress, kept)
-        return pulled(without, lone, options.pin_radius)
+        vertices = pulled(without.problem, without.result.vertices, lone, options.pin_radius)
+        return replace(without, result=replace(without.result, vertices=vertices))
     share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
     place = digest(mesh, matrix) if kept is not None else ""

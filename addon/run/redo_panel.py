@@ -16,7 +16,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object, manager: Any)
     """Draw the properties of `mesh.fair_region`; those without effect don't show."""
     layout.use_property_split = True
     layout.prop(options, "factor")
-    _draw_shape(_group(layout, "Shape"), options, obj)
+    _draw_shape(_group(layout, "Shape"), options)
     _draw_vertices(_group(layout, "Vertices"), options)
     _draw_skin(_group(layout, "Skin"), options)
     _draw_outline(_group(layout, "At the Boundary"), options)
@@ -38,12 +38,10 @@ def _group(layout: Any, title: str) -> Any:
     return column
 
 
-def _draw_shape(group: Any, options: Any, obj: bpy.types.Object) -> None:
+def _draw_shape(group: Any, options: Any) -> None:
     group.prop(options, "equation")
     if options.equation == "CONSTANT":
         group.prop(options, "bulge", slider=True)
-    if obj.data.shape_keys is not None and options.mesh == "KEEP":
-        group.prop(options, "keys")
 
 
 def _draw_vertices(group: Any, options: Any) -> None:
@@ -98,6 +96,9 @@ def _draw_parts(group: Any, options: Any, obj: bpy.types.Object) -> None:
     column.active = options.mesh == "KEEP"
     column.prop_search(options, "factor_group", obj, "vertex_groups")
     column.prop(options, "factor_mask")
+    row = column.row()
+    row.active = obj.data.shape_keys is not None
+    row.prop(options, "keys")
     column = group.column(align=True)
     column.active = options.detail > 0.0
     column.prop_search(options, "detail_from", obj, "vertex_groups")

@@ -52,9 +52,12 @@ inline constexpr double rougher = 2.0;
 // Degrees by which the normals of a skin turn, in the median, that is seen; the upper over the lower quartile of even
 // grain, which is 2.2 where normals turn at random (a Rayleigh distribution) and 2.8 and more where features do it; and
 // the share of it that is none. Chosen on the first half of benchmarks/verdicts.
-inline constexpr double seen_grain = 1.5;
+inline constexpr double seen_grain = 2.5;
 inline constexpr double even_grain = 2.6;
 inline constexpr double lost_grain = 1.0 / 3.0;
+// The share of a patch's edges that bend more than those around from which it is crumpled: .2 and more where it is, .13
+// at most where it isn't (benchmarks/verdicts, both halves).
+inline constexpr double crumpled_share = 0.16;
 
 // How deep a surface sinks below the lines that run on across it, of their length (shape/sunken): those that were kept
 // come to .018 at most on the first half of benchmarks/verdicts, bevels and handles that lose their girth to .026 and

@@ -110,7 +110,7 @@ def sunken(
 def has_lost_grain(before: npt.ArrayLike, after: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
     """Whether the triangles ``inside`` had the pores and the noise of those ``outside``, (m, 3) each, and have no more.
 
-    Grain turns the normals (n, 3) of a surface away from their means over some six edges: by 1.5° or more in the median
+    Grain turns the normals (n, 3) of a surface away from their means over some six edges: by 2.5° or more in the median
     and evenly, as features don't. ``before`` and ``after`` are positions (n, 3).
     """
     old, new = _arguments.floats("before", before), _arguments.floats("after", after)
@@ -118,6 +118,16 @@ def has_lost_grain(before: npt.ArrayLike, after: npt.ArrayLike, inside: npt.Arra
         raise ValueError(f"after: expected shape {old.shape} as of before, got {new.shape}")
     within = _arguments.triangles_within(inside, old.shape[0])
     return _core.has_lost_grain(old, new, within, _arguments.triangles_within(outside, old.shape[0]))
+
+
+def is_rougher(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
+    """Whether the triangles ``inside`` are crumpled: many edges bend as those ``outside``, (m, 3) each, do not.
+
+    Beyond the range of nine tenths of these, by more than 5°: more than 16 in 100. Edges on the border don't count.
+    """
+    points = _arguments.floats("vertices", vertices)
+    within = _arguments.triangles_within(inside, points.shape[0])
+    return _core.is_rougher(points, within, _arguments.triangles_within(outside, points.shape[0]))
 
 
 def needles(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> Needles:
