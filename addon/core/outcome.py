@@ -114,8 +114,10 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
 
 
 def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
-    """Find a boundary on the slope of a bump or a dent."""
+    """Find a boundary on the slope of a bump or a dent; a hard edge is none."""
     patch = problem.patch
+    if len(problem.inward):
+        return None
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
         world = mesh.transformed(matrix)
     vertices, around = numbered(patch, wound_alike(world, wide_outside(world, patch)))
