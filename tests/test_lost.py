@@ -80,7 +80,7 @@ def lost_grain(noise: float, where: str, kept: float = 0.0, ridges: bool = False
 
 
 def test_grain_that_is_gone_is_lost() -> None:
-    assert lost_grain(0.1, "everywhere")
+    assert lost_grain(0.15, "everywhere")
     assert not lost_grain(0.1, "everywhere", kept=0.8)  # it was put back
 
 
@@ -91,3 +91,19 @@ def test_no_grain_is_lost_that_is_not_seen_or_was_not_there() -> None:
 
 def test_features_are_no_grain() -> None:
     assert not lost_grain(0.1, "everywhere", ridges=True)
+
+
+def test_what_bends_as_nothing_around_is_rougher() -> None:
+    x, y, triangles, inside = sheet()
+    rng = np.random.default_rng(2)
+    free = np.setdiff1d(triangles[inside], triangles[~inside])
+
+    def rougher(around: float, within: float, share: float = 1.0) -> bool:
+        height = rng.normal(size=len(x)) * around * 2.0 / SIZE
+        height[free] = rng.normal(size=len(free)) * within * 2.0 / SIZE * (rng.random(len(free)) < share)
+        return fairing.is_rougher(np.column_stack([x, y, height]), triangles[inside], triangles[~inside])
+
+    assert rougher(0.0, 0.2)
+    assert not rougher(0.2, 0.2)  # as noisy as around
+    assert not rougher(0.2, 0.0)
+    assert not rougher(0.0, 0.2, share=0.005)  # single places are others' business

@@ -14,6 +14,7 @@ from .option_items import (
     OTHERWISE,
     OUTLINES,
     PINNED,
+    PULLS,
     SLOPES,
     SLOPES_AT_PINS,
 )
@@ -207,6 +208,17 @@ FAIR: Table = (
         PINS,
         slider=(0.0, 0.3),
         shown=lambda o: bool(o.pin_group),
+    ),
+    Option(
+        "pull_locally",
+        "Pull Locally",
+        "Lone pinned vertices lift what is within three times Pin Radius, and the rest is as without them. Otherwise the "
+        "surface passes through all of them as a whole, and bends everywhere for them",
+        False,
+        PINS,
+        shown=lambda o: bool(o.pin_group) and o.pin_radius > 0.0 and not o.remesh,
+        field="pin_pull",
+        values=PULLS,
     ),
     Option(
         "pin_edges",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 import fairing
@@ -73,11 +75,13 @@ def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
     return f"The surface forms a spike at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
 
 
-def _rounded(evidence: Evidence, _options: FairOptions) -> Found:
+def _rounded(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.rounded):
         return NOTHING
     text = counted(len(evidence.rounded), "vertex", "vertices")
-    return f"Smooth Boundary has rounded a hard edge outside at {text}: turn it off", evidence.rounded
+    if options.outline == "MENDED":
+        return f"Smooth Boundary has rounded a hard edge outside at {text}: turn it off", evidence.rounded
+    return f"A hard edge outside was rounded off at {text}: Falloff, or the weights, end short of it", evidence.rounded
 
 
 def _eaten(evidence: Evidence, options: FairOptions) -> Found:
@@ -193,7 +197,8 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
 
 def _sunken(evidence: Evidence, options: FairOptions) -> Found:
     lost = evidence.lost
-    if not len(lost.deepest) or not judges_join(options) or _is_meant_to_swell(options):
+    # Detail is skin; what it is put on sinks all the same.
+    if not len(lost.deepest) or not judges_join(options) or _is_meant_to_swell(replace(options, detail=0.0)):
         return NOTHING
     return sunken_reason(lost.depth), lost.deepest
 
@@ -207,6 +212,12 @@ def _smoother(evidence: Evidence, options: FairOptions) -> Found:
     if not evidence.lost.is_smoother or options.detail > 0.0 or options.factor < 1.0:
         return NOTHING
     return "The surface is smoother than around: its skin is gone", _outline(evidence)
+
+
+def _rougher(evidence: Evidence, options: FairOptions) -> Found:
+    if not evidence.lost.is_rougher or not judges_join(options):
+        return NOTHING
+    return "The surface is crumpled: it bends as nothing does around it", _most_bent(evidence)
 
 
 def _outline(evidence: Evidence) -> Ints:
@@ -230,12 +241,12 @@ def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
 # The first that finds something gives the reason.
 _LOOKS = (
     *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
-    *(_substituted, _uneven, _sunken, _refused, _squeezed, _smoother),
+    *(_substituted, _uneven, _rougher, _sunken, _refused, _squeezed, _smoother),
 )
 
 
 def _is_meant_to_swell(options: FairOptions) -> bool:
-    return options.detail > 0.0 or (options.equation == "CONSTANT" and options.bulge != 0.0)
+    return options.detail > 0.0 or options.pulls_locally or (options.equation == "CONSTANT" and options.bulge != 0.0)
 
 
 def judges_join(options: FairOptions) -> bool:

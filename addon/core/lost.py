@@ -25,6 +25,7 @@ class Lost:
     depth: float = 0.0  # by which it sinks below the lines that run on across it, of their length
     deepest: Ints = field(default_factory=nothing)
     is_smoother: bool = False  # than around, where the old surface was not
+    is_rougher: bool = False  # than around: crumpled
     border: Ints = field(default_factory=nothing)  # of an open border that has moved far
     key: Ints = field(default_factory=nothing)  # where a shape key that is shown has kept a shape of its own
 
@@ -34,7 +35,9 @@ def sunken(patch: Patch, points: Floats, problem: Problem) -> Lost:
     vertices = problem.patch.vertices[problem.patch.fixed]
     known = np.zeros((int(max(patch.vertices.max(initial=0), vertices.max(initial=0))) + 1, 3))
     known[vertices] = problem.normals
-    known[problem.inward] = 0.0  # nothing runs on there
+    on_from = problem.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
+    nothing_runs_on = np.setdiff1d(vertices, on_from)
+    known[nothing_runs_on] = known[problem.inward] = 0.0
     depth, deepest = fairing.sunken(points, patch.triangles, known[patch.vertices], fixed=patch.fixed)
     return Lost(depth, patch.vertices[deepest] if depth > fairing.LIMITS["sunken"] else nothing())
 

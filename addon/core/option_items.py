@@ -78,6 +78,7 @@ MESHES = ("KEEP", "NEW")
 METHODS = ("GLOBAL", "PAPER")
 OTHERWISE = ("STOP", "LEAST_VARIATION")
 OUTLINES = ("GIVEN", "MENDED")
+PULLS = ("SURFACE", "LOCAL")
 
 
 def identifiers(items: tuple[Item, ...]) -> tuple[str, ...]:

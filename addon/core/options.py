@@ -23,6 +23,7 @@ from .option_items import (
     OTHERWISE,
     OUTLINES,
     PINNED,
+    PULLS,
     SLOPES,
     SLOPES_AT_PINS,
     identifiers,
@@ -43,6 +44,7 @@ _CHOICES = {
     "pin_edges": identifiers(PINNED),
     "pin_curve": FAIRED,
     "pin_slope": identifiers(SLOPES_AT_PINS),
+    "pin_pull": PULLS,
     "open_border": FAIRED,
     "outline": OUTLINES,
     "accept": ACCEPT,
@@ -82,6 +84,7 @@ class FairOptions:
     pin_edges: str = "AUTOMATIC"  # SHARP for those that run through the selection, NONE for the others
     pin_curve: str = "FAIRED"  # of SHARP: those that run through become fair themselves; HELD: they stay as they are
     pin_slope: str = "AUTOMATIC"  # of these edges: CREASE for SHARP, AVERAGE for others
+    pin_pull: str = "SURFACE"  # LOCAL: lone pins lift what is around them, the rest is as without them
     pin_radius: float = 0.1  # over which part of the patch's size a pinned vertex lifts the surface
     open_border: str = "HELD"  # FAIRED: it becomes fair, too
     outline: str = "GIVEN"  # MENDED: a noisy boundary is smoothed first, with two rings around it
@@ -181,6 +184,12 @@ class FairOptions:
         return self.pins_running_through and self.equation not in ("CONSTANT", "MINIMAL") and not self.joins_curvature
 
     @property
+    def pulls_locally(self) -> bool:
+        """Whether lone pins lift the surface around them only."""
+        may = bool(self.pin_group) and self.pin_radius > 0.0 and self.mesh == "KEEP" and not self.moves_band
+        return self.pin_pull == "LOCAL" and may
+
+    @property
     def fairs_border(self) -> bool:
         """Whether open borders move."""
         return self.open_border == "FAIRED" and self.method == "GLOBAL"
@@ -237,6 +246,7 @@ class FairOptions:
             "pin_slope": self.pin_edges != "NONE",
             "otherwise": self.method == "GLOBAL" and self.equation not in ("MINIMAL", "LEAST_VARIATION"),
             "open_border": self.mesh == "KEEP",
+            "pin_pull": self.pulls_locally,
             "keys": self.mesh == "KEEP",  # a new mesh fairs them all
         }
         return tuple(name for name, read in only.items() if not read and self._is_set(name))

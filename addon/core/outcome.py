@@ -68,8 +68,8 @@ def outcome(
     join = quality.join(problem, after)
     go_on(progress)
     swollen = quality.swollen((patch, before[:own]), (patch, after[:own]))
-    smoothed = options.outline == "MENDED" and len(result.moved) > 0
-    rounded = _rounded(mesh, matrix, problem, after, moving) if smoothed else nothing()
+    moves_outside = len(np.setdiff1d(moving, patch.free)) > 0 and (options.outline == "MENDED" or options.moves_band)
+    rounded = _rounded(mesh, matrix, problem, after, moving) if moves_outside else nothing()
     odd = rounded, swollen, _eaten(mesh, problem, after)
     go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
@@ -114,8 +114,10 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
 
 
 def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
-    """Find a boundary on the slope of a bump or a dent."""
+    """Find a boundary on the slope of a bump or a dent; a hard edge is none."""
     patch = problem.patch
+    if len(problem.inward):
+        return None
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
         world = mesh.transformed(matrix)
     vertices, around = numbered(patch, wound_alike(world, wide_outside(world, patch)))
@@ -138,6 +140,7 @@ def _lost(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> 
     return replace(
         sunken(patch, after[: len(patch.vertices)], problem),
         is_smoother=is_smoother(world, world.positions, problem, after),
+        is_rougher=fairing.is_rougher(after, patch.triangles, problem.outside),
         border=moved_border(problem, after),
         key=kept_key(problem, after, offsets),
     )
@@ -150,7 +153,7 @@ def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
 
 
 def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, moving: Ints) -> Ints:
-    """Return the mesh vertices outside at hard edges that a smoothed boundary has rounded."""
+    """Return the mesh vertices outside at hard edges that a smoothed boundary or a band has rounded."""
     moved = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
     moves = np.zeros(len(mesh.positions), dtype=bool)
     moves[moved] = True

@@ -16,6 +16,7 @@ from .engine import Progress
 from .feather import band_weights, refuse_options
 from .findings import Origin
 from .held_curves import faired_curves
+from .local_pins import lone_pins, pulled
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
@@ -61,6 +62,12 @@ def solve(
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     options, mesh = options.resolved(mesh.textured), replace(mesh, textured=False)  # asked for by some options only
+    lone = lone_pins(mesh) if options.pulls_locally else None
+    if lone is not None and lone.any():
+        released = replace(mesh, pinned=mesh.pinned & ~lone)
+        without = solve(released, matrix, replace(options, pin_pull="SURFACE"), progress, kept)
+        vertices = pulled(without.problem, without.result.vertices, lone, options.pin_radius)
+        return replace(without, result=replace(without.result, vertices=vertices))
     share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
     place = digest(mesh, matrix) if kept is not None else ""

@@ -95,7 +95,7 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
         GROW: has_outside and not len(evidence.problem.inward),  # over a hard edge a flat cap would become a dome
         SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
         EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
-        AS_SELECTED: len(evidence.rounded) > 0,
+        AS_SELECTED: len(evidence.rounded) > 0 and options.outline == "MENDED",
         HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fairs_border,
         EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _OTHERS,
         WRITE: bad and options.accept != "ALL",

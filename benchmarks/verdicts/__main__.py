@@ -1,8 +1,8 @@
 """Jobs on meshes of every kind, judged by eye before their verdicts were read, and what the verdicts make of them.
 
-    python benchmarks/verdicts run --both        # in bpy, with the zip of scripts/package; into build/verdicts
-    python benchmarks/verdicts sheets --both     # contact sheets without verdicts, to judge by
-    python benchmarks/verdicts table             # of half one (seeds 0 and 1), as the others; --second: of the other
+    python benchmarks/verdicts run --parts first,second  # in bpy, with the zip of scripts/package; into build/verdicts
+    python benchmarks/verdicts sheets                    # contact sheets without verdicts, to judge by; needs Pillow
+    python benchmarks/verdicts table --parts second      # counts, and the jobs whose verdict and judgement differ
 
 `judged.txt` has a line for each job: keep, doubt or undo, and what is wrong. It was written from the sheets alone.
 """
@@ -25,19 +25,17 @@ def main() -> None:
     """Run jobs, draw them, or compare."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("task", choices=("run", "sheets", "table"))
-    parser.add_argument("jobs", nargs="*", help="names; default: half one")
-    parser.add_argument("--second", action="store_true", help="the half that was not learnt from")
-    parser.add_argument("--both", action="store_true", help="both halves")
+    parser.add_argument("jobs", nargs="*", help="names; default: those of --parts")
+    parser.add_argument("--parts", default="first", help="of the jobs: first, second, third; separated by commas")
     parser.add_argument(
         "--tree", action="store_true", help="the tree's add-on and build/native's module, not the zip's"
     )
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "verdicts")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()  # jobs may come last
     import bpy  # noqa: F401 - bmesh comes with it
     import jobs
 
-    halves = (True, False) if options.both else (not options.second,)
-    chosen = options.jobs or [name for name in jobs.names() if jobs.is_first(name) in halves]
+    chosen = options.jobs or list(jobs.names(*options.parts.split(",")))
     if options.task == "run":
         from running import sweep
 

@@ -11,8 +11,8 @@ import scenes
 import selections
 from scenes import Ints, Mask, Scene
 
-SEEDS = (0, 1, 2, 3)
-FIRST_HALF = (0, 1)  # seeds to learn from; the others count at the end
+KINDS = 4  # of jobs in each family
+PARTS = {"first": (0, 1), "second": (2, 3), "third": (4,)}  # seeds; what each part was for is in judged.txt
 SCANS = ("demosthenes-low-res", "boot", "skull_low_resolution", "hammer")
 CHARACTERS = (
     "ict_head",
@@ -398,18 +398,14 @@ FAMILIES: dict[str, Callable[[Any, int], Job]] = {
 }  # fmt: skip
 
 
-def names() -> Iterator[str]:
-    """All jobs: the family and the seed."""
-    return (f"{family}-{seed}" for family in FAMILIES for seed in SEEDS)
-
-
-def is_first(name: str) -> bool:
-    """Whether the job is of the half to learn from."""
-    return int(name.rsplit("-", 1)[1]) in FIRST_HALF
+def names(*parts: str) -> Iterator[str]:
+    """The jobs of these parts: the family and the seed."""
+    seeds = [seed for part in parts for seed in PARTS[part]]
+    return (f"{family}-{seed}" for family in FAMILIES for seed in seeds)
 
 
 def make(name: str) -> Job:
     """The job of that name, the same each time."""
     family, seed = name.rsplit("-", 1)
     rng: Any = np.random.default_rng([list(FAMILIES).index(family), int(seed)])
-    return FAMILIES[family](rng, int(seed))
+    return FAMILIES[family](rng, int(seed) % KINDS)

@@ -91,12 +91,7 @@ def run(name: str, folder: Path) -> dict[str, Any]:
     job = _made(name, folder)
     obj = _put(job.scene)
     before, triangles, faces = _shown(obj)
-    found: dict[str, Any] = {
-        "before": before,
-        "triangles": triangles,
-        "chosen": job.chosen[faces],
-        "half": jobs.is_first(name),
-    }
+    found: dict[str, Any] = {"before": before, "triangles": triangles, "chosen": job.chosen[faces]}
     if job.face_set is not None:
         old, deleted = job.face_set
         found["old"], found["old_chosen"] = _old(old, deleted)

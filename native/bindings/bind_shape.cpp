@@ -40,6 +40,10 @@ bool lost_grain_in(const DoubleArray& before, const DoubleArray& after, const In
     return has_lost_grain({to_points(before), to_points(after), to_triangles(inside), to_triangles(outside)});
 }
 
+bool rougher(const DoubleArray& vertices, const IntArray& inside, const IntArray& outside) {
+    return is_rougher(to_points(vertices), to_triangles(inside), to_triangles(outside));
+}
+
 py::object flank_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& around,
                         const std::optional<IntArray>& fixed) {
     const auto found = flank(input_of(vertices, triangles, fixed), to_triangles(around));
@@ -95,6 +99,7 @@ void bind_shape(py::module_& module) {
     module.def("knobs", &knob_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"), py::arg("before"));
     module.def("sunken", &sunken_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("normals"),
                py::arg("fixed"));
+    module.def("is_rougher", &rougher, py::arg("vertices"), py::arg("inside"), py::arg("outside"));
     module.def("has_lost_grain", &lost_grain_in, py::arg("before"), py::arg("after"), py::arg("inside"),
                py::arg("outside"));
     module.def("flank", &flank_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("around"), py::arg("fixed"));

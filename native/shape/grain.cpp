@@ -5,6 +5,7 @@
 
 #include "base/direction.h"
 #include "geometry/angle.h"
+#include "geometry/dihedral_bands.h"
 #include "mesh/collapsed.h"
 #include "mesh/edges.h"
 #include "shape/limits.h"
@@ -111,6 +112,16 @@ Parts parts_of(const Triangles& inside, const Triangles& outside, const EdgeTabl
     return parts;
 }
 
+// Signed degrees at all edges between two triangles.
+std::vector<double> bends(const Points& points, const Triangles& triangles) {
+    const DihedralBands bands(points, triangles);
+    std::vector<double> angles;
+    for (int e = 0; e < bands.edges().size(); ++e) {
+        if (bands.edges().side_count(e) == 2) angles.push_back(bands.angle(e));
+    }
+    return angles;
+}
+
 std::size_t count(const Marks& marks) { return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1)); }
 
 }  // namespace
@@ -129,6 +140,18 @@ bool has_lost_grain(const Smoothed& mesh) {
     const Quartiles here = quartiles(now, parts.inside);
     if (here.median > lost_grain * around.median) return false;
     return quartiles(deviations(mesh.before, all, edges), parts.inside).median > 0.5 * around.median;
+}
+
+bool is_rougher(const Points& points, const Triangles& inside, const Triangles& outside) {
+    std::vector<double> around = bends(points, without_collapsed(outside));
+    const std::vector<double> here = bends(points, without_collapsed(inside));
+    if (std::min(around.size(), here.size()) < fewest) return false;
+    std::sort(around.begin(), around.end());
+    const double low = around[around.size() / 20] - finest_kink;
+    const double high = around[around.size() - 1 - around.size() / 20] + finest_kink;
+    const auto beyond =
+        std::count_if(here.begin(), here.end(), [&](double angle) { return angle < low || angle > high; });
+    return static_cast<double>(beyond) > crumpled_share * static_cast<double>(here.size());
 }
 
 }  // namespace fairing

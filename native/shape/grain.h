@@ -17,4 +17,8 @@ struct Smoothed {
 // evenly spread: features turn the normals here much and there hardly (even_grain; shape/limits).
 bool has_lost_grain(const Smoothed& mesh);
 
+// Whether the inside is crumpled: many of its edges (crumpled_share) bend beyond the range of nine tenths of those
+// outside, and by more than a kink that may be seen (finest_kink).
+bool is_rougher(const Points& points, const Triangles& inside, const Triangles& outside);
+
 }  // namespace fairing

@@ -17,18 +17,11 @@ inline constexpr double least_knob = 0.25;
 // Of what the old surface had of it: one with less is an improvement, whatever it is.
 inline constexpr double calmer = 0.8;
 
-// Degrees by which a patch bends over, and its surroundings bend back, on average where its boundary is on a flank;
-// degrees from which a place there counts, and how many of the places do. They miss half of the bumps that stay
-// (docs/blender.md).
-inline constexpr double flank_over = 4.0;
-inline constexpr double flank_back = 6.0;
-inline constexpr double seen_lean = 3.0;
-inline constexpr double most_over = 0.7;
-inline constexpr double most_back = 0.75;
-inline constexpr double flank_end = 0.9;  // of the largest lean
-// Degrees between a boundary's normals and the way that the patch faces, in the mean: a limb has 90, the flanks of
-// bumps up to 50.
-inline constexpr double steepest_flank = 65.0;
+// By how much a patch stands off the quadric of its surroundings where its boundary is on a flank: of what these stand
+// off it themselves, which is a fiftieth of the patch's radius at least. Bumps and dents that stay come to 6.7 and
+// more, what was kept to 4.7 at most (benchmarks/verdicts, both halves).
+inline constexpr double stands_off = 6.0;
+inline constexpr double least_rest = 0.02;
 
 // Degrees by which a hard edge becomes flatter that is rounded off; edges of its chain that do, and that stay, at
 // least; what other edges of the same triangles may bend, of its own bend: the rims of fins and folds of skin are
@@ -52,9 +45,12 @@ inline constexpr double rougher = 2.0;
 // Degrees by which the normals of a skin turn, in the median, that is seen; the upper over the lower quartile of even
 // grain, which is 2.2 where normals turn at random (a Rayleigh distribution) and 2.8 and more where features do it; and
 // the share of it that is none. Chosen on the first half of benchmarks/verdicts.
-inline constexpr double seen_grain = 1.5;
+inline constexpr double seen_grain = 2.5;
 inline constexpr double even_grain = 2.6;
 inline constexpr double lost_grain = 1.0 / 3.0;
+// The share of a patch's edges that bend more than those around from which it is crumpled: .2 and more where it is, .13
+// at most where it isn't (benchmarks/verdicts, both halves).
+inline constexpr double crumpled_share = 0.16;
 
 // How deep a surface sinks below the lines that run on across it, of their length (shape/sunken): those that were kept
 // come to .018 at most on the first half of benchmarks/verdicts, bevels and handles that lose their girth to .026 and

@@ -131,8 +131,17 @@ def test_a_surface_that_sinks_deserves_a_look(fine: Evidence) -> None:
     verdict = judged(sunk)
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [3, 4])
     assert verdict.reason == "The surface sinks by 7% of its width: a ridge, a bevel or a girth is lost"
-    for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
+    for meant in ({"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
         assert judged(sunk, **meant).grade == GOOD, meant
+    assert judged(sunk, detail=0.5).grade == LOOK  # skin is put on what has sunk
+
+
+def test_a_crumpled_surface_deserves_a_look_where_it_bends_most(fine: Evidence) -> None:
+    verdict = judged(replace(fine, lost=Lost(is_rougher=True)))
+    assert verdict.grade == LOOK
+    assert verdict.reason.startswith("The surface is crumpled")
+    assert np.isin(verdict.spots, fine.problem.patch.vertices[fine.problem.patch.free]).all()
+    assert judged(replace(fine, lost=Lost(is_rougher=True)), factor=0.5).grade == GOOD
 
 
 def test_a_skin_that_is_gone_deserves_a_look_and_offers_to_keep_it(fine: Evidence) -> None:

@@ -76,8 +76,9 @@ def flank(
 ) -> Flank | None:
     """Where a disc's boundary lies on the flank of a bump or a dent, which the surface continues; None where none does.
 
-    All around, the disc bends over to one side and the triangles ``around`` it, (m, 3) wound likewise, as far as it is
-    wide, bend back. Components with several loops, with pins or with an open border don't count. Errors as for
+    The disc stands off the quadric that the triangles ``around`` it fit, (m, 3) wound likewise, from half a radius of
+    it on: by six times as much as these do. Components with several loops, with pins or with an open border don't
+    count. Errors as for
     :func:`fairing.fair`.
     """
     points, faces, held = _bounded(vertices, triangles, fixed)
@@ -110,7 +111,7 @@ def sunken(
 def has_lost_grain(before: npt.ArrayLike, after: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
     """Whether the triangles ``inside`` had the pores and the noise of those ``outside``, (m, 3) each, and have no more.
 
-    Grain turns the normals (n, 3) of a surface away from their means over some six edges: by 1.5° or more in the median
+    Grain turns the normals (n, 3) of a surface away from their means over some six edges: by 2.5° or more in the median
     and evenly, as features don't. ``before`` and ``after`` are positions (n, 3).
     """
     old, new = _arguments.floats("before", before), _arguments.floats("after", after)
@@ -118,6 +119,16 @@ def has_lost_grain(before: npt.ArrayLike, after: npt.ArrayLike, inside: npt.Arra
         raise ValueError(f"after: expected shape {old.shape} as of before, got {new.shape}")
     within = _arguments.triangles_within(inside, old.shape[0])
     return _core.has_lost_grain(old, new, within, _arguments.triangles_within(outside, old.shape[0]))
+
+
+def is_rougher(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
+    """Whether the triangles ``inside`` are crumpled: many edges bend as those ``outside``, (m, 3) each, do not.
+
+    Beyond the range of nine tenths of these, by more than 5°: more than 16 in 100. Edges on the border don't count.
+    """
+    points = _arguments.floats("vertices", vertices)
+    within = _arguments.triangles_within(inside, points.shape[0])
+    return _core.is_rougher(points, within, _arguments.triangles_within(outside, points.shape[0]))
 
 
 def needles(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> Needles:

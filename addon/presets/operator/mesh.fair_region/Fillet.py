@@ -26,6 +26,7 @@ op.detail_from = ""
 op.detail_face_set = 0
 op.pin_group = ""
 op.pin_radius = 0.1
+op.pull_locally = False
 op.pin_edges = "NONE"
 op.fair_pinned_edges = True
 op.pin_slope = "AUTOMATIC"
