@@ -162,13 +162,14 @@ def main() -> int:
     parser.add_argument("stamps", type=Path)
     parser.add_argument("words", nargs="*")
     given = parser.parse_args()
-    entries = commands(given.build, given.stamps)
+    stamps = given.stamps.resolve()
+    entries = commands(given.build, stamps)
     if not entries:
         print(f"{given.build} compiles nothing of native/", file=sys.stderr)
         return 1
-    stale = [source for entry in entries if (source := changed(entry, given.stamps, given.words))]
+    stale = [source for entry in entries if (source := changed(entry, stamps, given.words))]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return 0 if all(list(pool.map(lambda group: passes(group, given.stamps), groups(stale)))) else 1
+        return 0 if all(list(pool.map(lambda group: passes(group, stamps), groups(stale)))) else 1
 
 
 if __name__ == "__main__":
