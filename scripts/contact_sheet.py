@@ -7,6 +7,7 @@ from typing import Any
 import demo  # before bpy: it sets Blender's scratch folder
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "blender"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks" / "blender"))
 
 import bpy
 import meshes

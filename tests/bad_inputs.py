@@ -244,7 +244,7 @@ CASES: dict[str, Callable[[], Case]] = {
     case.__name__: case
     for case in (
         not_a_number, infinite, normal_not_a_number, index_too_large, index_negative,
-        fixed_out_of_range, edge_of_three, bow_tie, moebius_strip, closed_sphere, single_triangle,
+        fixed_out_of_range, edge_of_three, fin, bow_tie, moebius_strip, closed_sphere, single_triangle,
         everything_fixed,
     )
 }  # fmt: skip

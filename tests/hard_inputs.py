@@ -112,36 +112,6 @@ def subdivided(item: Input, rounds: int) -> Input:
     return replace(item, vertices=vertices, triangles=triangles, reference=vertices)
 
 
-def together(parts: list[Input]) -> tuple[Input, IntArray]:
-    """Islands in one call, and where each one's vertices begin (len + 1,)."""
-    begin = np.cumsum([0, *(len(part.vertices) for part in parts)])
-    moved = list(zip(parts, begin[:-1], strict=True))
-    vertices = np.vstack([part.vertices for part in parts])
-    everything = Input(
-        vertices,
-        np.vstack([part.triangles + b for part, b in moved]),
-        np.concatenate([part.fixed + b for part, b in moved]),
-        np.vstack([part.normals for part in parts if part.normals is not None]),
-        vertices,
-    )
-    return everything, begin
-
-
-def lobes(patch: Patch) -> tuple[Input, Input, Input]:
-    """A patch and its half turn about the normal at one outline vertex, which they share; and each alone."""
-    count, shared = len(patch.vertices), int(patch.fixed[0])
-    half_turn = 2 * np.outer(patch.normals[shared], patch.normals[shared]) - np.eye(3)
-    image = (patch.vertices - patch.vertices[shared]) @ half_turn + patch.vertices[shared]
-    turned = patch.fixed_normals @ half_turn
-    one, other = of_patch(patch), of_patch(patch).changed(vertices=image, reference=image, normals=turned)
-    both, _ = together([one, other])
-    place = np.arange(2 * count)
-    place[count + shared] = shared
-    keep = both.fixed != count + shared
-    normals = np.vstack([patch.fixed_normals, turned])[keep]
-    return both.changed(triangles=place[both.triangles], fixed=both.fixed[keep], normals=normals), one, other
-
-
 def with_fin(item: Input) -> Input:
     """A single triangle stands on the edge between the first two fixed vertices; its third vertex is new."""
     a, b = item.fixed[:2]
@@ -225,27 +195,6 @@ def with_surroundings(patch: Patch, turned: bool = False) -> Input:
     fixed = np.concatenate([rim, outer])
     normals = np.vstack([patch.fixed_normals, patch.fixed_normals])
     return Input(vertices, np.vstack([patch.triangles, collar]), fixed, normals, vertices)
-
-
-def spikes(patch: Patch) -> FloatArray:
-    """Every fifth free vertex pulled out by two diameters."""
-    start = patch.vertices.copy()
-    start[patch.free[::5]] *= 1.0 + 2 * patch.diameter
-    return start
-
-
-def fold(patch: Patch) -> FloatArray:
-    """The interior mirrored in the plane x = 0: folded over the outline."""
-    start = patch.vertices.copy()
-    start[patch.free] *= [-1.0, 1.0, 1.0]
-    return start
-
-
-def noise(patch: Patch) -> FloatArray:
-    """Every free vertex displaced by a diameter."""
-    start = patch.vertices.copy()
-    start[patch.free] += patch.diameter * np.random.default_rng(0).standard_normal((len(patch.free), 3))
-    return start
 
 
 def creased(patch: Patch, degrees: float = 70.0) -> Input:

@@ -49,31 +49,6 @@ def test_result_does_not_depend_on_the_callback() -> None:
     assert np.array_equal(run(None).vertices, run(lambda fraction, stage: None).vertices)
 
 
-def test_false_cancels_at_any_call() -> None:
-    total = len({fraction for fraction, _ in recorded()})  # other calls depend on the time
-    for last in sorted({1, 2, total // 2, total}):
-        calls: list[float] = []
-
-        def stop(fraction: float, stage: str, last: int = last, calls: list[float] = calls) -> bool:
-            calls.append(fraction)
-            return len(calls) < last
-
-        with pytest.raises(fairing.Cancelled):
-            run(stop)
-        assert len(calls) == last
-
-
-def test_exceptions_of_the_callback_come_through() -> None:
-    class MineError(Exception):
-        pass
-
-    def fail(fraction: float, stage: str) -> bool:
-        raise MineError(stage)
-
-    with pytest.raises(MineError):
-        run(fail)
-
-
 def test_cancelled_is_not_a_value_error() -> None:
     assert issubclass(fairing.Cancelled, Exception)
     assert not issubclass(fairing.Cancelled, ValueError)

@@ -75,13 +75,6 @@ def test_edges_keep_their_lengths() -> None:
     assert ratio.max() < 1.3
 
 
-def test_fixed_vertices_keep_their_bits(cap: Patch) -> None:
-    old = rough(cap)
-    result = fair(cap, old, detail=1.0)
-    assert np.array_equal(result.vertices[cap.fixed], old[cap.fixed])
-    assert np.array_equal(result.base[cap.fixed], old[cap.fixed])
-
-
 def test_detail_is_linear(cap: Patch) -> None:
     half, full = (fair(cap, rough(cap), detail=share) for share in (0.5, 1.0))
     assert np.array_equal(half.base, full.base)
@@ -106,15 +99,6 @@ def test_position_size_and_turn_do_not_matter(cap: Patch) -> None:
         fixed=cap.fixed, fixed_normals=cap.fixed_normals @ turn.T, detail=1.0, tolerance=1e-9,
     )  # fmt: skip
     assert there.vertices == pytest.approx(30 * here.vertices @ turn.T + [5, -3, 8], abs=30 * 1e-6)
-
-
-def test_the_reference_has_the_detail(cap: Patch) -> None:
-    """The old patch may be another one than the vertices: turned and with its own outline."""
-    old = rough(cap)
-    turn = some_rotation()
-    from_vertices = fair(cap, old, detail=1.0, tolerance=1e-9)
-    from_reference = fair(cap, shapes.start_from_nothing(cap), reference=old @ turn.T, detail=1.0, tolerance=1e-9)
-    assert from_reference.vertices == pytest.approx(from_vertices.vertices, abs=1e-6)
 
 
 def test_a_solver_keeps_the_skin_while_the_outline_moves(cap: Patch) -> None:
@@ -196,8 +180,3 @@ def test_shares_are_from_0_to_1(cap: Patch, name: str, value: Any) -> None:
         fair(cap, cap.vertices, **{name: value})
     with pytest.raises(ValueError, match=f"{name}: "):
         fairing.Solver(cap.triangles, fixed=cap.fixed, **{name: value})
-
-
-def test_cancelled_while_detail_is_read(cap: Patch) -> None:
-    with pytest.raises(fairing.Cancelled):
-        fair(cap, rough(cap), detail=1.0, progress=lambda fraction, stage: stage != "detail")

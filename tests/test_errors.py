@@ -45,14 +45,6 @@ def test_refused_meshes(name: str) -> None:
     assert case.elements is None or set(case.elements) <= set(np.ravel(caught.value.elements))
 
 
-def test_a_fin_inside_the_patch_is_refused() -> None:
-    """Only at the outline may a fin stand; elsewhere it would pin the surface unasked."""
-    case = bad_inputs.fin()
-    with pytest.raises(fairing.MeshError) as caught:
-        run(case)
-    assert caught.value.code == case.code
-
-
 @pytest.mark.parametrize("name", bad_inputs.WARNINGS)
 def test_meshes_solved_with_a_warning(name: str) -> None:
     case = bad_inputs.WARNINGS[name]()

@@ -36,13 +36,6 @@ def test_positions_reach_the_goal(family: str, n_free: int, goal: float) -> None
     assert not codes(result)
 
 
-@pytest.mark.slow
-def test_large_hemisphere_reaches_the_goal() -> None:
-    patch, result = solved("hemisphere", 10000)
-    assert result.converged
-    assert patch.error(result.vertices) <= 1e-6
-
-
 @pytest.mark.parametrize("family", ["clothoid", "linear_flux"])
 def test_error_falls_with_the_edge_length(family: str) -> None:
     """Order 1.5 is the goal; a discretisation that is not consistent stays below 1."""

@@ -99,32 +99,30 @@ def radius(points: FloatArray) -> FloatArray:
     return np.hypot(points[:, 0], points[:, 1])
 
 
+def off_torus(points: FloatArray) -> FloatArray:
+    return np.hypot(radius(points) - 2, points[:, 2]) - 0.7
+
+
 # The harmonic surface over the torus' hole is another one; a ten-thousandth of its diameter away.
 @pytest.mark.parametrize(
-    ("place", "distance", "bound"),
+    ("place", "distance", "equation", "bound"),
     [
-        (cylinder_side, lambda p: radius(p) - 1, 1e-5),
-        (saddle, lambda p: radius(p) - np.cosh(p[:, 2]), 2e-5),
-        (torus, lambda p: np.hypot(radius(p) - 2, p[:, 2]) - 0.7, 6e-4),
+        (cylinder_side, lambda p: radius(p) - 1, "harmonic", 1e-5),
+        (saddle, lambda p: radius(p) - np.cosh(p[:, 2]), "harmonic", 2e-5),
+        (torus, off_torus, "harmonic", 6e-4),
+        (torus, off_torus, "least_variation", 1e-4),
     ],
 )
-def test_holes_in_other_surfaces(place: Place, distance: Callable[[FloatArray], FloatArray], bound: float) -> None:
+def test_holes_in_other_surfaces(
+    place: Place, distance: Callable[[FloatArray], FloatArray], equation: str, bound: float
+) -> None:
     vertices, triangles = holes.sheet(place, (60, 60), holes.disc)
     loop = min(fairing.boundary_loops(triangles), key=len)
-    result = fairing.fill(vertices, triangles, [loop])
+    result = fairing.fill(vertices, triangles, [loop], equation=equation)
     diameter = 2 * np.linalg.norm(vertices[loop] - vertices[loop].mean(axis=0), axis=1).max()
     assert result.converged
     assert abs(distance(result.vertices)).max() < bound * diameter
     assert result.boundary_angle.max() < 0.1
-
-
-def test_the_surface_of_least_variation_is_the_torus() -> None:
-    """The harmonic surface there is another one, 3.7e-4 of the diameter away on any mesh."""
-    vertices, triangles = holes.sheet(torus, (40, 40), holes.disc)
-    loop = min(fairing.boundary_loops(triangles), key=len)
-    diameter = 2 * np.linalg.norm(vertices[loop] - vertices[loop].mean(axis=0), axis=1).max()
-    result = fairing.fill(vertices, triangles, [loop], equation="least_variation")
-    assert abs(np.hypot(radius(result.vertices) - 2, result.vertices[:, 2]) - 0.7).max() < 1e-4 * diameter
 
 
 @pytest.mark.parametrize(
@@ -182,10 +180,12 @@ def elbow(radius: float, bend: float = 90.0, around: int = 32) -> tuple[FloatArr
     return np.concatenate([part, part @ mirror]), np.concatenate([faces, faces[:, ::-1] + len(part)])
 
 
-@pytest.mark.parametrize("otherwise", ["least_variation", "stop"])
-def test_an_elbow_keeps_its_width(otherwise: str) -> None:
-    """The harmonic one has a waist of two thirds, which the first surface shows: the fine mesh is solved once."""
-    vertices, triangles = elbow(0.4)
+@pytest.mark.parametrize(
+    ("radius", "otherwise"), [(0.4, "stop"), *((r, "least_variation") for r in (0.4, 0.3, 0.25, 0.2, 0.15))]
+)
+def test_an_elbow_keeps_its_width(radius: float, otherwise: str) -> None:
+    """The harmonic one has a waist of two thirds, or is none; that of least variation begins at a swept tube."""
+    vertices, triangles = elbow(radius)
     loops = [
         loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
     ]
@@ -196,8 +196,7 @@ def test_an_elbow_keeps_its_width(otherwise: str) -> None:
         assert (result.equation, away.min() < 0.3) == ("harmonic", True)
         return
     assert result.equation == "least_variation"
-    assert [warning.code for warning in result.warnings] == ["NO_SOLUTION"]
-    assert np.abs(away - 0.4).max() < 0.02
+    assert np.abs(away - radius).max() < 0.02
 
 
 def test_a_hole_around_a_limb_does_not_close_it() -> None:
@@ -215,20 +214,6 @@ def test_a_hole_around_a_limb_does_not_close_it() -> None:
     assert len(loops) == 1
     assert (result.converged, result.equation) == (True, "harmonic")
     assert np.abs(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1).max() < 1e-4
-
-
-@pytest.mark.parametrize("radius", [0.3, 0.25, 0.2, 0.15])
-def test_a_thin_elbow_is_found(radius: float) -> None:
-    """From a tube swept around the bend; the flat start led nowhere, in up to two minutes."""
-    vertices, triangles = elbow(radius)
-    loops = [
-        loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
-    ]
-    result = fairing.fill(vertices, triangles, loops, bridge=True)
-    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
-    assert (result.converged, result.equation) == (True, "least_variation")
-    assert np.abs(away - radius).max() < 0.02
-    assert len({*result.levels}) == 1  # the fine mesh begins at the first surface, without another coarse one
 
 
 def jagged(seed: int, edges: int = 80) -> FloatArray:
@@ -252,36 +237,6 @@ def test_no_small_angles_are_left_at_a_jagged_outline(seed: int) -> None:
     assert np.bincount(holes.edges_of(result.triangles).ravel())[count:].max() <= 9
 
 
-def test_the_new_part_closes_the_mesh_and_leaves_the_rest() -> None:
-    vertices, triangles = holes.bowl(48)
-    before = vertices.copy(), triangles.copy()
-    result = fairing.fill(vertices, triangles)
-    _, faces = whole(vertices, triangles, result)
-    assert not fairing.boundary_loops(faces)
-    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    assert len(np.unique(sides, axis=0)) == len(sides)  # consistently wound: no side twice
-    assert np.array_equal(vertices, before[0])
-    assert np.array_equal(triangles, before[1])
-    assert sorted(result.fixed) == [*range(48)]
-    assert not result.vertices.flags.writeable
-    assert not result.triangles.flags.writeable
-
-
-def test_all_holes_are_filled_or_only_short_ones() -> None:
-    def two_holes(u: FloatArray, v: FloatArray) -> Any:
-        small = (u - 0.2) ** 2 + (v - 0.5) ** 2 < 0.01
-        return small | ((u - 0.7) ** 2 + (v - 0.5) ** 2 < 0.03)
-
-    vertices, triangles = holes.sheet(cylinder_side, (40, 40), two_holes)
-    lengths = sorted(len(loop) for loop in fairing.boundary_loops(triangles))
-    result = fairing.fill(vertices, triangles, longest=lengths[1])
-    assert [*sorted(len(loop) for loop in result.loops)] == lengths[:2]
-    assert abs(radius(result.vertices) - 1).max() < 1e-4
-    assert len(fairing.boundary_loops(whole(vertices, triangles, result)[1])) == 1
-    with pytest.raises(fairing.MeshError, match="NO_BOUNDARY"):
-        fairing.fill(vertices, triangles, longest=3)
-
-
 def test_moving_turning_and_scaling_make_no_difference() -> None:
     vertices, triangles = holes.bowl(24, 70)
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((3, 3)))[0]
@@ -302,17 +257,6 @@ def test_given_normals_belong_to_their_vertices(order: str, shape: str) -> None:
     result = fairing.fill(vertices, triangles, [loop], normals=normals)
     assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-4
     assert abs(result.mean_curvature + 1).max() < 0.02
-
-
-def test_loops_without_a_mesh_need_normals_only() -> None:
-    turn = 2 * np.pi * np.arange(48) / 48
-    rim = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-    dome = fairing.fill(rim, EMPTY, [np.arange(48)], normals=rim)
-    assert abs(np.linalg.norm(dome.vertices, axis=1) - 1).max() < 1e-4
-    flat = fairing.fill(rim, EMPTY, [np.arange(48)], normals=np.tile([0.0, 0.0, 1.0], (48, 1)))
-    assert abs(flat.vertices[:, 2]).max() < 1e-12
-    corners = np.concatenate([rim, flat.vertices])[flat.triangles]
-    assert (np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2] > 0).all()
 
 
 @pytest.mark.parametrize("edges", [3, 4, 5])
@@ -416,16 +360,6 @@ def test_a_knotted_loop_says_that_its_surface_crosses_itself() -> None:
     normals = np.cross(np.roll(knot, -1, axis=0) - np.roll(knot, 1, axis=0), [0, 0, 1.0])
     result = fairing.fill(knot, EMPTY, [np.arange(96)], normals=normals)
     assert "SELF_INTERSECTION" in [warning.code for warning in result.warnings]
-
-
-def test_cancelling_and_progress() -> None:
-    seen: list[float] = []
-    fairing.fill(*holes.bowl(48), progress=lambda fraction, _: seen.append(fraction))
-    assert seen == sorted(seen)
-    assert 0 <= seen[0] < 0.3
-    assert seen[-1] == 1
-    with pytest.raises(fairing.Cancelled):
-        fairing.fill(*holes.bowl(48), progress=lambda fraction, _: fraction < 0.5)
 
 
 def test_the_same_bits_for_any_number_of_threads() -> None:

@@ -114,12 +114,6 @@ def test_holes_and_outer_borders(name: str) -> None:
     assert sorted_out(mesh) == (inner, outer)
 
 
-def without_cap(degrees: float) -> tuple[FloatArray, Any, Any]:
-    """A sheet bent by so much, and its outer border."""
-    vertices, triangles = holes.sheet(bent(degrees), (12, 12), whole)
-    return vertices, triangles, fairing.boundary_loops(triangles)[0]
-
-
 def test_loops_may_run_either_way_and_are_taken_alone() -> None:
     (vertices, triangles), _, _ = SHAPES["sheet bent by 180°, with a hole"]
     hole, border = sorted(fairing.boundary_loops(triangles), key=len)
@@ -133,15 +127,6 @@ def closed() -> Mesh:
     vertices, triangles = holes.bowl(24)
     found = fairing.fill(vertices, triangles)
     return np.concatenate([vertices, found.vertices]), np.concatenate([triangles, found.triangles])
-
-
-def test_a_border_that_is_named_is_filled() -> None:
-    """A balloon, as it is asked for; by itself it stays open."""
-    vertices, triangles, border = without_cap(90.0)
-    with pytest.raises(fairing.MeshError) as caught:
-        fairing.fill(vertices, triangles)
-    assert caught.value.code == "NOT_A_HOLE"
-    assert fairing.fill(vertices, triangles, [border]).converged
 
 
 @pytest.mark.parametrize("half_angle", [30.0, 60.0, 90.0, 120.0, 145.0])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -97,17 +96,6 @@ def test_the_wanted_length_holds_inside_an_outline_of_four_edges(spacing: float,
     assert corner.max() < 2.01
     assert corner.min() > spacing
     assert holes.angles(points, result.triangles).min() > 18.0
-
-
-def test_a_coarse_outline_has_more_new_faces_the_less_the_spacing() -> None:
-    up = np.tile([0.0, 0.0, 1.0], (4, 1))
-    counts = [
-        len(fairing.fill(SQUARE, EMPTY, [np.arange(4)], normals=up, spacing=spacing).triangles)
-        for spacing in (2.0, 0.6, 0.3, 0.15, 0.075)
-    ]
-    assert counts[0] == 2
-    assert all(b > 1.5 * a for a, b in pairwise(counts))
-    assert counts[-1] > 2.0 * counts[-2]
 
 
 @pytest.mark.parametrize("equation", ["minimal", "harmonic"])

@@ -101,27 +101,6 @@ def test_what_the_tangent_join_solves_stays_as_exact(family: str) -> None:
     assert patch.error(curved.vertices) <= patch.error(tangent.vertices)
 
 
-def test_curvature_is_read_off_the_surroundings() -> None:
-    """A wave, whose H is no harmonic function: half as far from it as with tangent joins."""
-    steps = np.linspace(-12.0, 12.0, 49)
-    s, t = (grid.ravel() for grid in np.meshgrid(steps, steps))
-    vertices = np.column_stack([s, t, 1.5 * np.sin(s / 5) * np.cos(t / 7)])
-    corner = np.arange(49 * 48).reshape(48, 49)[:, :-1].ravel()
-    quads = np.column_stack([corner, corner + 1, corner + 50, corner + 49])
-    triangles = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
-    inside = np.linalg.norm(vertices[triangles].mean(axis=1)[:, :2], axis=1) < 7
-    outline = np.intersect1d(triangles[inside], triangles[~inside])
-    fits = fairing.surrounding_normals(vertices, triangles[~inside], outline)
-    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~inside]}
-    off = []
-    for continuity in ("G1", "G2"):
-        result = fairing.fair(vertices, triangles[inside], continuity=continuity, **options)
-        x, y, z = result.vertices[np.unique(triangles[inside])].T
-        off.append(np.abs(z - 1.5 * np.sin(x / 5) * np.cos(y / 7)).max())
-        assert result.continuity == continuity
-    assert off[1] < 0.5 * off[0]
-
-
 def both_joins(vertices: FloatArray, triangles: IntArray, within: Any) -> list[fairing.FairResult]:
     """The triangles within, faired from what those outside say: tangent, and with their curvature, met everywhere."""
     outline = np.intersect1d(triangles[within], triangles[~within])

@@ -128,20 +128,6 @@ def test_moved_turned_and_scaled_outlines_give_the_same_surface() -> None:
     assert np.abs(back - tube.faired().vertices).max() < 2e-3 * tube.diameter
 
 
-def test_cancel_stops_it_at_any_time() -> None:
-    tube = tubes.pipe(3.0, 5.0)
-    for stop in (0, 3, 12):
-        left = stop
-
-        def ask(_fraction: float, _stage: str) -> bool:
-            nonlocal left
-            left -= 1
-            return left >= 0
-
-        with pytest.raises(fairing.Cancelled):
-            tube.faired(progress=ask)
-
-
 def test_the_published_method_does_not_have_it() -> None:
     with pytest.raises(ValueError, match="least_variation"):
         tubes.pipe(3.0).faired(method="paper")

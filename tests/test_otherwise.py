@@ -90,16 +90,6 @@ def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
     assert "NO_SOLUTION" not in codes(lost)
 
 
-@pytest.mark.parametrize(("length", "lean"), [(3.0, 5.0), (5.0, 0.0), (5.0, 1.2), (10.0, 0.0)])
-def test_what_has_a_sound_harmonic_surface_keeps_its_bits(length: float, lean: float) -> None:
-    """Next to straight pipes, which have no variation at all, no ratio to it means anything."""
-    tube = tubes.pipe(length, lean, seed=3)
-    plain = tube.faired(equation="harmonic", otherwise="stop")
-    result = tube.faired(equation="harmonic")
-    assert result.equation == "harmonic"
-    assert (result.vertices == plain.vertices).all()
-
-
 def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
     patch = shapes.catenoid(300)
     result = fairing.fair(
@@ -226,23 +216,6 @@ def test_a_neck_on_a_plane_keeps_its_slopes_without_an_equation(aside: float) ->
     assert "least variation" not in [name for name, _ in result.way]
     assert np.percentile(result.boundary_angle, 90) < 6
     assert not {"FLIPPED_TRIANGLES", "SELF_INTERSECTION"} & codes(result)
-
-
-def test_stop_makes_no_loft() -> None:
-    result = wing().faired(equation="harmonic", otherwise="stop")
-    assert not result.converged
-    assert result.equation == "harmonic"
-
-
-def test_a_loft_can_not_be_asked_for() -> None:
-    with pytest.raises(ValueError, match=r"equation.*loft"):
-        wing().faired(equation="loft")
-
-
-def test_a_wing_whose_solve_was_cut_short_is_no_loft() -> None:
-    result = wing().faired(equation="harmonic", max_iterations=1)
-    assert result.termination == "iteration_limit"
-    assert result.equation == "harmonic"
 
 
 def test_a_solver_stays_with_a_loft() -> None:

@@ -49,20 +49,6 @@ def test_both_methods_solve_the_same_discrete_equation(n_free: int, kind: str) -
     assert np.abs(paper.vertices - fast.vertices).max() < 1e-5 * patch.diameter
 
 
-def test_progress_can_cancel() -> None:
-    patch = shapes.cap(300)
-    seen: list[float] = []
-
-    def stop(fraction: float, stage: str) -> bool:
-        seen.append(fraction)
-        return len(seen) < 30
-
-    with pytest.raises(fairing.Cancelled):
-        fair(patch, progress=stop)
-    assert len(seen) == 30
-    assert seen == sorted(seen)
-
-
 # Options
 
 

@@ -1,4 +1,4 @@
-"""Nothing breaks the engine: random patches, motions, numberings and damage (index: test_robustness).
+"""Nothing breaks the engine: random patches, motions, numberings and damage.
 
 The law, which `hard_inputs.Input.fair` and `obeys` check: no crash, no NaN, everything fixed or outside keeps its
 bits, so do the arrays given; a refusal names its elements; the result says whether it converged. `--thorough`

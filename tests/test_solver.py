@@ -219,16 +219,6 @@ def test_cancelling_at_any_call_leaves_the_last_answer() -> None:
         assert np.array_equal(result.vertices, expected.vertices)
 
 
-def test_an_exception_of_the_callback_comes_out() -> None:
-    def fail(fraction: float, stage: str) -> bool:
-        raise KeyError("mine")
-
-    solver = solver_of(PATCH)
-    with pytest.raises(KeyError, match="mine"):
-        solver.solve(PATCH.vertices, PATCH.fixed_normals, progress=fail)
-    assert solver.solve(PATCH.vertices, PATCH.fixed_normals).converged
-
-
 def test_one_call_at_a_time() -> None:
     """From `progress` and from another thread the call is refused; the running one is not disturbed."""
     solver = solver_of(PATCH)

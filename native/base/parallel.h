@@ -23,7 +23,7 @@ public:
 
 private:
     std::unique_ptr<ThreadTeam> team_;
-    ThreadTeam* previous_;
+    ThreadTeam* previous_;  // NOLINT(modernize-use-default-member-init): its class is not complete here
 };
 
 // Calls piece(k) once for each k = 0 … pieces − 1, in any order. An exception is rethrown once no piece runs any more;

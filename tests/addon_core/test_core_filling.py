@@ -15,7 +15,6 @@ from core.fill_pieces import FillOptions, Piece
 from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
 from core.filling import fill
-from core.holes import Borders, chosen_borders
 from core.neighbourhood import Neighbourhood
 from core.quality import Join
 from core.region import MeshArrays, nothing
@@ -131,27 +130,6 @@ def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
     np.testing.assert_array_equal(report.verdict.spots, done.left_vertices)
     every = fill(pierced, np.eye(4), loops, FillOptions(accept="ALL"))
     assert (len(every.pieces), every.left) == (2, ())
-
-
-def test_longer_borders_stay_open() -> None:
-    mesh = holed((2, 2), (5, 5), half=1)
-    loops, _ = border_loops(mesh, np.ones(len(mesh.positions), dtype=bool))
-    sizes = sorted(map(len, loops))
-    all_of_them = Borders(loops)
-    short = chosen_borders(mesh, np.eye(4), all_of_them, FillOptions(longest=sizes[0]), False)
-    assert (sorted(map(len, short.loops)), short.longer) == (
-        [sizes[0]] * sizes.count(sizes[0]),
-        len(sizes) - sizes.count(sizes[0]),
-    )
-    assert "stay" in short.notes[0]
-    large = np.diag([2.0, 2.0, 2.0, 1.0])
-    lengths = [np.linalg.norm(mesh.positions[loop] - mesh.positions[np.roll(loop, 1)], axis=1).sum() for loop in loops]
-    by_length = FillOptions(longest_length=2.001 * min(lengths))
-    assert len(chosen_borders(mesh, large, all_of_them, by_length, False).loops) == sum(
-        x <= 1.001 * min(lengths) for x in lengths
-    )
-    with pytest.raises(BorderRefusal, match="All borders are longer"):
-        chosen_borders(mesh, np.eye(4), all_of_them, FillOptions(longest=3), False)
 
 
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:

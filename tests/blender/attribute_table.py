@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import bmesh
 import bpy
 import extension
 import meshes
@@ -98,12 +97,7 @@ def subject(way: str, size: int = 24) -> Any:
     """Add a sphere of so many edges around, open above CUT where it is to be filled."""
     obj = meshes.sphere(size)
     if way == "fill":
-        bm = bmesh.new()
-        bm.from_mesh(obj.data)
-        high = [face for face in bm.faces if face.calc_center_median().z > CUT]
-        bmesh.ops.delete(bm, geom=high, context="FACES")
-        bm.to_mesh(obj.data)
-        bm.free()
+        meshes.remove(obj, lambda centre: centre.z > CUT)
     return obj
 
 
@@ -130,8 +124,7 @@ def apply(
     elif mode == "object":
         extension.module("run.fair_mesh").fair_mesh(obj.data, np.flatnonzero(high).tolist(), **properties)
     else:
-        meshes.select(obj, high)
-        meshes.edit(obj)
+        meshes.enter(obj, high)
         if way == "fill":
             bpy.context.tool_settings.mesh_select_mode = (False, True, False)
             bpy.ops.mesh.select_non_manifold()

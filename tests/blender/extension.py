@@ -17,8 +17,7 @@ def module(name: str = "") -> Any:
 
 def inspect(obj: Any, faces: Any, **options: Any) -> Any:
     """Return what the panel would tell about these faces of an object in object mode."""
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     try:
         return module("follow.inspection").inspect(obj, module("core.options").FairOptions(**options))
     finally:

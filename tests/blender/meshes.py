@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import product
 from typing import Any
 
@@ -47,6 +48,28 @@ def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch") -> bpy
     for other in bpy.context.view_layer.objects:
         other.select_set(other == obj)
     bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+@contextmanager
+def rebuilt(obj: bpy.types.Object, write: bool = True) -> Iterator[Any]:
+    """The bmesh of an object in object mode; what is changed in it becomes the object's mesh, if wanted."""
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    for elements in (bm.verts, bm.edges, bm.faces):
+        elements.ensure_lookup_table()
+    try:
+        yield bm
+        if write:
+            bm.to_mesh(obj.data)
+    finally:
+        bm.free()
+
+
+def remove(obj: bpy.types.Object, gone: Callable[[Any], bool]) -> bpy.types.Object:
+    """Delete the faces whose centre is accepted, and what hangs on them alone; return the object."""
+    with rebuilt(obj) as bm:
+        bmesh.ops.delete(bm, geom=[face for face in bm.faces if gone(face.calc_center_median())], context="FACES")
     return obj
 
 
@@ -132,6 +155,12 @@ def free_vertices(obj: bpy.types.Object, faces: Mask) -> Mask:
     for polygon, chosen in zip(obj.data.polygons, faces, strict=True):
         (inside if chosen else outside)[list(polygon.vertices)] = True
     return inside & ~outside
+
+
+def enter(obj: bpy.types.Object, faces: Mask) -> None:
+    """Enter edit mode with exactly these faces selected."""
+    select(obj, faces)
+    edit(obj)
 
 
 def edit(*objects: bpy.types.Object) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -145,13 +144,9 @@ def test_groups_of_no_bone_count_for_nothing() -> None:
 def hung(*vertices: int) -> bpy.types.Object:
     """Add a blown-up sphere with an edge without faces at each of these vertices."""
     obj = ball("remesh", 24)
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for vertex in [bm.verts[number] for number in vertices]:
-        bm.edges.new((vertex, bm.verts.new(vertex.co * 2.0)))
-    bm.to_mesh(obj.data)
-    bm.free()
+    with meshes.rebuilt(obj) as bm:
+        for vertex in [bm.verts[number] for number in vertices]:
+            bm.edges.new((vertex, bm.verts.new(vertex.co * 2.0)))
     return obj
 
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import threading
-from functools import partial
 from typing import Any
 
 import bpy
 import meshes
 import numpy as np
-import pytest
 from extension import module
 
 
@@ -19,60 +16,8 @@ def run(work: Any) -> Any:
 
 def tasks_of(obj: Any, faces: Any) -> tuple[Any, Any]:
     options = module("core.options").FairOptions()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     return module("run.job").read(bpy.context, options), options
-
-
-def test_engine_in_a_thread_is_the_engine() -> None:
-    job = module("run.job")
-    obj, faces = meshes.domed_grid()
-    tasks, options = tasks_of(obj, faces)
-    job.memory.clear()
-    outcomes = run(partial(job.solve, tasks, options)).result()
-    assert job.is_current(bpy.context, tasks)
-    job.write(bpy.context, tasks, outcomes)
-    meshes.leave()
-    other, _ = meshes.domed_grid()
-    job.memory.clear()
-    meshes.fair(other, faces)
-    assert meshes.positions(obj).tobytes() == meshes.positions(other).tobytes()
-
-
-def test_cancelled_engine_leaves_every_bit() -> None:
-    import fairing
-
-    job = module("run.job")
-    obj, faces = meshes.domed_grid()
-    before = meshes.in_edit_mode_once(obj, faces)
-    tasks, options = tasks_of(obj, faces)
-    job.memory.clear()
-    background: Any = None
-    ready = threading.Event()
-
-    def work(progress: Any) -> Any:
-        assert ready.wait(10.0)
-        background.cancel()
-        return job.solve(tasks, options, progress)
-
-    background = run(work)
-    ready.set()
-    with pytest.raises(fairing.Cancelled):
-        background.result()
-    meshes.leave()
-    assert meshes.contents(obj) == before
-
-
-def test_a_mesh_that_changed_meanwhile_is_noticed() -> None:
-    job = module("run.job")
-    obj, faces = meshes.domed_grid()
-    tasks, _ = tasks_of(obj, faces)
-    assert job.is_current(bpy.context, tasks)
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
-    assert not job.is_current(bpy.context, tasks)
-    bpy.ops.transform.translate(value=(0.0, 0.0, -0.5))
-    meshes.leave()
-    assert not job.is_current(bpy.context, tasks)
 
 
 def test_another_shape_key_is_noticed() -> None:
@@ -136,8 +81,7 @@ def test_redo_with_other_options_starts_from_the_last_answer() -> None:
     """After a run in the background; the answer is the one from scratch, to the tolerance."""
     job, options = module("run.job"), module("core.options").FairOptions
     obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     tasks = job.read(bpy.context, options())
     silent: Any = lambda fraction, stage: True  # noqa: E731
     for changed in (

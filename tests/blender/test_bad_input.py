@@ -14,7 +14,6 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-import spoiled
 
 
 def without_selection(contents: dict[str, bytes]) -> dict[str, bytes]:
@@ -32,14 +31,12 @@ def chosen(name: str) -> list[int]:
 def no_step_added(obj: bpy.types.Object, moving: Any, faces: Any) -> Iterator[dict[str, bytes]]:
     """Give the contents after a move, `faces` selected; see that an undo afterwards takes back the move."""
     name = obj.name
-    meshes.select(obj, moving)
-    meshes.edit(obj)
+    meshes.enter(obj, moving)
     bpy.ops.ed.undo_push(message="first")
     first = meshes.contents_in_edit_mode(name)
     bpy.ops.transform.translate(value=(0.0, 0.0, 0.25))
     meshes.leave()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.ops.ed.undo_push(message="second")
     second = meshes.contents_in_edit_mode(name)
     assert first["POINT position"] != second["POINT position"]
@@ -73,8 +70,12 @@ def solved(obj: bpy.types.Object, faces: Any, free: Any = None, **properties: An
 @pytest.mark.parametrize("method", ["GLOBAL", "PAPER"])
 def test_a_fin_in_the_selection_is_refused(method: str) -> None:
     obj, _ = meshes.domed_grid()
-    edge = spoiled.raise_fin(obj, (0.0, 0.125))
-    text, selected = refusal(obj, spoiled.central(obj), method=method)
+    with meshes.rebuilt(obj) as bm:
+        a, b = min(bm.edges, key=lambda edge: sum(v.co.xy.length for v in edge.verts)).verts
+        bm.faces.new((a, b, bm.verts.new((a.co + b.co) / 2.0 + (b.co - a.co).orthogonal())))
+        edge = a.index, b.index
+    # Those that stand on the selection are selected, too.
+    text, selected = refusal(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7), method=method)
     assert "More than two faces meet at the edge" in text
     assert selected == sorted(edge)
 
@@ -82,7 +83,11 @@ def test_a_fin_in_the_selection_is_refused(method: str) -> None:
 def test_a_closed_component_beside_others_is_left_alone() -> None:
     clean, faces = meshes.domed_grid()
     meshes.fair(clean, faces)
-    obj = spoiled.join(meshes.domed_grid()[0], meshes.sphere(16))
+    obj, sphere = meshes.domed_grid()[0], meshes.sphere(16)
+    for each in bpy.context.view_layer.objects:
+        each.select_set(each in (obj, sphere))
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.join()
     count = len(clean.data.vertices)
     everything = np.ones(len(obj.data.polygons), dtype=bool)
     everything[: len(faces)] = faces
@@ -105,7 +110,7 @@ def test_nothing_to_move_adds_no_undo_step(count: int) -> None:
 
 def test_infinity_elsewhere() -> None:
     clean, obj = meshes.domed_grid()[0], meshes.domed_grid()[0]
-    faces = spoiled.central(obj, 0.5)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
     points = meshes.positions(obj)
     points[0] = np.inf, np.nan, 0.0
     meshes.move(obj, points)

@@ -70,8 +70,7 @@ def test_a_run_whose_mesh_is_gone_writes_nothing(way: str, refused: bool, go_on:
     obj, faces = meshes.domed_grid()
     name = obj.name
     bpy.ops.ed.undo_push(message="first")
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.ops.ed.undo_push(message="edit mode")
     bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
     bpy.ops.ed.undo_push(message="moved")
@@ -135,8 +134,7 @@ def scene():
     points = meshes.positions(obj)
     points[:, 2] = 0.2 * points[:, 0] ** 2
     meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
 
 def endless(solve, progress):  # in the engine nearly all the time
     while True:

@@ -13,19 +13,16 @@ import numpy as np
 import pytest
 from extension import module
 
+from test_fill import border_edges
+
 AXES = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]) / np.sqrt(3.0)
 
 
 def ball(change: Callable[[Any], None] = lambda bm: None) -> bpy.types.Object:
     """A unit sphere of quads with a hole around each of the AXES, and what `change` makes of its bmesh."""
-    obj = meshes.sphere(48)
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    gone = [face for face in bm.faces if (AXES @ face.calc_center_median().normalized()).max() > 0.98]
-    bmesh.ops.delete(bm, geom=gone, context="FACES")
-    change(bm)
-    bm.to_mesh(obj.data)
-    bm.free()
+    obj = meshes.remove(meshes.sphere(48), lambda centre: (AXES @ centre.normalized()).max() > 0.98)
+    with meshes.rebuilt(obj) as bm:
+        change(bm)
     return obj
 
 
@@ -61,13 +58,11 @@ def fill(obj: bpy.types.Object, **properties: Any) -> set[str]:
 
 def open_borders(obj: bpy.types.Object) -> list[list[int]]:
     """The border loops as sorted vertices; the mesh must be a manifold with border, wound consistently."""
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    assert all(edge.is_manifold or edge.is_boundary for edge in bm.edges)
-    assert all(edge.is_contiguous for edge in bm.edges if not edge.is_boundary)
-    assert all(vertex.is_manifold for vertex in bm.verts)
-    edges = {v.index: [e.other_vert(v).index for e in v.link_edges if e.is_boundary] for v in bm.verts if v.is_boundary}
-    bm.free()
+    border_edges(obj)
+    with meshes.rebuilt(obj, write=False) as bm:
+        assert all(vertex.is_manifold for vertex in bm.verts)
+        rim = [vertex for vertex in bm.verts if vertex.is_boundary]
+        edges = {v.index: [e.other_vert(v).index for e in v.link_edges if e.is_boundary] for v in rim}
     loops = []
     while edges:
         loop, ahead = [], [next(iter(edges))]
@@ -186,15 +181,11 @@ def test_longer_borders_stay_open(tmp_path: Any) -> None:
 def test_a_missing_quad_and_a_missing_triangle_are_one_face_each() -> None:
     """Flat ones in a plane: nothing rises."""
     obj = meshes.grid(8)
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
-    pair = bmesh.ops.triangulate(bm, faces=[bm.faces[36]])["faces"]
-    bmesh.ops.delete(bm, geom=[pair[0]], context="FACES_ONLY")
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[9]], context="FACES_ONLY")
-    bm.to_mesh(obj.data)
-    bm.free()
+    with meshes.rebuilt(obj) as bm:
+        pair = bmesh.ops.triangulate(bm, faces=[bm.faces[36]])["faces"]
+        bmesh.ops.delete(bm, geom=[pair[0]], context="FACES_ONLY")
+        bm.faces.ensure_lookup_table()
+        bmesh.ops.delete(bm, geom=[bm.faces[9]], context="FACES_ONLY")
     count, points = len(obj.data.polygons), meshes.positions(obj)
     assert fill(obj) == {"FINISHED"}
     meshes.leave()
@@ -203,22 +194,6 @@ def test_a_missing_quad_and_a_missing_triangle_are_one_face_each() -> None:
     np.testing.assert_array_equal(meshes.positions(obj), points)
     assert all(polygon.normal.z == pytest.approx(1.0) for polygon in new)
     assert bpy.context.window_manager.fairing_report.verdict == "GOOD"
-
-
-def test_a_soap_film_is_a_flat_lid() -> None:
-    steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
-    points = [(np.cos(s), np.sin(s), z) for z in (-0.6, -0.3, 0.0) for s in steps]
-    faces = [
-        [24 * r + i, 24 * r + (i + 1) % 24, 24 * r + 24 + (i + 1) % 24, 24 * r + 24 + i]
-        for r in (0, 1)
-        for i in range(24)
-    ]
-    obj = meshes.add(points, faces, "Tube")
-    module().fill_mesh(obj.data, [60], equation="MINIMAL")
-    assert len(open_borders(obj)) == 1
-    new = meshes.positions(obj)[72:]
-    assert len(new) > 20
-    assert np.abs(new[:, 2]).max() < 1e-9
 
 
 def test_holes_of_several_objects_stop_each_other_no_more() -> None:
@@ -268,13 +243,7 @@ def test_an_island_in_a_hole_is_joined_with_it() -> None:
 
 def half_ball(hole: Callable[[Any], bool]) -> bpy.types.Object:
     """The half x ≥ 0 of a unit sphere with a Mirror modifier, without the faces whose centre `hole` accepts."""
-    obj = meshes.sphere(48)
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    gone = [f for f in bm.faces if f.calc_center_median().x < 0.0 or hole(f.calc_center_median().normalized())]
-    bmesh.ops.delete(bm, geom=gone, context="FACES")
-    bm.to_mesh(obj.data)
-    bm.free()
+    obj = meshes.remove(meshes.sphere(48), lambda centre: centre.x < 0.0 or hole(centre.normalized()))
     obj.modifiers.new("Mirror", "MIRROR")
     return obj
 
@@ -327,13 +296,7 @@ def test_a_plane_without_holes_is_no_border_to_fill() -> None:
 
 
 def test_with_x_mirror_a_hole_across_the_plane_is_symmetric_to_the_bit() -> None:
-    obj = meshes.sphere(48)
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    gone = [f for f in bm.faces if f.calc_center_median().z > 0.75]
-    bmesh.ops.delete(bm, geom=gone, context="FACES")
-    bm.to_mesh(obj.data)
-    bm.free()
+    obj = meshes.remove(meshes.sphere(48), lambda centre: centre.z > 0.75)
     points = meshes.positions(obj)
     points[np.abs(points[:, 0]) < 1e-6, 0] = 0.0
     meshes.move(obj, points)

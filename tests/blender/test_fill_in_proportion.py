@@ -38,8 +38,7 @@ def select_all(obj: bpy.types.Object) -> None:
 def select_loop(obj: bpy.types.Object, at: int) -> None:
     """One border vertex alone, which stands for its loop."""
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
-    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    meshes.edit(obj)
+    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
     bm = bmesh.from_edit_mesh(obj.data)
     bm.verts.ensure_lookup_table()
     bm.verts[at].select = True
@@ -48,11 +47,8 @@ def select_loop(obj: bpy.types.Object, at: int) -> None:
 
 def open_edges(obj: bpy.types.Object) -> int:
     bpy.ops.object.mode_set(mode="OBJECT")
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    count = sum(edge.is_boundary for edge in bm.edges)
-    bm.free()
-    return count
+    with meshes.rebuilt(obj, write=False) as bm:
+        return sum(edge.is_boundary for edge in bm.edges)
 
 
 def fill(**properties: Any) -> set[str]:

@@ -47,8 +47,7 @@ def upright(ends: Any) -> bool:
 
 def enter(obj: bpy.types.Object, chosen: Any) -> None:
     """Edit the mesh with exactly these edges selected."""
-    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    meshes.edit(obj)
+    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
     bpy.context.tool_settings.mesh_select_mode = (False, True, False)
     bm = bmesh.from_edit_mesh(obj.data)
     for edge, on in zip(bm.edges, chosen, strict=True):
@@ -97,8 +96,7 @@ def test_an_edge_of_a_cube_becomes_an_arc_and_its_faces_stay_polygons() -> None:
 
 def test_all_hard_edges_of_selected_faces_are_rounded() -> None:
     obj = cube()
-    meshes.select(obj, np.ones(6, dtype=bool))
-    meshes.edit(obj)
+    meshes.enter(obj, np.ones(6, dtype=bool))
     try:
         assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH) == {"FINISHED"}
     finally:
@@ -170,8 +168,7 @@ def snapshot() -> Any:
 @pytest.mark.parametrize(("width", "reason"), [(1.2, "leaves nothing")])
 def test_what_is_refused_stays_and_its_spots_are_selected(width: float, reason: str) -> None:
     obj = cube()
-    meshes.select(obj, np.ones(6, dtype=bool))
-    meshes.edit(obj)
+    meshes.enter(obj, np.ones(6, dtype=bool))
     try:
         before = [tuple(vertex.co) for vertex in bmesh.from_edit_mesh(obj.data).verts]
         with pytest.raises(RuntimeError, match=reason):
@@ -293,8 +290,7 @@ def test_escape_leaves_every_bit(shown: Any) -> None:
 
 def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> None:
     obj = cube()
-    meshes.select(obj, np.ones(6, dtype=bool))
-    meshes.edit(obj)
+    meshes.enter(obj, np.ones(6, dtype=bool))
     try:
         stand = Stand()
         dragged(stand, 150)

@@ -66,20 +66,3 @@ def test_one_click_leaves_the_top_of_a_box_flat(quads: int) -> None:
     report = meshes.report()
     assert report.verdict == "GOOD"
     assert INSIDE in report.warnings
-
-
-def test_tangent_to_surroundings_still_continues_the_sides() -> None:
-    obj, faces = boss_on_box(16)
-    meshes.fair(obj, faces, boundary_normals="SURROUNDING")
-    assert meshes.positions(obj)[:, 2].max() > 1.5
-    assert INSIDE not in meshes.report().warnings
-
-
-def test_a_boss_on_a_plate_goes() -> None:
-    """Its walls meet the plate in a hard edge, but the surface over that edge lies in the plate."""
-    obj, faces = boss_on_box()
-    boss = faces & (np.arange(len(faces)) >= 9)
-    free = meshes.free_vertices(obj, boss)
-    meshes.fair(obj, boss)
-    assert np.abs(meshes.positions(obj)[free, 2] - 1.0).max() < 1e-5
-    assert INSIDE not in meshes.report().warnings

@@ -44,18 +44,6 @@ def off_box(points: np.ndarray) -> float:  # type: ignore[type-arg]
     return float(np.abs(points).min(axis=1).max())
 
 
-@pytest.mark.parametrize(("slope", "flat"), [("AUTOMATIC", True), ("CREASE", True), ("AVERAGE", False)])
-def test_a_box_corner_with_sharp_edges_comes_back_flat(slope: str, flat: bool) -> None:
-    obj, faces = box()
-    on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-    before = bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
-    assert off_box(before) > 0.01
-    meshes.fair(obj, faces, pin_edges="SHARP", pin_slope=slope, pin_curve="HELD")
-    after = meshes.positions(obj)
-    assert after[on_edge].tobytes() == before[on_edge].tobytes()
-    assert (off_box(after) < 1e-5) == flat
-
-
 @pytest.mark.parametrize("pins", ["AUTOMATIC", "SHARP"])
 def test_dented_edges_that_run_through_become_straight(pins: str) -> None:
     """A box corner with noise everywhere inside, its edges and its tip among it; nothing outside moves."""
@@ -77,15 +65,6 @@ def unmarked_box() -> tuple[bpy.types.Object, meshes.Mask]:
     obj.data.edges.foreach_set("use_edge_sharp", [False] * len(obj.data.edges))
     bumpy(obj, meshes.free_vertices(obj, faces))
     return obj, faces
-
-
-@pytest.mark.parametrize(("properties", "flat"), [({}, True), ({"mesh": "NEW"}, True), ({"pin_edges": "NONE"}, False)])
-def test_edges_that_nobody_has_marked_are_found_by_their_angle(properties: dict[str, str], flat: bool) -> None:
-    """The report says so; Pin Edges: None rounds them off."""
-    obj, faces = unmarked_box()
-    meshes.fair(obj, faces, **properties)
-    assert (off_box(meshes.positions(obj)) < 1e-5) == flat
-    assert ("Hard edges run through" in meshes.report().warnings) == flat
 
 
 def test_unmarked_edges_that_no_usable_surface_holds_are_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -117,27 +96,6 @@ def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
     assert len(sharp) == marked
     assert np.sort(np.abs(points[np.unique(sharp)]), axis=1)[:, 1].max() < 1e-6
     assert off_box(points) < 1e-5
-
-
-def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:
-    """By default they move, with Factor one half half of the way; marks that end inside are not held."""
-    results = {}
-    for name, options in {"held": {"pin_curve": "HELD"}, "half": {"factor": 0.5}, "fair": {}}.items():
-        obj, faces = box()
-        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-        before = bumpy(obj, meshes.free_vertices(obj, faces))
-        meshes.fair(obj, faces, **options)
-        results[name] = meshes.positions(obj)[on_edge], before[on_edge]
-    assert results["held"][0].tobytes() == results["held"][1].tobytes()
-    half = 0.5 * (results["fair"][0] + results["fair"][1])
-    assert np.abs(results["half"][0] - half).max() < 1e-6
-    obj, faces = box()
-    for edge in obj.data.edges:
-        ends = [obj.data.vertices[v].co for v in edge.vertices]
-        edge.use_edge_sharp = edge.use_edge_sharp and max(abs(x) for end in ends for x in end) < 0.35
-    before = bumpy(obj, meshes.free_vertices(obj, faces))
-    meshes.fair(obj, faces)
-    assert off_box(meshes.positions(obj)) > 1e-3
 
 
 @pytest.mark.parametrize("border", ["HELD", "FAIRED"])

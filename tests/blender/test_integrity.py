@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -133,14 +132,10 @@ def test_linked_duplicates_and_several_objects() -> None:
 
 def test_loose_parts_are_left_alone() -> None:
     obj, faces = meshes.domed_grid()
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    lone = bm.verts.new((5.0, 5.0, 5.0))
-    bm.verts.ensure_lookup_table()
-    bm.edges.new((lone, bm.verts[0]))
-    bm.verts.new((6.0, 6.0, np.inf))
-    bm.to_mesh(obj.data)
-    bm.free()
+    with meshes.rebuilt(obj) as bm:
+        first = bm.verts[0]
+        bm.edges.new((bm.verts.new((5.0, 5.0, 5.0)), first))
+        bm.verts.new((6.0, 6.0, np.inf))
     before = meshes.in_edit_mode_once(obj, faces)
     assert meshes.fair(obj, faces) == {"FINISHED"}
     changed = meshes.moved(before, meshes.contents(obj))

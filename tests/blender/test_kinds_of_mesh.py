@@ -65,8 +65,7 @@ def test_open_border_stays() -> None:
 
 def test_selection_and_modes_stay() -> None:
     obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.context.tool_settings.mesh_select_mode = (True, False, True)
     meshes.run()
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (True, False, True)

@@ -38,8 +38,7 @@ def table_mountain(size: int = 16) -> tuple[bpy.types.Object, Any]:
     points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
     meshes.move(obj, points)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.ops.ed.undo_push(message="start")
     assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
     return bpy.data.objects[obj.name], faces
@@ -72,8 +71,7 @@ def assert_fair(faces: Any, name: str = "Grid") -> None:
     before = now(name)
     obj = bpy.data.objects[name]
     meshes.leave()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     switch(False)
     meshes.run()
     np.testing.assert_allclose(now(name), before, atol=2e-5)
@@ -103,8 +101,7 @@ def test_an_edge_marked_sharp_follows_its_ends(live: Any) -> None:
     obj.data.edges.foreach_set("use_edge_sharp", [bool(ridge[list(edge.vertices)].all()) for edge in obj.data.edges])
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
     free = meshes.free_vertices(obj, faces)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
     for _ in range(4):
         for row in np.unique(points[~free][:, 1]):  # sheared: z grows with y
@@ -157,8 +154,7 @@ def test_undo_step_made_before_the_fairing(live: Any) -> None:
 def test_region_is_undone_too(live: Any) -> None:
     obj = meshes.grid(12)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.ops.ed.undo_push(message="start")
     bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
     assert module("mesh.live_mesh").has_region(bpy.data.objects["Grid"].data)
@@ -215,8 +211,7 @@ def test_a_file_that_is_opened_keeps_its_positions(live: Any, tmp_path: Path) ->
 def test_options_are_those_of_the_last_run(live: Any) -> None:
     obj = meshes.grid(12)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     options = module("core.options").FairOptions(equation="CONSTANT", bulge=0.4)
     session = module("follow.session").candidate(obj, options)
     first = module("core.live_search").first(session.region, session.positions, session.matrix, lambda *_: True)
@@ -333,8 +328,7 @@ def test_far_side_of_a_limb(live: Any) -> None:
     ]
     obj = meshes.add(points, quads, "Limb")
     row = np.arange(len(quads)) // around
-    meshes.select(obj, (row >= 10) & (row < 15))
-    meshes.edit(obj)
+    meshes.enter(obj, (row >= 10) & (row < 15))
     assert bpy.ops.mesh.fair_live_region() == {"FINISHED"}
     for low, high in ((15, 20), (0, 10), (15, 20)):
         assert bpy.ops.mesh.fair_live_far_side() == {"FINISHED"}
@@ -351,8 +345,7 @@ def with_keys() -> tuple[bpy.types.Object, Any]:
     for name in ("Basis", "Smile"):
         obj.shape_key_add(name=name, from_mix=False)
     obj.active_shape_key_index = 0
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
     smile = obj.data.shape_keys.key_blocks["Smile"]
     points[:, 2] += 0.2 * np.cos(5.0 * points[:, 0])
     smile.data.foreach_set("co", points.astype(np.float32).ravel())
@@ -397,14 +390,12 @@ def test_a_key_that_gets_locked_is_left_alone(live: Any) -> None:
 
 def test_what_cannot_be_live_is_refused() -> None:
     obj = meshes.grid(6)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: False))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: False))
     with pytest.raises(RuntimeError, match="No face is selected"):
         bpy.ops.mesh.fair_live_region()
     session, options = module("follow.session"), module("core.options")
     meshes.leave()
-    meshes.select(obj, meshes.faces_where(obj, lambda c: abs(c.x) < 0.7 and abs(c.y) < 0.7))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: abs(c.x) < 0.7 and abs(c.y) < 0.7))
     before = now()
     with pytest.raises(ValueError, match="can't be followed"):
         session.candidate(obj, options.FairOptions(boundary_normals="CUSTOM"))

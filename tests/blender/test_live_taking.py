@@ -68,8 +68,7 @@ def mountain() -> bpy.types.Object:
     points = meshes.positions(obj)
     points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
     meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
     return obj
 
 
@@ -81,8 +80,7 @@ def dented_ball() -> bpy.types.Object:
     points = meshes.positions(obj)
     points[points[:, 2] > 0.3, 2] *= 0.6
     meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda centre: centre.z > 0.05))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda centre: centre.z > 0.05))
     return obj
 
 

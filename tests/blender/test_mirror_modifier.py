@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -84,35 +83,3 @@ def test_a_new_mesh_tells_of_the_plane() -> None:
     assert meshes.fair(obj, faces, mesh="NEW") == {"FINISHED"}
     assert "Mirror modifier" in meshes.report().warnings
     assert "open borders" not in meshes.report().warnings
-
-
-def test_a_hole_that_the_plane_cuts_is_filled_up_to_the_plane() -> None:
-    """Its border goes on along the plane and around the whole half, which stays open."""
-    obj, faces = half_dome()
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.faces[k] for k in np.flatnonzero(faces)], context="FACES")
-    bm.to_mesh(obj.data)
-    bm.free()
-    before = meshes.contents(obj)
-    count = len(obj.data.vertices)
-    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
-    meshes.edit(obj)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    rim = bmesh.from_edit_mesh(obj.data)
-    for vertex in rim.verts:
-        vertex.select = vertex.is_boundary and -0.8 < vertex.co.x < -0.1 and abs(vertex.co.y) < 0.8
-    rim.select_flush_mode()
-    assert bpy.ops.mesh.fair_fill() == {"FINISHED"}
-    meshes.leave()
-    assert meshes.contents(obj)["POINT position"].startswith(before["POINT position"])
-    new = meshes.positions(obj)[count:]
-    assert len(new) > 10
-    assert np.abs(np.linalg.norm(new, axis=1) - 2.0).max() < 5e-3
-    assert new[:, 0].max() < 1e-6
-    assert np.count_nonzero(np.abs(new[:, 0]) < 1e-6) > 2
-    obj.modifiers.clear()
-    meshes.edit(obj)
-    assert bpy.ops.mesh.fair_fill(accept="ALL") == {"FINISHED"}
-    meshes.leave()

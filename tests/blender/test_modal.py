@@ -33,8 +33,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
             reported.append((kinds, text))
 
     reported: list[Any] = []
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     job.memory.clear()
     tasks = job.read(bpy.context, options)
 
@@ -206,8 +205,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
     monkeypatch.setattr(operators.job, "solve", slow)
     monkeypatch.setattr(background, "has_events", lambda _context: True)
     monkeypatch.setattr(background, "MOMENT", 10.0 if quick else 0.01)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     status = operator.invoke(bpy.context, event("LEFTMOUSE"))
     if not quick:
         assert (status, watched) == ({"RUNNING_MODAL"}, [operator])
@@ -232,19 +230,6 @@ def test_only_looking_around_passes_through(go_on: threading.Event) -> None:
         assert operator.modal(bpy.context, event(kind)) == {"RUNNING_MODAL"}
     assert operator.modal(bpy.context, event("ESC", "RELEASE")) == {"RUNNING_MODAL"}
     operator.cancel(bpy.context)
-
-
-def test_the_end_writes_what_a_script_would(go_on: threading.Event) -> None:
-    scripted, faces = meshes.domed_grid()
-    meshes.fair(scripted, faces)
-    obj, _ = meshes.domed_grid()
-    operator = started(obj, faces, go_on)
-    go_on.set()
-    assert operator._run.wait(10.0)
-    assert operator.modal(bpy.context, event("TIMER")) == {"FINISHED"}
-    assert meshes.report().converged
-    meshes.leave()
-    assert meshes.positions(obj).tobytes() == meshes.positions(scripted).tobytes()
 
 
 def test_a_mesh_that_changed_meanwhile_is_left_alone(go_on: threading.Event) -> None:

@@ -128,8 +128,7 @@ def test_the_legend_says_what_the_colours_stand_for() -> None:
 
 def test_follows_edits(overlay: Any) -> None:
     obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     settings().show = True
     before = overlay.surfaces[0].curvature.copy()
     meshes.run()
@@ -142,8 +141,7 @@ def test_follows_edits(overlay: Any) -> None:
 def test_measuring_is_no_change(overlay: Any) -> None:
     later = module("show.overlay")._measure_later
     obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     settings().show = True
     bpy.context.view_layer.update()
     if bpy.app.timers.is_registered(later):

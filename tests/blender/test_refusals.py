@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -20,16 +19,11 @@ def add_nan(obj: bpy.types.Object) -> None:
 
 def add_tent(obj: bpy.types.Object) -> None:
     """Raise a closed tent on an edge in the middle of the selection: four faces meet there."""
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    edge = min(bm.edges, key=lambda e: sum(v.co.xy.length for v in e.verts))
-    a, b = edge.verts
-    tips = [bm.verts.new((0.0, y, 1.0)) for y in (-0.1, 0.1)]
-    for face in ((a, b, tips[0]), (b, a, tips[1]), (a, tips[0], tips[1]), (b, tips[1], tips[0])):
-        bm.faces.new(face)
-    bm.to_mesh(obj.data)
-    bm.free()
+    with meshes.rebuilt(obj) as bm:
+        a, b = min(bm.edges, key=lambda e: sum(v.co.xy.length for v in e.verts)).verts
+        tips = [bm.verts.new((0.0, y, 1.0)) for y in (-0.1, 0.1)]
+        for face in ((a, b, tips[0]), (b, a, tips[1]), (a, tips[0], tips[1]), (b, tips[1], tips[0])):
+            bm.faces.new(face)
 
 
 def flatten(obj: bpy.types.Object) -> None:
@@ -74,44 +68,15 @@ def test_a_refused_run_takes_the_place_of_the_one_before() -> None:
     assert not bpy.types.VIEW3D_PT_fairing_report.poll(bpy.context)
 
 
-def test_refused_run_adds_no_undo_step() -> None:
-    obj, faces = meshes.domed_grid()
-    original = meshes.positions(obj)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    bpy.ops.ed.undo_push(message="first")
-    bpy.ops.transform.translate(value=(0.0, 0.0, 1.0))
-    bpy.ops.ed.undo_push(message="second")
-    with pytest.raises(RuntimeError):
-        meshes.run(levels=5)
-    bpy.ops.ed.undo()
-    meshes.contents_in_edit_mode()
-    np.testing.assert_array_equal(meshes.positions(bpy.data.objects["Grid"]), original)
-
-
-def test_mesh_error_selects_its_vertices() -> None:
-    obj, faces = meshes.domed_grid()
-    add_nan(obj)
-    points = meshes.positions(obj)
-    with pytest.raises(RuntimeError):
-        meshes.fair(obj, faces)
-    selected = [v.index for v in obj.data.vertices if v.select]
-    assert selected == np.flatnonzero(np.isnan(points).any(axis=1)).tolist()
-
-
 def join_fans(obj: bpy.types.Object) -> tuple[int, ...]:
     """Stand a double fan on a vertex in the middle: two fans meet there."""
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    foot = min(bm.verts, key=lambda v: v.co.xy.length)
-    ring = [bm.verts.new((x, y, 1.0)) for x, y in ((0.1, 0.0), (0.0, 0.1), (-0.1, 0.0), (0.0, -0.1))]
-    for a, b in zip(ring, ring[1:] + ring[:1], strict=True):
-        bm.faces.new((foot, a, b))
-    bm.verts.index_update()
-    named = (foot.index,)
-    bm.to_mesh(obj.data)
-    bm.free()
-    return named
+    with meshes.rebuilt(obj) as bm:
+        foot = min(bm.verts, key=lambda v: v.co.xy.length)
+        ring = [bm.verts.new((x, y, 1.0)) for x, y in ((0.1, 0.0), (0.0, 0.1), (-0.1, 0.0), (0.0, -0.1))]
+        for a, b in zip(ring, ring[1:] + ring[:1], strict=True):
+            bm.faces.new((foot, a, b))
+        bm.verts.index_update()
+        return (foot.index,)
 
 
 def spoil_middle(obj: bpy.types.Object) -> tuple[int, ...]:
@@ -130,8 +95,7 @@ def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
     obj, _ = meshes.domed_grid()
     (vertex,) = NAMERS[text](obj)
     faces = meshes.faces_where(obj, lambda c: not max(abs(c.x), abs(c.y)) >= 0.7)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     with pytest.raises(job.Refused, match=f"{text} {vertex} ") as refusal:
         job.solve(job.read(bpy.context, options), options, lambda *_: True, ahead=ahead)
     assert refusal.value.cause.elements.tolist() == [vertex]
@@ -153,16 +117,6 @@ def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None
         meshes.fair(obj, faces)
     assert meshes.contents(obj)["POINT position"] == before["POINT position"]
     assert "7.0 GB" in inspect(obj, faces).refusal
-
-
-def test_nothing_selected_is_an_info() -> None:
-    obj, faces = meshes.domed_grid()
-    before = meshes.in_edit_mode_once(obj, np.zeros_like(faces))
-    assert meshes.fair(obj, np.zeros_like(faces)) == {"CANCELLED"}
-    one = np.zeros_like(faces)
-    one[0] = True
-    assert meshes.fair(obj, one) == {"CANCELLED"}
-    assert meshes.contents(obj)["POINT position"] == before["POINT position"]
 
 
 def test_locked_shape_key_is_refused() -> None:

@@ -69,13 +69,6 @@ def test_report_of_a_restored_hemisphere() -> None:
     assert meshes.report().seconds > 0.0
 
 
-def test_kink_of_a_soap_film_is_no_fault() -> None:
-    obj, faces = meshes.domed_grid()
-    meshes.fair(obj, faces, equation="MINIMAL")
-    assert meshes.report().verdict == "GOOD"
-    assert "Kink at the boundary" not in checks()
-
-
 def test_before_and_after() -> None:
     obj, faces = meshes.domed_grid()
     start = meshes.in_edit_mode_once(obj, faces)

@@ -75,21 +75,6 @@ def test_custom_normals() -> None:
     assert off_sphere(meshes.positions(obj)) < 2e-4
 
 
-def test_pins() -> None:
-    obj = meshes.grid()
-    inner = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
-    centre = int(np.linalg.norm(meshes.positions(obj), axis=1).argmin())
-    points = meshes.positions(obj)
-    points[centre, 2] = 0.25  # a float32 too
-    meshes.move(obj, points)
-    obj.vertex_groups.new(name="Pin").add([centre], 1.0, "REPLACE")
-    meshes.fair(obj, inner, pin_group="Pin")
-    result = meshes.positions(obj)
-    assert result[centre].tobytes() == points[centre].tobytes()
-    neighbours = np.linalg.norm(result[:, :2] - result[centre, :2], axis=1) < 0.3
-    assert (result[neighbours, 2] > 0.02).all()
-
-
 @pytest.mark.parametrize("kind", ["SHARP", "SEAM", "CREASE"])
 def test_pinned_edges(kind: str) -> None:
     obj = meshes.grid()

@@ -138,16 +138,6 @@ def test_what_hides_the_mesh_is_refused(sculpted: Any, spoiler: str, says: str) 
     assert meshes.positions(obj).tobytes() == before.tobytes()
 
 
-def test_what_is_not_usable_leaves_the_mesh(sculpted: Any) -> None:
-    obj, upper = half_sphere()
-    paint_mask(obj, upper)
-    before = meshes.positions(obj)
-    bpy.ops.object.mode_set(mode="SCULPT")
-    with pytest.raises(RuntimeError, match="Not usable"):
-        bpy.ops.mesh.fair_masked(source="MASK", equation="CONSTANT", bulge=0.3)
-    assert meshes.positions(obj).tobytes() == before.tobytes()
-
-
 def test_not_in_edit_mode() -> None:
     obj = meshes.grid()
     meshes.edit(obj)

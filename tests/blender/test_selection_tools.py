@@ -68,8 +68,7 @@ def test_left_out_faces_are_offered_and_added() -> None:
     assert hole.sum() == 1
     assert inspect(obj, faces & ~hole).left_out == 1
     assert inspect(obj, faces).left_out == 0
-    meshes.select(obj, faces & ~hole)
-    meshes.edit(obj)
+    meshes.enter(obj, faces & ~hole)
     watch = module("follow.watch").watch
     watch.look(bpy.context)
     assert "mesh.fair_add_left_out" in drawn("VIEW3D_PT_fairing_selection")
@@ -94,8 +93,7 @@ def test_bad_outline_vertices_are_marked_selected_and_grown_over() -> None:
     obj, faces = folded()
     points = meshes.positions(obj)
     obj.location = (0.0, 0.0, 5.0)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     watch = module("follow.watch").watch
     marks = module("show.marks")
     bpy.context.view_layer.update()
@@ -111,8 +109,7 @@ def test_bad_outline_vertices_are_marked_selected_and_grown_over() -> None:
     np.testing.assert_allclose(sorted(map(tuple, places)), sorted(map(tuple, points[bad] + [0.0, 0.0, 5.0])), atol=1e-5)
     assert np.abs(points[bad, :2] - [0.5, 0.0]).max() < 0.3
     meshes.leave()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.context.tool_settings.mesh_select_mode = (False, False, True)
     assert bpy.ops.mesh.fair_grow() == {"FINISHED"}
     grown = set(chosen_faces(obj))

@@ -117,12 +117,6 @@ def test_a_script_gets_it_without_edit_mode_and_one_undo_takes_it_back() -> None
     assert len(bpy.context.object.data.vertices) == 8
 
 
-def test_nothing_is_parted_where_edges_are_as_wanted() -> None:
-    obj = box(open_top=True)
-    module().fill_mesh(obj.data, equation="MINIMAL", subdivide_boundary=True)
-    assert [len(polygon.vertices) for polygon in obj.data.polygons][:5] == [4] * 5
-
-
 def test_edges_are_whole_again_after_an_error() -> None:
     """What is refused while it is written leaves a mesh as it was."""
     obj = box(open_top=True)

@@ -12,8 +12,6 @@ import meshes
 import numpy as np
 import pytest
 from extension import module
-from mathutils import Vector
-from test_held import box, bumpy
 from test_interface import command
 from test_panel import drawn
 
@@ -62,8 +60,7 @@ def test_what_is_not_usable_leaves_every_bit_and_shows_its_spots() -> None:
 def test_write_it_all_the_same() -> None:
     obj, faces = kinked()
     before = meshes.positions(obj)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
     bpy.ops.mesh.select_all(action="DESELECT")
@@ -84,8 +81,7 @@ def test_write_it_all_the_same() -> None:
 def test_grow_by_a_ring() -> None:
     """The thorn is inside then: nothing is left of it."""
     obj, faces = thorn()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     meshes.run()
     assert meshes.report().verdict == "LOOK"
     free = meshes.report().free_vertices
@@ -111,8 +107,7 @@ def test_a_selection_too_tight_for_its_bump_is_grown_over_it() -> None:
     points = meshes.positions(obj)
     points[:, 2] = 0.2 * np.exp(-(points[:, :2] ** 2).sum(axis=1) / (2.0 * 0.15**2))
     meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: c.xy.length < 0.2))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: c.xy.length < 0.2))
     meshes.run()
     assert (meshes.report().verdict, meshes.report().remedies.split(",")[0]) == ("LOOK", "GROW_OVER")
     assert "slope of a bump" in meshes.report().reason
@@ -124,8 +119,7 @@ def test_a_selection_too_tight_for_its_bump_is_grown_over_it() -> None:
 
 def test_again_with_even_curvature() -> None:
     obj, faces = kinked()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
     assert bpy.ops.mesh.fair_again(way="EVEN_CURVATURE") == {"FINISHED"}
@@ -145,8 +139,7 @@ def pulled_pin(aside: float = 0.25) -> bpy.types.Object:
     points[pin] += [aside, 0.24 * aside, 0.0]
     meshes.move(obj, points)
     obj.vertex_groups.new(name="Pin").add([int(pin)], 1.0, "REPLACE")
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
     return obj
 
 
@@ -205,8 +198,7 @@ def test_again_with_a_smooth_outline() -> None:
     points = meshes.positions(obj)
     points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
     meshes.move(obj, points)
-    meshes.select(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
-    meshes.edit(obj)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
     meshes.run()
     worst = meshes.report().join_worst
     assert bpy.ops.mesh.fair_again(way="SMOOTH_OUTLINE") == {"FINISHED"}
@@ -219,8 +211,7 @@ def test_another_way_that_is_no_better_is_not_written() -> None:
     """A good result is as good as it gets: the mesh, the report and the selection stay, the button goes."""
     obj = meshes.grid(16)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     meshes.run()
     report = meshes.report()
     assert report.verdict == "GOOD"
@@ -238,8 +229,7 @@ def test_another_way_that_is_no_better_is_not_written() -> None:
 def test_the_region_is_selected_again() -> None:
     """After the spots of a run and after Select Bad Boundary."""
     obj, faces = thorn()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     meshes.run()
     for other in (bpy.ops.mesh.fair_spots, bpy.ops.mesh.fair_select_bad):
         assert other() == {"FINISHED"}
@@ -256,8 +246,7 @@ def test_the_region_is_selected_again() -> None:
 def test_the_view_goes_to_the_worst_spot() -> None:
     obj, faces = thorn()
     obj.location, obj.scale = (5.0, 0.0, 0.0), (2.0, 2.0, 2.0)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     meshes.run()
     place, normal, size = module("run.last_run").worst_spot(bpy.context)
     assert np.linalg.norm(np.array(place) - [4.0, 0.0, 0.0]) < 0.6
@@ -268,8 +257,7 @@ def test_the_view_goes_to_the_worst_spot() -> None:
 
 def test_a_changed_mesh_is_not_faired_again() -> None:
     obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     meshes.run()
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.subdivide()
@@ -278,49 +266,10 @@ def test_a_changed_mesh_is_not_faired_again() -> None:
     meshes.leave()
 
 
-def test_worst_spots_are_the_kinks() -> None:
-    """One vertex of the boundary stands out of a plane: a kink is left there, and nowhere else."""
-    obj, faces = thorn()
-    points = meshes.positions(obj)
-    meshes.fair(obj, faces)
-    report = meshes.report()
-    assert (report.verdict, report.written) == ("LOOK", True)
-    assert report.join_worst > 12.0
-    assert report.join_typical < 2.0
-    meshes.edit(obj)
-    assert bpy.ops.mesh.fair_spots() == {"FINISHED"}
-    spots = points[selected_vertices(obj)]
-    assert len(spots) > 0
-    assert np.abs(spots[:, 1]).max() < 0.3
-    assert spots[:, 0].max() < -0.4
-    meshes.leave()
-    meshes.fair(meshes.grid(8), meshes.faces_where(bpy.context.object, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
-    assert meshes.report().verdict == "GOOD"
-    meshes.edit(bpy.context.object)
-    assert not bpy.ops.mesh.fair_spots.poll()
-
-
-def test_a_fitted_boundary_moves_it() -> None:
-    obj = meshes.grid(16)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
-    meshes.move(obj, points)
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
-    before = meshes.in_edit_mode_once(obj, faces)
-    meshes.fair(obj, faces, outline="MENDED")
-    moved = meshes.moved(before, meshes.contents(obj))
-    free = meshes.free_vertices(obj, faces)
-    assert (moved & ~free).any()
-    far = np.abs(points[:, :2]).max(axis=1) > 0.5 + 2.5 / 8.0
-    assert not moved[far].any()
-    assert np.abs(meshes.positions(obj)[moved & ~free, 2]).mean() < 0.8 * np.abs(points[moved & ~free, 2]).mean()
-
-
 def test_an_undone_run_is_not_the_last() -> None:
     panel = module("show.ui").VIEW3D_PT_fairing_report
     obj, faces = meshes.domed_grid()
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     bpy.ops.ed.undo_push(message="before")
     meshes.run()
     assert panel.poll(bpy.context)
@@ -336,8 +285,7 @@ def test_nothing_is_said_in_both_panels() -> None:
     obj = meshes.grid(9)
     hole = meshes.faces_where(obj, lambda c: c.length < 0.05)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7) & ~hole
-    meshes.select(obj, faces)
-    meshes.edit(obj)
+    meshes.enter(obj, faces)
     meshes.run()
     watch = module("follow.watch").watch
     watch.look(bpy.context)
@@ -408,34 +356,6 @@ def test_a_texture_is_kept_without_being_asked() -> None:
     assert results[False, "AUTOMATIC"] == results[False, "UNIFORM"]
     assert results[True, "AUTOMATIC"] == results[True, "CONFORMAL"]
     assert results[True, "UNIFORM"] != results[True, "CONFORMAL"]
-
-
-def test_smoothing_the_boundary_moves_no_hard_edge_outside() -> None:
-    bpy.ops.mesh.primitive_cube_add()
-    obj = bpy.context.object
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    bmesh.ops.subdivide_edges(bm, edges=bm.edges[:], cuts=12, use_grid_fill=True)
-    bm.to_mesh(obj.data)
-    bm.free()
-    faces = meshes.faces_where(obj, lambda c: (c - Vector((1.0, -1.0, 1.0))).length < 0.5)
-    before = meshes.positions(obj)
-    meshes.fair(obj, faces, outline="MENDED")
-    report = meshes.report()
-    assert report.verdict == "LOOK"
-    assert report.reason.startswith("A hard edge runs on outside")
-    assert "AS_SELECTED" not in report.remedies
-    assert np.abs(meshes.positions(obj) - before)[~meshes.free_vertices(obj, faces)].max() == 0.0
-
-
-def test_edges_that_are_marked_sharp_are_missed_unless_they_are_pinned() -> None:
-    for pins, grade in (("NONE", "LOOK"), ("SHARP", "GOOD")):
-        obj, faces = box()
-        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-        bumpy(obj, meshes.free_vertices(obj, faces) & ~on_edge)
-        meshes.fair(obj, faces, pin_edges=pins)
-        assert meshes.report().verdict == grade
-        assert meshes.report().reason.startswith("Edges marked sharp were rounded off") == (grade == "LOOK")
 
 
 @pytest.mark.parametrize("height", [0.02, 0.8])
