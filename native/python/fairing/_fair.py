@@ -10,9 +10,10 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
 from fairing._paper import PaperOptions
-from fairing._types import FairResult
+from fairing._types import FairResult, FloatArray
 
 Progress = Callable[[float, str], "bool | None"]
+Preview = Callable[[FloatArray], object]
 
 
 def fair(
@@ -50,6 +51,7 @@ def fair(
     open_border: str = "held",
     pin_radius: float = 0.1,
     detail_from: npt.ArrayLike | None = None,
+    preview: Preview | None = None,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -87,9 +89,10 @@ def fair(
         What stands in where no surface of ``equation`` is accepted (method "global", all but "minimal"); one that is
         accepted is always returned. The default is the surface of least variation. Where several boundary loops have
         none either, the shape of ``reference`` is smoothed as far as it goes, or a loft joins them where no such shape
-        is known; it may leave the tangent planes given (docs/least_variation.md). ``result.equation`` and the warning
-        NO_SOLUTION report the stand-in. "stop": the best surface found, not ``converged``. A solve that ran out of
-        fewer than 200 ``max_iterations``, or has part of its load, is never replaced.
+        is known; it may leave the tangent planes given (docs/least_variation.md). At last the surface of ``preview`` is
+        kept. ``result.equation`` and the warning NO_SOLUTION report the stand-in. "stop": the best surface found, not
+        ``converged``. A solve that ran out of fewer than 200 ``max_iterations``, or has part of its load, is
+        never replaced.
     load : float
         Of "constant", in length⁻³; positive bulges along the normals.
     bulge : float
@@ -176,6 +179,11 @@ def fair(
     open_border : "held" | "faired"
         "faired": border vertices that are not in ``fixed``, which must be given, don't stay. The border becomes a fair
         curve on a surface of "least_variation" that ends there with a free slope.
+    preview : callable(vertices) -> None
+        Called once, by the calling thread, before the search begins: with the (n, 3) vertices of a first surface, which
+        always exists and is finite. Of bi-Laplacian fills of the boundary, by the connectivity and by ``reference``, it
+        is the one with the least bending energy, after two steps of its descent. Without ``detail``, and between the
+        boundary that is given. Exceptions come out of the call.
     pin_radius : float
         Over which length, as a share of D, a pin lifts or holds the surface: the standard deviation of a Gaussian. 0:
         in a point, which leaves a dent that sharpens with the mesh. For the harmonic equations and "G1". Where no
@@ -243,6 +251,7 @@ def fair(
             options,
             of_paper,
             progress,
+            preview,
         )
 
     fitted = _arguments.choice("outline", outline, _options.OUTLINES) == "mended"
