@@ -6,12 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-import fairing
-
 from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
 from .boundary import boundary
-from .carrier import Carrier
 from .engine import Problem, Progress, RepeatedSolve, solve
 from .held_curves import ALONG, faired_curves
 from .options import FairOptions
@@ -98,12 +95,12 @@ class LiveRegion:
         self._patch = patch  # in the numbers of the whole mesh, which refusals name
         self._reference = world.positions[patch.vertices]
         self._solve = RepeatedSolve(patch, options, self._reference)
+        self._quick: RepeatedSolve | None = None
         self._start = world.positions[self._around.vertices]
         part = replace(self._around.mesh, positions=self._start)
         curve = faired_curves(part)[0] if options.fairs_pinned_edges else nothing()
         self._moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
         self._still = np.setdiff1d(self._around.patch.fixed, self._moving)
-        self._good = Carrier(mesh.positions[patch.vertices[self._still]], mesh.positions[patch.vertices[self._moving]])
 
     @property
     def vertices(self) -> Ints:
@@ -128,7 +125,8 @@ class LiveRegion:
 
         positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
         """
-        return self._kept(positions, matrix, self._solve(self._problem(positions, matrix), progress))
+        result = self._solve(self._problem(positions, matrix), progress)
+        return self._moved(result.vertices, matrix) if result.converged else None
 
     def afresh(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Answer without what former answers left, as the operator would; the same contract.
@@ -142,11 +140,22 @@ class LiveRegion:
         """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""
         options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
         problem = replace(self._problem(positions, matrix), curvatures=None)
-        return self._kept(positions, matrix, solve(problem, options, progress))
+        result = solve(problem, options, progress)
+        return self._moved(result.vertices, matrix) if result.converged else None
 
-    def carried(self, positions: Floats) -> Floats:
-        """Return the last good answer (k, 3), carried along by the motion of the fixed vertices since then."""
-        return self._good.carried(positions[self._around.patch.vertices[self._still]])
+    def first(self, positions: Floats, matrix: Floats) -> Floats:
+        """Return the surface (k, 3) that there always is, within milliseconds; the same contract, and never None.
+
+        With a solver of its own: a search may be using the other one.
+        """
+        if self._quick is None:
+            self._quick = RepeatedSolve(self._patch, self._options, self._reference)
+        return self._moved(self._quick.first(self._problem(positions, matrix)), matrix)
+
+    def still(self, positions: Floats) -> Floats:
+        """Return where the fixed vertices (b, 3) are; positions: (n, 3) of `vertices`."""
+        still: Floats = positions[self._around.patch.vertices[self._still]]
+        return still
 
     def _problem(self, positions: Floats, matrix: Floats) -> Problem:
         patch = self._around.patch
@@ -168,14 +177,10 @@ class LiveRegion:
             points[at[follows]] = places[follows]
         return points
 
-    def _kept(self, positions: Floats, matrix: Floats, result: fairing.FairResult) -> Floats | None:
-        """Return the result where it is good, and remember it."""
-        if not result.converged:
-            return None
-        fair = to_local(result.vertices, matrix)
+    def _moved(self, points: Floats, matrix: Floats) -> Floats:
+        """Return the vertices (k, 3) that move, in the mesh's own coordinates; points: (p, 3) in world space."""
+        fair = to_local(points, matrix)
         if self._image is not None:
             fair = symmetrised(fair, self._image)
-        patch = self._around.patch
-        self._good = Carrier(positions[patch.vertices[self._still]], fair[self._moving])
-        answer: Floats = fair[self._moving]
-        return answer
+        moved: Floats = fair[self._moving]
+        return moved
