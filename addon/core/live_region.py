@@ -79,6 +79,17 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
     )
 
 
+def _side_of(mesh: MeshArrays, patch: Patch, side: str) -> str:
+    """Return where slopes come from in all of a drag.
+
+    Hard edges of the boundary are looked for at its begin alone: in a step the faces inside are still where the last
+    one has left them, so that the boundary looks like one.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        first = boundary(mesh, patch, side, outside_triangles(mesh, patch))
+    return side if side != "AUTOMATIC" or first.from_inside.any() else "SURROUNDING"
+
+
 class LiveRegion:
     """Answers for one region while its surroundings move. Knows nothing of Blender."""
 
@@ -99,6 +110,7 @@ class LiveRegion:
         self._start = world.positions[self._around.vertices]
         part = replace(self._around.mesh, positions=self._start)
         curve = faired_curves(part)[0] if options.fairs_pinned_edges else nothing()
+        self._side = _side_of(part, self._around.patch, self._options.boundary_normals)
         self._moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
         self._still = np.setdiff1d(self._around.patch.fixed, self._moving)
 
@@ -162,7 +174,7 @@ class LiveRegion:
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             outside = outside_triangles(world, patch)
-            known = boundary(world, patch, self._options.boundary_normals, outside)
+            known = boundary(world, patch, self._side, outside)
             points = self._posed(world)
         curvatures = known.curvatures if self._options.joins_curvature else None
         return Problem.of(self._patch, points, known.normals, curvatures)

@@ -71,7 +71,7 @@ def scene(free_vertices: int) -> tuple[bpy.types.Object, Any]:
     obj = meshes.sphere(8 * round(np.sqrt(free_vertices / 3.0) / 2.0))
     upper = upper_half(obj)
     meshes.select(obj, upper)
-    dragged = np.flatnonzero(meshes.positions(obj)[:, 2] < 1e-6)
+    dragged = np.flatnonzero(meshes.positions(obj)[:, 2] < 1e-6)  # all of it: a single row would become a hard edge
     meshes.edit(obj)
     assert bpy.ops.mesh.fair_live_region() == {"FINISHED"}
     bpy.context.view_layer.update()
