@@ -75,14 +75,15 @@ def boundary(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> Boun
         curvatures[against] *= -1.0
     if source == "CUSTOM":
         return Boundary(custom_normals(mesh)[fixed], curvatures, from_inside)
-    normals = average_normals(mesh, fixed)
     if source == "AVERAGE":
-        return Boundary(normals, curvatures, from_inside)
+        return Boundary(average_normals(mesh, fixed), curvatures, from_inside)
+    normals, decided = np.zeros((len(fixed), 3)), np.zeros(len(fixed), dtype=bool)
     if fitted.fits is not None:
-        there = np.where(against[fitted.found, None], -fitted.fits.normals, fitted.fits.normals)
+        normals[fitted.found] = np.where(against[fitted.found, None], -fitted.fits.normals, fitted.fits.normals)
         # A zero normal is one that even the average of the outside faces leaves open.
-        decided = np.linalg.norm(there, axis=1) > 0.5
-        normals[np.flatnonzero(fitted.found)[decided]] = there[decided]
+        decided = np.linalg.norm(normals, axis=1) > 0.5
+    if not decided.all():
+        normals[~decided] = average_normals(mesh, fixed)[~decided]
     return Boundary(normals, curvatures, from_inside, _notes(mesh, fixed, fitted.found, from_inside))
 
 

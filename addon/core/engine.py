@@ -20,6 +20,8 @@ from .sentences import in_mesh_words
 
 Progress = Callable[[float, str], "bool | None"]
 
+Preview = Callable[[Floats], object]  # is given the (p, 3) vertices of a run's first surface
+
 # What the engine answers: on the mesh that is there, on a new one, or over a hole.
 Result = fairing.FairResult | fairing.RemeshResult | fairing.FillResult | fairing.FilletResult
 
@@ -68,7 +70,9 @@ class Problem:
         return points
 
 
-def solve(problem: Problem, options: FairOptions, progress: Progress | None = None) -> fairing.FairResult:
+def solve(
+    problem: Problem, options: FairOptions, progress: Progress | None = None, preview: Preview | None = None
+) -> fairing.FairResult:
     """Fair the patch; indices in the result are patch indices.
 
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
@@ -96,7 +100,7 @@ def solve(problem: Problem, options: FairOptions, progress: Progress | None = No
     )
     points = problem.posed if reads else problem.posed[: len(patch.vertices)]
     with naming_the_band(options), in_mesh_words(problem.origin):
-        return fairing.fair(points, patch.triangles, boundary, wanted, progress=progress)
+        return fairing.fair(points, patch.triangles, boundary, wanted, progress=progress, preview=preview)
 
 
 def go_on(progress: Progress | None) -> None:
@@ -180,13 +184,27 @@ class RepeatedSolve:
         """Take these options from the next solve on."""
         self._solver.change(**options.engine_arguments())
 
-    def __call__(self, problem: Problem, progress: Progress | None = None) -> fairing.FairResult:
+    def __call__(
+        self, problem: Problem, progress: Progress | None = None, preview: Preview | None = None
+    ) -> fairing.FairResult:
         """Fair the patch, which must be the one given, as `solve` does; raises the same."""
         with in_mesh_words(problem.patch.origin):
             own = problem.posed[: len(problem.patch.vertices)]
             return self._solver.solve(
-                own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures
+                own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures, preview=preview
             )
+
+    def first(self, problem: Problem) -> Floats:
+        """Return the (p, 3) vertices of the surface that there always is, within milliseconds; raises MeshRefusal."""
+        found: list[Floats] = []
+
+        def take(vertices: Floats) -> None:
+            found.append(vertices)
+            raise fairing.Cancelled("the first surface was all that was wanted")
+
+        with suppress_cancel():
+            self(problem, preview=take)
+        return found[0]
 
 
 def sub_range(progress: Progress | None, begin: float, end: float) -> Progress | None:

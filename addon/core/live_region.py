@@ -6,12 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-import fairing
-
 from .around import RINGS, outside_triangles
 from .arrays import Floats, Ints, Mask
 from .boundary import boundary
-from .carrier import Carrier
 from .engine import Problem, Progress, RepeatedSolve, solve
 from .held_curves import ALONG, faired_curves
 from .options import FairOptions
@@ -82,6 +79,17 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
     )
 
 
+def _side_of(mesh: MeshArrays, patch: Patch, side: str) -> str:
+    """Return where slopes come from in all of a drag.
+
+    Hard edges of the boundary are looked for at its begin alone: in a step the faces inside are still where the last
+    one has left them, so that the boundary looks like one.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        first = boundary(mesh, patch, side, outside_triangles(mesh, patch))
+    return side if side != "AUTOMATIC" or first.from_inside.any() else "SURROUNDING"
+
+
 class LiveRegion:
     """Answers for one region while its surroundings move. Knows nothing of Blender."""
 
@@ -98,12 +106,13 @@ class LiveRegion:
         self._patch = patch  # in the numbers of the whole mesh, which refusals name
         self._reference = world.positions[patch.vertices]
         self._solve = RepeatedSolve(patch, options, self._reference)
+        self._quick: RepeatedSolve | None = None
         self._start = world.positions[self._around.vertices]
         part = replace(self._around.mesh, positions=self._start)
         curve = faired_curves(part)[0] if options.fairs_pinned_edges else nothing()
+        self._side = _side_of(part, self._around.patch, self._options.boundary_normals)
         self._moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
         self._still = np.setdiff1d(self._around.patch.fixed, self._moving)
-        self._good = Carrier(mesh.positions[patch.vertices[self._still]], mesh.positions[patch.vertices[self._moving]])
 
     @property
     def vertices(self) -> Ints:
@@ -128,7 +137,8 @@ class LiveRegion:
 
         positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
         """
-        return self._kept(positions, matrix, self._solve(self._problem(positions, matrix), progress))
+        result = self._solve(self._problem(positions, matrix), progress)
+        return self._moved(result.vertices, matrix) if result.converged else None
 
     def afresh(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Answer without what former answers left, as the operator would; the same contract.
@@ -142,18 +152,29 @@ class LiveRegion:
         """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""
         options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
         problem = replace(self._problem(positions, matrix), curvatures=None)
-        return self._kept(positions, matrix, solve(problem, options, progress))
+        result = solve(problem, options, progress)
+        return self._moved(result.vertices, matrix) if result.converged else None
 
-    def carried(self, positions: Floats) -> Floats:
-        """Return the last good answer (k, 3), carried along by the motion of the fixed vertices since then."""
-        return self._good.carried(positions[self._around.patch.vertices[self._still]])
+    def first(self, positions: Floats, matrix: Floats) -> Floats:
+        """Return the surface (k, 3) that there always is, within milliseconds; the same contract, and never None.
+
+        With a solver of its own: a search may be using the other one.
+        """
+        if self._quick is None:
+            self._quick = RepeatedSolve(self._patch, self._options, self._reference)
+        return self._moved(self._quick.first(self._problem(positions, matrix)), matrix)
+
+    def still(self, positions: Floats) -> Floats:
+        """Return where the fixed vertices (b, 3) are; positions: (n, 3) of `vertices`."""
+        still: Floats = positions[self._around.patch.vertices[self._still]]
+        return still
 
     def _problem(self, positions: Floats, matrix: Floats) -> Problem:
         patch = self._around.patch
         with np.errstate(invalid="ignore", over="ignore"):
             world = replace(self._around.mesh, positions=positions).transformed(matrix)
             outside = outside_triangles(world, patch)
-            known = boundary(world, patch, self._options.boundary_normals, outside)
+            known = boundary(world, patch, self._side, outside)
             points = self._posed(world)
         curvatures = known.curvatures if self._options.joins_curvature else None
         return Problem.of(self._patch, points, known.normals, curvatures)
@@ -168,14 +189,10 @@ class LiveRegion:
             points[at[follows]] = places[follows]
         return points
 
-    def _kept(self, positions: Floats, matrix: Floats, result: fairing.FairResult) -> Floats | None:
-        """Return the result where it is good, and remember it."""
-        if not result.converged:
-            return None
-        fair = to_local(result.vertices, matrix)
+    def _moved(self, points: Floats, matrix: Floats) -> Floats:
+        """Return the vertices (k, 3) that move, in the mesh's own coordinates; points: (p, 3) in world space."""
+        fair = to_local(points, matrix)
         if self._image is not None:
             fair = symmetrised(fair, self._image)
-        patch = self._around.patch
-        self._good = Carrier(positions[patch.vertices[self._still]], fair[self._moving])
-        answer: Floats = fair[self._moving]
-        return answer
+        moved: Floats = fair[self._moving]
+        return moved

@@ -20,6 +20,7 @@ _KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
 STAND_INS = {
     "loft": "No fair surface fits these boundary loops: the loft that joins them is a stand-in, so look at its shape",
+    "bilaplacian": "No fair surface was found: a smooth one is kept instead, so look at its shape",
     "smoothed": "No fair surface fits these boundary loops: the old shape was smoothed, so look at it",
 }
 

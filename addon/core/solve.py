@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -46,6 +48,8 @@ class Kept:
     results: Memory[Solved]  # where nothing but factor and detail changed since a former call
     solvers: Memory[engine.RepeatedSolve | None]  # where only options changed; None: a mesh that was solved once
     ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
+    # Is given the problem and the (p, 3) vertices of its first surface.
+    preview: Callable[[engine.Problem, Floats], object] | None = None
 
 
 def solve(
@@ -123,17 +127,18 @@ def _solve_again(
     key: str, problem: engine.Problem, options: FairOptions, progress: Progress | None, kept: Kept
 ) -> fairing.FairResult:
     """Solve with the solver of a former call for the same patch, if there was one: other options move less."""
+    preview = partial(kept.preview, problem) if kept.preview is not None else None
     if options.reads_surroundings:
-        return engine.solve(problem, options, progress)
+        return engine.solve(problem, options, progress, preview)
     was_here = key in kept.solvers
     solver = kept.solvers.take(key)
     if not was_here and not kept.ahead:
         kept.solvers.put(key, None)
-        return engine.solve(problem, options, progress)
+        return engine.solve(problem, options, progress, preview)
     solver = solver or engine.RepeatedSolve(problem.patch, options)
     try:
         solver.change(options)
-        return solver(problem, progress)
+        return solver(problem, progress, preview)
     finally:
         kept.solvers.put(key, solver)  # errors leave it usable
 

@@ -281,6 +281,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "No fair surface fits these boundary loops: the old shape was smoothed as far as it goes",
             when="smoothed",
         ),
+        Words("No fair surface was found: a smooth one was taken at once, and is kept", when="bilaplacian"),
         Words(
             "No fair surface fits these boundary loops: a loft joins them, with a kink at {n} vertex",
             "No fair surface fits these boundary loops: a loft joins them, with a kink at {n} vertices",

@@ -17,7 +17,6 @@ import time
 from collections.abc import Callable, Iterator
 
 import bpy
-import numpy as np
 
 import fairing
 
@@ -33,13 +32,13 @@ from .search import Search
 from .session import Session, check_key, fits, is_of, read, session_of, where
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
-MOST_SKIPPED = 15  # changes in a row that are carried along without asking for an answer
+MOST_SKIPPED = 15  # changes in a row that do with the first surface, without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
+FRAME = 1.0 / 60.0  # seconds between two steps of a fade
 STAND_IN = "No fair surface leads here: Least Variation stands in for it"
-SEARCHING = "Looking for a fair surface: the region is carried along meanwhile"
-BEHIND = "The region is carried along: its fair surface comes when you pause"  # in the middle of changes
-CARRIED = "No fair surface leads here: the region is carried along, and mends when it is dragged back"
+SEARCHING = "Looking for a fair surface: a smooth one is shown meanwhile"
+KEPT = "No fair surface leads here: a smooth one is kept, and turns fair when it is dragged back"
 NO_REGION = "No live region: select faces, then Live Region"
 
 
@@ -65,7 +64,7 @@ class Live:
     def follow(self, obj: bpy.types.Object) -> bool:
         """Make the region fair again where something has changed around it; return whether it was written.
 
-        Where there is no answer so soon the region is carried along, and waits for `settle`.
+        Where there is no answer so soon the first surface stands in, and the region waits for `settle`.
         """
         session = self._current(obj)
         if session is None:
@@ -76,8 +75,7 @@ class Live:
         session.lost = answer is None
         self.message = ""
         if answer is None:
-            session.mark_outline()
-            answer = session.region.carried(session.positions)
+            answer = session.region.first(session.positions, session.matrix)
         self._write(obj, session, answer)
         return True
 
@@ -110,10 +108,10 @@ class Live:
         return False
 
     def _end(self, obj: bpy.types.Object, session: Session, search: Search) -> None:
-        """Write what was found, or leave the region as it was carried along; raises what went wrong."""
+        """Write what was found, or leave the region with its first surface; raises what went wrong."""
         session.given_up = True
         found = search.found()
-        self.message = CARRIED if found.positions is None else STAND_IN if found.stands_in else ""
+        self.message = KEPT if found.positions is None else STAND_IN if found.stands_in else ""
         if found.positions is not None:
             session.lost, session.skip = False, 0
             self._write(obj, session, found.positions)
@@ -127,10 +125,17 @@ class Live:
         session = self.sessions.get(obj.data.name)
         return session is not None and session.lost and not session.given_up
 
-    def lost_points(self) -> Floats:
-        """Return the boundaries (k, 3) in world space of all regions that have no fair surface now."""
-        points = [session.points for session in self.sessions.values() if session.lost]
-        return np.concatenate([np.empty((0, 3)), *points])
+    def stands_in(self) -> bool:
+        """Return whether a region has no fair surface now, but the one that there always is."""
+        return any(session.lost for session in self.sessions.values())
+
+    def fade(self, obj: bpy.types.Object) -> bool:
+        """Show the next step from one surface to another; return whether more are to come."""
+        session = self.sessions.get(obj.data.name)
+        if session is None or not session.blend.goes_on or not fits(session, obj.data) or self._has_moved(obj, session):
+            return False
+        self._put(obj, session, session.blend.shown(time.monotonic()))
+        return session.blend.goes_on
 
     def _current(self, obj: bpy.types.Object) -> Session | None:
         """Return the session of the mesh, opened anew where its connectivity or its region has changed.
@@ -168,9 +173,15 @@ class Live:
             self._aside[name] = session
 
     def _write(self, obj: bpy.types.Object, session: Session, answer: Floats) -> None:
-        mesh_io.write_edit_mesh(obj.data, session.region.free, answer)
-        session.positions, session.matrix = where(obj, session.region)
+        self._put(obj, session, session.shown(answer))
         self.updates += 1
+        if session.blend.goes_on:
+            call_later(_fade_later, FRAME)
+
+    @staticmethod
+    def _put(obj: bpy.types.Object, session: Session, positions: Floats) -> None:
+        mesh_io.write_edit_mesh(obj.data, session.region.free, positions)
+        session.wrote(positions)
 
     def doubt(self) -> None:
         """Have the regions compared at the next change."""
@@ -270,6 +281,12 @@ def _settle_later() -> float | None:
     return TICK if settle_all() else None
 
 
+def _fade_later() -> float | None:
+    """Show the next step of all that fade; return the seconds to the one after it."""
+    going_on = [live.fade(obj) for obj in edited_objects()]
+    return FRAME if any(going_on) else None
+
+
 def settle_all() -> bool:
     """Search for the surfaces of all lost regions that are being edited; return whether a search goes on."""
     said, edited = live.message, list(edited_objects())
@@ -317,6 +334,7 @@ def stop() -> None:
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
     live.on = False
     call_off(_settle_later)
+    call_off(_fade_later)
     live.forget()
 
 

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass, field
 
 import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints
+from ..core.blend import Blend
 from ..core.live_region import LiveRegion
 from ..core.options import FairOptions
 from ..core.region import free_vertices
 from ..mesh import live_mesh, mesh_io
 from .search import Search
 
+FADE = 0.25  # seconds in which one kind of surface turns into the other, in a window
 BLINK = 0.02  # seconds that a step of a drag waits for a search to stop
 
 
@@ -28,12 +31,12 @@ class Session:
     positions: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of region.vertices
     matrix: Floats = field(default_factory=lambda: np.zeros((4, 4)))
     seconds: float = 0.0  # of the last answer
-    lost: bool = False  # no fair surface is shown: the last good one, carried along
+    lost: bool = False  # no fair surface is shown, but the one that there always is
     given_up: bool = False  # as there is none for these positions: a search has ended without
     search: Search | None = None  # for the surface, under way or about to stop: it alone may ask the region
     skip: int = 0  # changes for which no answer is asked for, as the last ones took too long
     waited: int = 0  # changes that were skipped before the last try
-    points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # of the boundary in world space, where lost
+    blend: Blend = field(default_factory=lambda: Blend(0.0 if bpy.app.background else FADE))
     checked: bool = True  # an undo may have brought back another region
     key: str = ""  # the shape key that the region is in, as mesh_io.writable_key names it
 
@@ -56,10 +59,16 @@ class Session:
             if self.search.wait(BLINK):
                 self.search = None
 
-    def mark_outline(self) -> None:
-        """Remember where the boundary is now."""
-        at = np.searchsorted(self.region.vertices, self.region.outline)
-        self.points = self.positions[at] @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+    def wrote(self, positions: Floats) -> None:
+        """Take note of where the region's vertices (k, 3) that move are now: as Blender stores them."""
+        at = np.searchsorted(self.region.vertices, self.region.free)
+        self.positions = self.positions.copy()  # a search may be reading them
+        self.positions[at] = positions.astype(np.float32)
+
+    def shown(self, answer: Floats) -> Floats:
+        """Return what to write of an answer (k, 3) for the present positions: another kind of surface fades in."""
+        still = self.region.still(self.positions)
+        return self.blend.towards(answer, still, "first" if self.lost else "fair", time.monotonic())
 
 
 def matrix_of(obj: bpy.types.Object) -> Floats:

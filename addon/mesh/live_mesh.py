@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 from dataclasses import asdict
 from itertools import chain
+from operator import attrgetter
 from typing import Any
 
 import bmesh
@@ -16,6 +17,8 @@ import numpy as np
 
 from ..core.arrays import Floats, Ints
 from ..core.options import FairOptions
+
+_co, _index, _verts = attrgetter("co"), attrgetter("index"), attrgetter("verts")  # called without a frame each
 
 LAYER = "fair_live"  # integer face attribute, not zero in the region: bmesh of Blender 4.2 has no booleans
 OPTIONS = "fair_live_options"  # custom property of the mesh: FairOptions as JSON
@@ -99,7 +102,8 @@ def corners(mesh: bpy.types.Mesh, faces: Ints) -> Ints:
     bm.faces.ensure_lookup_table()
     bm.verts.index_update()
     table: Any = bm.faces
-    return np.array([vertex.index for face in faces.tolist() for vertex in table[face].verts], dtype=np.int64)
+    chosen = map(table.__getitem__, faces.tolist())
+    return np.fromiter(map(_index, chain.from_iterable(map(_verts, chosen))), dtype=np.int64)
 
 
 def positions(mesh: bpy.types.Mesh, vertices: Ints) -> Floats:
@@ -107,5 +111,5 @@ def positions(mesh: bpy.types.Mesh, vertices: Ints) -> Floats:
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
     table: Any = bm.verts
-    flat = chain.from_iterable(table[vertex].co for vertex in vertices.tolist())
+    flat = chain.from_iterable(map(_co, map(table.__getitem__, vertices.tolist())))
     return np.fromiter(flat, dtype=np.float64, count=3 * len(vertices)).reshape(-1, 3)

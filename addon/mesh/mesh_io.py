@@ -268,6 +268,28 @@ def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats, nor
     bmesh.update_edit_mesh(mesh, destructive=False)
 
 
+def move_vertices(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> None:
+    """Move the vertices (k,) of a mesh in edit mode to `positions` (k, 3) for a while: custom normals stay as set."""
+    bm = bmesh.from_edit_mesh(mesh)
+    bm.verts.ensure_lookup_table()
+    moved = elements_of(bm.verts, vertices)
+    for vertex, position in zip(moved, positions.tolist(), strict=True):
+        vertex.co = position
+    _update_normals_at(moved)
+    bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
+
+
+def move_vertices_back(mesh: bpy.types.Mesh, vertices: Ints, there: Floats, before: Floats) -> None:
+    """Move those of the vertices (k,) that are still at `there` (k, 3) to where they were `before` (k, 3)."""
+    bm = bmesh.from_edit_mesh(mesh)
+    if not len(vertices) or len(bm.verts) <= vertices.max():
+        return  # another mesh by now
+    bm.verts.ensure_lookup_table()
+    now = np.array([vertex.co[:] for vertex in elements_of(bm.verts, vertices)])
+    same = (now == there).all(axis=1)
+    move_vertices(mesh, vertices[same], before[same])
+
+
 def _update_normals_at(moved: list[Any]) -> None:
     """Update the normals of some vertices, of their faces, and of these faces' vertices."""
     faces = {face for vertex in moved for face in vertex.link_faces}

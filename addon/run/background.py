@@ -12,6 +12,7 @@ from ..core.engine import Progress
 from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
 from ..translations import translated
 from . import job
+from .preview import Preview
 
 CANCELLED = "Fairing was cancelled; nothing has changed"
 TICK = 0.05  # seconds between two looks at the thread
@@ -50,7 +51,8 @@ class Signs:
     Ended once, by whoever comes first: the run's operator, or `stop_all` without it.
     """
 
-    def __init__(self, context: bpy.types.Context) -> None:
+    def __init__(self, context: bpy.types.Context, preview: Preview | None = None) -> None:
+        self.preview = preview
         self.unwanted = False  # a button has asked for the end
         manager = context.window_manager
         self._timer = manager.event_timer_add(TICK, window=context.window)
@@ -58,10 +60,17 @@ class Signs:
         show_progress(context, 0.0, "")
         _shown.append(self)
 
+    def show_preview(self) -> None:
+        """Show what the run has given to be shown meanwhile."""
+        if self.preview is not None:
+            self.preview.show()
+
     def end(self) -> None:
         """Take them away, unless that has been done."""
         if self in _shown:
             _shown.remove(self)
+            if self.preview is not None:
+                self.preview.take_back()
             manager = bpy.context.window_manager
             manager.event_timer_remove(self._timer)
             manager.progress_end()
@@ -115,6 +124,7 @@ class Watched:
 
     _run: runner.Run[Any] | None = None
     _signs: Signs | None = None
+    _preview: Preview | None = None  # what is shown meanwhile
 
     def _begin_with(self, context: bpy.types.Context, go_on: Callable[[bpy.types.Context], set[str]]) -> set[str]:
         """Read, and go on at once or in the background."""
@@ -138,6 +148,8 @@ class Watched:
         if event.type == "TIMER":
             if self._run.finished:
                 return self._collect(context)
+            if self._signs is not None:
+                self._signs.show_preview()
             show_progress(context, self._run.fraction, self._run.stage)
         passes = event.type in _VIEW_EVENTS or (event.type in _POINTER_EVENTS and over_buttons(context, event))
         return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
@@ -148,13 +160,17 @@ class Watched:
             self._run.cancel()
         self._stop_watching()
 
-    def _start(self, context: bpy.types.Context, work: Work, large: bool) -> set[str]:
-        """Begin; return when done where that takes but a moment, but for large ones at once."""
+    def _start(self, context: bpy.types.Context, work: Work, large: bool, preview: Preview | None = None) -> set[str]:
+        """Begin; return when done where that takes but a moment, but for large ones at once.
+
+        preview: what the work gives its first surfaces to, if it does.
+        """
         if not has_events(context):
             return self._apply(context, at_once(context, work))
         self._run = runner.Run(work)
         if not large and self._run.wait(MOMENT):
             return self._apply(context, self._run.result())
+        self._preview = preview
         self._start_watching(context)
         return {"RUNNING_MODAL"}
 
@@ -172,7 +188,7 @@ class Watched:
         return self._apply(context, outcomes)
 
     def _start_watching(self, context: bpy.types.Context) -> None:
-        self._signs = Signs(context)
+        self._signs = Signs(context, self._preview)
         context.window_manager.modal_handler_add(self)
 
     def _stop_watching(self) -> None:

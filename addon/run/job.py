@@ -5,18 +5,19 @@ Nothing is written unless all objects can be done.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
-from ..core.engine import REFUSALS, Progress, RepeatedSolve, sub_range
+from ..core.arrays import Floats, Ints
+from ..core.engine import REFUSALS, Problem, Progress, RepeatedSolve, sub_range
 from ..core.memory import Memory
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.reflected import Whole, whole_of
-from ..core.region import MeshArrays, free_vertices
+from ..core.region import MeshArrays, free_vertices, to_local
 from ..core.remeshing import Remeshed
 from ..core.solve import Kept, Solved
 from ..host.context import edited_objects
@@ -89,15 +90,21 @@ def size(tasks: list[Task]) -> int:
     return sum(task.free_count for task in tasks)
 
 
-def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bool = False) -> list[Fairing]:
+Give = Callable[[str, Ints, Floats], None]  # an object's name, vertices (k,) of its mesh, where to show them (k, 3)
+
+
+def solve(
+    tasks: list[Task], options: FairOptions, progress: Progress, ahead: bool = False, give: Give | None = None
+) -> list[Fairing]:
     """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled.
 
     ahead: prepare for a change of options, which takes a while: in the background.
+    give: is given each task's first surface, where that is shown as it is.
     """
-    kept = Kept(memory, solvers, ahead)
     outcomes: list[Fairing] = []
     done, total = 0, size(tasks)
     for task in tasks:
+        kept = Kept(memory, solvers, ahead, _preview(task, options, give))
         part = sub_range(progress, done / total, (done + task.free_count) / total)
         try:
             outcomes.append(fair_all_keys(task.mesh, task.matrix, options, part, kept))
@@ -105,6 +112,18 @@ def solve(tasks: list[Task], options: FairOptions, progress: Progress, ahead: bo
             raise Refused(task.object_name, cause) from cause
         done += task.free_count
     return outcomes
+
+
+def _preview(task: Task, options: FairOptions, give: Give | None) -> Callable[[Problem, Floats], None] | None:
+    """Return what gives a task's first surface; None where the mesh would not show it as it is."""
+    if give is None or task.whole is not None or options.mesh == "NEW" or options.factor != 1.0:
+        return None
+
+    def preview(problem: Problem, points: Floats) -> None:
+        free = problem.patch.free
+        give(task.object_name, problem.patch.vertices[free], to_local(points[free], task.matrix))
+
+    return preview
 
 
 def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:

@@ -20,6 +20,7 @@ from ..translations import translated
 from . import compare, job, labels, last_run
 from .background import Watched, at_once
 from .option_properties import FairProperties
+from .preview import Preview
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
 
@@ -77,7 +78,9 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
     def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
         # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
         large = job.size(self._tasks) >= background_from(context)
-        return self._start(context, partial(job.solve, self._tasks, self._options, ahead=large), large)
+        preview = Preview(self._tasks)
+        work = partial(job.solve, self._tasks, self._options, ahead=large, give=preview.give)
+        return self._start(context, work, large, preview)
 
     def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
         return self._apply(context, at_once(context, partial(job.solve, self._tasks, self._options)))

@@ -1,4 +1,4 @@
-"""Marks in the 3D view: bad vertices of a selection's boundary, and a live region that has lost its surface."""
+"""Marks in the 3D view: bad vertices of a selection's boundary, and what Live has to say."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..core.arrays import Floats
-from ..follow.live import BEHIND, live
+from ..follow.live import live
 from ..follow.watch import watch
 from ..translations import translated
 
 BAD = (1.0, 0.45, 0.0, 1.0)
-LOST = (1.0, 0.1, 0.1, 1.0)
+SAID = (1.0, 1.0, 1.0, 1.0)
 SIZE = 9.0  # pixels
 
 Mark = tuple[Floats, tuple[float, float, float, float]]
@@ -36,10 +36,7 @@ def shown(context: bpy.types.Context) -> list[Mark]:
     """Return points (k, 3) in world space with their colours; none of a selection that has changed since the look."""
     if context.mode != "EDIT_MESH":
         return []
-    marks: list[Mark] = [(live.lost_points(), LOST)]
-    if not watch.stale:
-        marks += [(found.bad, BAD) for found in watch.found]
-    return [mark for mark in marks if len(mark[0])]
+    return [] if watch.stale else [(found.bad, BAD) for found in watch.found if len(found.bad)]
 
 
 def draw(context: bpy.types.Context) -> None:
@@ -58,14 +55,14 @@ def draw(context: bpy.types.Context) -> None:
 
 
 def draw_message(context: bpy.types.Context) -> None:
-    """Write what is wrong with a live region into the 3D view, whichever panels are open; none lies over its top."""
-    if context.mode != "EDIT_MESH" or not (live.message or len(live.lost_points())):
+    """Write what Live has to say into the 3D view, whichever panels are open; none lies over its top."""
+    if context.mode != "EDIT_MESH" or not live.message:
         return
     scale = context.preferences.system.ui_scale
     blf.size(0, 13.0 * scale)
-    blf.color(0, *LOST)
+    blf.color(0, *SAID)
     blf.position(0, 70.0 * scale, context.region.height - 150.0 * scale, 0.0)  # below the name of the view
-    blf.draw(0, translated(live.message or BEHIND))
+    blf.draw(0, translated(live.message))
 
 
 def _draw() -> None:

@@ -13,6 +13,7 @@
 #include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
+#include "method/first_surface.h"
 #include "method/pinned.h"
 #include "method/solve.h"
 #include "problem/free_slopes.h"
@@ -124,8 +125,12 @@ BaseOutline ComponentSolver::outline_as_given(const ComponentData& data) const {
     return {gather(data.vertices, fixed), data.normals.gather(fixed)};
 }
 
-ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseOutline& outline,
-                                               const Progress& progress) {
+Points ComponentSolver::first_surface(const ComponentData& data, const Progress& progress) {
+    const ComponentAnswer answer = posed(data, outline_as_given(data));
+    return answer.unit.from_unit(fairing::first_surface(answer.problem, progress));
+}
+
+ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseOutline& outline) {
     const Normalisation unit = checked_unit(patch_, outline.points);
     const SolverOptions& solver = options_.asked.solver;
     ComponentAnswer answer{unit, {patch_, unit.to_unit(outline.points), outline.normals, {}, solver}, {}, {}, {}};
@@ -142,6 +147,12 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
     answer.problem.before = Deferred<Points>(before);
     read_reference(data.reference, unit);
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
+    return answer;
+}
+
+ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseOutline& outline,
+                                               const Progress& progress) {
+    ComponentAnswer answer = posed(data, outline);
     answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                         : solve_globally(answer, data, progress);
     return answer;

@@ -35,6 +35,10 @@ public:
     // Throws NO_BOUNDARY where the fixed vertices lie in one point, SolverError, Cancelled; what was kept stays usable.
     [[nodiscard]] ComponentAnswer solve(const ComponentData& data, const Progress& progress);
 
+    // The surface that is shown first (method/first_surface), 3 × local vertices in the caller's units. Throws the
+    // same.
+    [[nodiscard]] Points first_surface(const ComponentData& data, const Progress& progress);
+
     // λ is read off the reference again, and the equation tried again.
     void options_changed() {
         read_ = false;
@@ -57,6 +61,8 @@ private:
     // `input`: M0, in the caller's units.
     void read_reference(const View<Points>& input, const Normalisation& unit);
     [[nodiscard]] BaseOutline outline_as_given(const ComponentData& data) const;
+    // The problem, in an answer without a solution.
+    [[nodiscard]] ComponentAnswer posed(const ComponentData& data, const BaseOutline& outline);
     [[nodiscard]] ComponentAnswer solve_between(const ComponentData& data, const BaseOutline& outline,
                                                 const Progress& progress);
     // With the detail put back; `outline`: that the answer was solved between.

@@ -308,12 +308,13 @@ Indices kinks_of(const Problem& problem, const Solution& solution) {
 const char* taken(Provenance provenance) {
     if (is_loft(provenance)) return "a loft was taken";
     if (provenance == Provenance::old_shape) return "the old shape was taken, as smooth as it can be";
+    if (provenance == Provenance::first_surface) return "a bi-Laplacian surface was taken";
     return "the surface of least variation was taken";
 }
 
 // A loft and a smoothed shape may leave tangent planes, and name where they do.
 void add_kinks(const Problem& problem, const Solution& solution, Diagnostic& diagnostic) {
-    if (!is_loft(solution.provenance) && solution.provenance != Provenance::old_shape) return;
+    if (solution.provenance == Provenance::least_variation) return;
     Indices kinks = kinks_of(problem, solution);
     if (kinks.empty()) return;
     diagnostic.figures["kinks"] = size_of(kinks);
@@ -332,6 +333,7 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     if (harmonic) figures["harmonic"] = 1.0;
     if (is_loft(solution.provenance)) figures["loft"] = 1.0;
     if (solution.provenance == Provenance::old_shape) figures["smoothed"] = 1.0;
+    if (solution.provenance == Provenance::first_surface) figures["bilaplacian"] = 1.0;
     const std::string text = "no " + name + " fits the boundary of a component of " + free;
     if (solution.provenance == Provenance::low_passed) {
         figures["distance"] = distance_of_low_passed(problem);

@@ -198,10 +198,23 @@ int largest_free_count(const std::vector<Patch>& patches) {
     return largest;
 }
 
+Points first_surfaces(PreparedMesh& prepared, const ComponentData& data, const Progress& progress) {
+    Points vertices = data.vertices;
+    for (std::size_t k = 0; k < prepared.patches.size(); ++k) {
+        const Patch& patch = prepared.patches[k];
+        const Points points = prepared.solvers[k].first_surface(data, progress.here());
+        vertices(Eigen::all, free_vertices(patch)) = points.leftCols(patch.free_count);
+        for (int v = patch.free_count; v < patch.vertex_count(); ++v) {
+            if (data.faired[patch.to_input[v]]) vertices.col(patch.to_input[v]) = points.col(v);
+        }
+    }
+    return vertices;
+}
+
 }  // namespace
 
 FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const CallOptions& options,
-                    std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback) {
+                    std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback, const Preview& preview) {
     const Stopwatch watch;
     const Threads threads(options.asked.threads);
     const Progress progress(callback);
@@ -223,6 +236,7 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
                              input.fixed_normals.has_value(),
                              prepared->mesh.roles.faired,
                              input.sample};
+    if (preview) preview(first_surfaces(*prepared, data, progress));
     double done = begin;
     double total = 0.0;
     for (const Patch& patch : prepared->patches) total += patch.vertex_count();
@@ -242,10 +256,10 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
 }
 
 FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
-                const ProgressCallback& progress) {
+                const ProgressCallback& progress, const Preview& preview) {
     const KeptMemory memory(keeps_memory(input.most_free()));
     std::unique_ptr<PreparedMesh> prepared;
-    return run_call(input, reference, CallOptions(options, false), prepared, progress);
+    return run_call(input, reference, CallOptions(options, false), prepared, progress, preview);
 }
 
 }  // namespace fairing

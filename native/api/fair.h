@@ -1,6 +1,8 @@
 // The whole call: checks, patches, one solve for each component, result.
 #pragma once
 
+#include <functional>
+
 #include "api/input.h"
 #include "base/progress.h"
 #include "paper/paper_solver.h"
@@ -60,9 +62,13 @@ struct FairResult {
     Diagnostics warnings;
 };
 
+// Is shown the first surface (method/first_surface): all of the mesh's vertices, before better ones are sought. Called
+// once, by the calling thread.
+using Preview = std::function<void(const Points& vertices)>;
+
 // `reference`: M0 of the inner-fairness weights; the input's vertices where it is left out.
 // Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY, SolverError, MemoryShortage and Cancelled.
 FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
-                const ProgressCallback& progress);
+                const ProgressCallback& progress, const Preview& preview = {});
 
 }  // namespace fairing

@@ -22,7 +22,8 @@ public:
 
     // What fair() gives: the first time bit for bit, then to the tolerance. Throws the same; the solver stays usable.
     FairResult solve(Points vertices, std::optional<Points> fixed_normals, std::optional<VectorX> fixed_curvatures,
-                     const std::optional<View<Points>>& reference, const ProgressCallback& progress);
+                     const std::optional<View<Points>>& reference, const ProgressCallback& progress,
+                     const Preview& preview = {});
 
     // Sets other options from the next solve on. Keeps what does not depend on them, and the last answer.
     void change(FairOptions options);

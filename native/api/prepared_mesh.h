@@ -22,6 +22,6 @@ std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions&
 // where it is missing or not of this input. `reference`: M0; the input's vertices where it is left out. Releases the
 // input's triangles and the cut mesh where no call follows.
 FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const CallOptions& options,
-                    std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback);
+                    std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback, const Preview& preview);
 
 }  // namespace fairing

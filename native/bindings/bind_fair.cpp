@@ -15,6 +15,7 @@ namespace {
 std::string equation_of(const FairResult& result) {
     if (is_loft(result.provenance)) return "loft";
     if (result.provenance == Provenance::old_shape) return "smoothed";
+    if (result.provenance == Provenance::first_surface) return "bilaplacian";
     return equation_words.word(result.equation);
 }
 
@@ -110,12 +111,18 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     return result;
 }
 
+Preview shown_by(PythonRun& run, const py::object& preview) {
+    if (preview.is_none()) return {};
+    return [&](const Points& vertices) { run.give(preview, [&] { return from_points(vertices); }); };
+}
+
 py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, const std::optional<IntArray>& fixed,
                      const std::optional<DoubleArray>& fixed_normals,
                      const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                      const std::optional<IntArray>& outside, const std::optional<IntArray>& sample,
-                     const Options& options, const PaperOptions& paper, const py::object& callback) {
+                     const Options& options, const PaperOptions& paper, const py::object& callback,
+                     const py::object& preview) {
     PythonRun run(callback);
     MeshInput input{view_points(vertices),
                     to_triangles(IntArray::ensure(triangles)),
@@ -127,8 +134,9 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                     sample ? to_triangles(*sample) : Triangles(3, 0)};
     const auto m0 = to_optional(reference, view_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
-    return to_dict(run.without_gil(
-        [&](const ProgressCallback& progress) { return fair(std::move(input), m0, fair_options, progress); }));
+    return to_dict(run.without_gil([&](const ProgressCallback& progress) {
+        return fair(std::move(input), m0, fair_options, progress, shown_by(run, preview));
+    }));
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
@@ -149,7 +157,7 @@ public:
 
     py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
                    const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
-                   const py::object& callback) {
+                   const py::object& callback, const py::object& preview) {
         PythonRun run(callback);
         const Hold hold(busy_);
         Points points = to_points(vertices);
@@ -157,7 +165,8 @@ public:
         auto curvatures = to_optional(fixed_curvatures, to_vector);
         const auto m0 = to_optional(reference, view_points);
         return to_dict(run.without_gil([&](const ProgressCallback& progress) {
-            return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress);
+            return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress,
+                                 shown_by(run, preview));
         }));
     }
 
@@ -239,11 +248,11 @@ void bind_fair(py::module_& module) {
              py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))
         .def("change", &PythonSolver::change, py::arg("neighbours"), py::arg("weights"), py::arg("options"))
         .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
-             py::arg("reference"), py::arg("progress"));
+             py::arg("reference"), py::arg("progress"), py::arg("preview"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("reference"), py::arg("neighbours"),
                py::arg("weights"), py::arg("outside"), py::arg("sample"), py::arg("options"), py::arg("paper"),
-               py::arg("progress"));
+               py::arg("progress"), py::arg("preview"));
 }
 
 }  // namespace fairing::bindings

@@ -21,6 +21,21 @@ public:
     PythonRun(const PythonRun&) = delete;
     PythonRun& operator=(const PythonRun&) = delete;
 
+    // Calls `receiver` with the arguments from inside of work, with the GIL held meanwhile. An exception ends the run.
+    template <typename Make>
+    void give(const py::object& receiver, const Make& make) {
+        in_callback_ = true;
+        take_gil();
+        try {
+            receiver(make());
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        release_gil();
+        in_callback_ = false;
+        if (failure_) throw Cancelled();
+    }
+
     // work(ProgressCallback) without the GIL; only its own thread calls back. A Python exception of the callback,
     // KeyboardInterrupt included, comes out in place of the Cancelled that it became.
     template <typename Work>

@@ -37,14 +37,15 @@ inline constexpr Words<Start, 5> solve_start_words{"start",
                                                      {"least_variation", Start::least_variation},
                                                      {"loft", Start::loft},
                                                      {"smoothed", Start::smoothed}}}};
-inline constexpr Words<Provenance, 7> provenance_words{"provenance",
+inline constexpr Words<Provenance, 8> provenance_words{"provenance",
                                                        {{{"equation", Provenance::equation},
                                                          {"low_passed", Provenance::low_passed},
                                                          {"least_variation", Provenance::least_variation},
                                                          {"loft", Provenance::loft},
                                                          {"least_bent", Provenance::least_bent},
                                                          {"swept_tube", Provenance::swept_tube},
-                                                         {"old_shape", Provenance::old_shape}}}};
+                                                         {"old_shape", Provenance::old_shape},
+                                                         {"first_surface", Provenance::first_surface}}}};
 inline constexpr Words<NormalKind, 2> normal_words{
     "normals", {{{"fitted", NormalKind::fitted}, {"averaged", NormalKind::averaged}}}};
 inline constexpr Words<Equation, 6> equation_words{"equation",

@@ -2,12 +2,15 @@
 
 #include <utility>
 
+#include "problem/surface_state.h"
+
 namespace fairing {
 
 namespace {
 
 // Up to so many free vertices the tangential step is factorised; beyond, multigrid is faster.
 constexpr int largest_factorised = 7000;
+constexpr int evening_sweeps = 3;  // of an interpolated surface
 
 Shared<Lambda> symmetric_weights(const Shared<Lambda>& weights) {
     if (const auto* rows = std::get_if<RowWeights>(&*weights)) return symmetrised(*rows);
@@ -75,6 +78,19 @@ Points Levels::layout(std::size_t k, std::size_t from, const Points& surface) co
     return points;
 }
 
+BentPoints Levels::interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
+    const Problem& fine = problem(k);
+    const int count = fine.patch.free_count;
+    const SurfaceState state = measured_surface(problem(k + 1), coarse);
+    const BentPoints from{coarse, state.normals,
+                          shape_operators(state.curvature, state.normals, static_cast<int>(coarse.cols()))};
+    BentPoints points{with_fixed(fine.patch, fine.fixed_points), with_fixed(fine.patch, fine.fixed_normals), {}};
+    transfer(k).prolong_surface(from, count, points);
+    even_out(laplacian, count, evening_sweeps, points);
+    points.shapes.conservativeResize(6, count);
+    return points;
+}
+
 void Levels::leave(std::size_t k) {
     Patch& patch = coarse_[k - 1].patch;
     PatchMembers& members = left_[k - 1];
@@ -132,6 +148,11 @@ void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progre
                                               std::move(*level.restriction), *levels_[k + 1].tangential_cycle));
         level.restriction.reset();
     }
+}
+
+Levels levels_of(const Problem& problem, const Traits& traits, int coarsest) {
+    if (!traits.is_jagged) return {problem, Outlines::thinned, coarsest};
+    return {problem, traits.low_passed(), Outlines::thinned, coarsest};
 }
 
 }  // namespace fairing

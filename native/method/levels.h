@@ -3,6 +3,7 @@
 
 #include "base/background_task.h"
 #include "base/progress.h"
+#include "method/traits.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "operators/workspace.h"
@@ -49,6 +50,10 @@ public:
     // levels meanwhile.
     [[nodiscard]] Points layout(std::size_t k, std::size_t from, const Points& surface) const;
 
+    // A surface of level k + 1 (3 × local vertices) on level k, with its normals and shape operators. `laplacian`: of
+    // level k.
+    [[nodiscard]] BentPoints interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const;
+
     // Lets go of the edges, rings and weights of a coarse level that is left, or brings edges and rings back.
     void leave(std::size_t k);
     void come_back(std::size_t k);
@@ -72,6 +77,11 @@ private:
     std::vector<PatchMembers> left_;   // of coarse_[k], whose patch has its vertices only; empty where it is whole
     std::vector<Level> levels_;
 };
+
+// Levels as a solve from coarse to fine has them. No coarse mesh can show short waves of an outline: taken from every
+// second vertex of a jagged one they would be noise as large and twice as long. So coarse levels have the low-passed
+// boundary there; only the finest one meets the outline as it is.
+Levels levels_of(const Problem& problem, const Traits& traits, int coarsest);
 
 // A value for all vertices of which only the fixed ones are known; 0 at free ones.
 Points with_fixed(const Patch& patch, const Points& fixed);

@@ -26,7 +26,6 @@ constexpr double small_tolerance = 7e-4;  // units of D, there: triangles are to
 // Levels between are good enough as starts even where single poor triangles keep them from converging.
 constexpr int most_between = 6;
 constexpr int most_small = 14;  // where little is lost: graded meshes that don't carry their surface took 19 and 20
-constexpr int evening_sweeps = 3;
 // Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
 constexpr int largest_prepared = 200'000;
 // Shares of the time, measured at 100k and 256k.
@@ -41,14 +40,6 @@ std::size_t tolerated_folds(const Problem& problem) {
 
 // The fraction of all that is done after level k: each level takes about a quarter of the next finer one.
 double done_after(std::size_t k) { return begin + (1.0 - begin) * std::pow(0.25, static_cast<double>(k)); }
-
-// No coarse mesh can show short waves of an outline: taken from every second vertex of a jagged one they would be noise
-// as large and twice as long. Coarse levels have the low-passed boundary; only the finest one meets the outline as it
-// is.
-Levels levels_of(const Problem& problem, const Traits& traits, int coarsest) {
-    if (!traits.is_jagged) return {problem, Outlines::thinned, coarsest};
-    return {problem, traits.low_passed(), Outlines::thinned, coarsest};
-}
 
 class NestedSolve {
 public:
@@ -176,7 +167,7 @@ private:
         solution.points = points;
         while (k-- > 0) {
             levels_.come_back(k + 1);
-            solution.points = interpolated(k, solution.points, levels_.laplacian(k)).points;
+            solution.points = levels_.interpolated(k, solution.points, levels_.laplacian(k)).points;
         }
         return solution;
     }
@@ -186,7 +177,7 @@ private:
         const Problem& problem = levels_.problem(k);
         Workspace& work = levels_.work(k);
         RingMatrix laplacian = levels_.laplacian(k);
-        auto [points, normals, shapes] = interpolated(k, coarse, laplacian);
+        auto [points, normals, shapes] = levels_.interpolated(k, coarse, laplacian);
         levels_.leave(k + 1);
         progress.report(share_of_start / 3, "refinement");
         levels_.set_up_tangential(k, std::move(laplacian), progress_);
@@ -210,19 +201,6 @@ private:
     }
 
     [[nodiscard]] Turning turning() const { return traits_.is_jagged ? Turning::unknown : Turning::known; }
-
-    [[nodiscard]] BentPoints interpolated(std::size_t k, const Points& coarse, const RingMatrix& laplacian) const {
-        const Problem& fine = levels_.problem(k);
-        const int count = fine.patch.free_count;
-        const SurfaceState state = measured_surface(levels_.problem(k + 1), coarse);
-        const BentPoints from{coarse, state.normals,
-                              shape_operators(state.curvature, state.normals, static_cast<int>(coarse.cols()))};
-        BentPoints points{with_fixed(fine.patch, fine.fixed_points), with_fixed(fine.patch, fine.fixed_normals), {}};
-        levels_.transfer(k).prolong_surface(from, count, points);
-        even_out(laplacian, count, evening_sweeps, points);
-        points.shapes.conservativeResize(6, count);
-        return points;
-    }
 
     const Problem& problem_;
     const Traits& traits_;

@@ -54,6 +54,7 @@ std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     if (!traits.is_jagged && may_vary_least) steps.push_back(Step::least_variation);
     if (traits.has_old_shape) steps.push_back(Step::old_shape);
     if (problem.patch.loop_count() > 1) steps.push_back(Step::loft);
+    steps.push_back(Step::first_surface);
     return steps;
 }
 
@@ -76,9 +77,10 @@ const char* name_of(Step step) {
         case Step::lifted_pins: return "lifted pins";
         case Step::least_variation: return "least variation";
         case Step::old_shape: return "old shape";
-        case Step::loft: break;
+        case Step::loft: return "loft";
+        case Step::first_surface: break;
     }
-    return "loft";
+    return "first surface";
 }
 
 std::string text_of(const Plan& plan) { return text_of(plan.equation) + " | " + text_of(plan.stand_ins); }

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "method/direct.h"
+#include "method/first_surface.h"
 #include "method/nested.h"
 #include "method/own_mesh.h"
 #include "method/pinned.h"
@@ -159,9 +160,10 @@ private:
                     return solve_least_variation(problem_, progress);
                 return least_variation(problem_, limits_for(problem_, traits_), progress);
             case Step::old_shape: return smoothed(problem_, progress);
-            case Step::loft: break;
+            case Step::loft: return lofted(problem_, progress);
+            case Step::first_surface: break;
         }
-        return lofted(problem_, progress);
+        return as_solution(problem_, first_surface(problem_, progress));
     }
 
     // Converged ones come first, by what is wrong with them.
@@ -218,6 +220,10 @@ std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, 
     if (is_loft(kind)) return answer(problem, lofted(problem, progress), name_of(Step::loft), watch);
     if (kind == Provenance::old_shape)
         return answer(problem, smoothed(problem, progress), name_of(Step::old_shape), watch);
+    if (kind == Provenance::first_surface) {
+        Solution first = as_solution(problem, first_surface(problem, progress));
+        return answer(problem, std::move(first), name_of(Step::first_surface), watch);
+    }
     const Traits traits(problem);
     if (traits.is_jagged) return std::nullopt;
     VariationLimits limits = limits_for(problem, traits);

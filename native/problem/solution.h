@@ -47,9 +47,10 @@ enum class Provenance {
     low_passed,  // the same between loops without their short waves, beside which the real ones lie (method/own_mesh)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
-    least_bent,  // where the descent of the bending energy ended (start/globalisation)
-    swept_tube,  // cross-sections swept along a bend (start/swept_start)
-    old_shape,   // the shape before, as smooth as it can be (stand_in/smoothed)
+    least_bent,     // where the descent of the bending energy ended (start/globalisation)
+    swept_tube,     // cross-sections swept along a bend (start/swept_start)
+    old_shape,      // the shape before, as smooth as it can be (stand_in/smoothed)
+    first_surface,  // what every run can begin with (method/first_surface)
 };
 
 // Whether another surface than the equation's was taken.

@@ -39,19 +39,6 @@ std::optional<Points> over_outline(const Problem& problem, const Progress& progr
     return Points(before + moves);
 }
 
-// Of some shape, without the weights and masses of its needles, which drown their neighbours'.
-Stiffness bounded_stiffness(const Patch& patch, const Points& points) {
-    constexpr double largest_weight = 10.0;  // 2 / √3 between equilateral triangles
-    constexpr double least_mass = 1e-3;      // of the mean
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, patch);
-    stiffness.weights = stiffness.weights.cwiseMax(-largest_weight).cwiseMin(largest_weight);
-    stiffness.mass = stiffness.mass.cwiseMax(least_mass * stiffness.mass.mean());
-    return stiffness;
-}
-
 // Of ∫ |Δx|² at the shape itself, between the tangent planes wanted.
 Points pull_of(const Problem& problem, const Points& points, const Stiffness& stiffness) {
     const Patch& patch = problem.patch;
@@ -65,6 +52,18 @@ Points pull_of(const Problem& problem, const Points& points, const Stiffness& st
 }
 
 }  // namespace
+
+Stiffness bounded_stiffness(const Patch& patch, const Points& points) {
+    constexpr double largest_weight = 10.0;  // 2 / √3 between equilateral triangles
+    constexpr double least_mass = 1e-3;      // of the mean
+    FaceGeometry faces;
+    faces.update(points, patch.triangles);
+    Stiffness stiffness;
+    stiffness.update(faces, patch);
+    stiffness.weights = stiffness.weights.cwiseMax(-largest_weight).cwiseMin(largest_weight);
+    stiffness.mass = stiffness.mass.cwiseMax(least_mass * stiffness.mass.mean());
+    return stiffness;
+}
 
 std::optional<Points> shape_before(const Problem& problem, const Progress& progress) {
     return is_usable(problem) ? over_outline(problem, progress) : std::nullopt;

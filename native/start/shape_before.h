@@ -14,6 +14,10 @@ namespace fairing {
 // triangles are turned over.
 std::optional<Points> shape_before(const Problem& problem, const Progress& progress);
 
+// S and M of some shape (3 × local vertices), without the weights and masses of its needles, which drown their
+// neighbours'.
+Stiffness bounded_stiffness(const Patch& patch, const Points& points);
+
 class ShapeBefore {
 public:
     // Nothing where there is no `shape_before`.

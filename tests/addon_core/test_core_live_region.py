@@ -183,3 +183,26 @@ def places_on_edge(dented: Floats, exact: Floats, inner: Ints, rows: int) -> Flo
     ends = exact[path[[0, -1]], 1]
     places: Floats = ends[0] + lengths[:-1] / lengths[-1] * (ends[1] - ends[0])
     return places
+
+
+def test_a_step_longer_than_an_edge_makes_no_hard_edge() -> None:
+    """The surroundings of a plane are bent down at once: the faces inside, still flat, are not the lid of a box."""
+    mesh = grid(SIZE, 0.35, lambda points: points)
+    region = LiveRegion(mesh, EYE, FairOptions())
+    moved = mesh.positions.copy()
+    outline = np.abs(mesh.positions[region.outline, :2]).max()
+    moved[:, 2] -= 1.5 * np.maximum(np.abs(moved[:, :2]).max(axis=1) - outline, 0.0)
+    answer = region.answer(moved[region.vertices], EYE)
+    assert answer is not None
+    assert answer[:, 2].max() > 0.1 * outline
+
+
+def test_the_first_surface_is_near_the_answer() -> None:
+    """On the sphere it is nearly the sphere, and where the vertices inside are does not count."""
+    mesh = sphere()
+    region = LiveRegion(mesh, EYE, FairOptions())
+    positions = mesh.positions[region.vertices].copy()
+    first = region.first(positions, EYE)
+    np.testing.assert_allclose(np.linalg.norm(first, axis=1), 1.0, atol=5e-3)
+    positions[np.searchsorted(region.vertices, region.free)] += 0.3
+    np.testing.assert_array_equal(region.first(positions, EYE), first)

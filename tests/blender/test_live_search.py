@@ -83,7 +83,7 @@ def wait_for(home: Any, seconds: float = 20.0) -> None:
 def lose(home: Any) -> Any:
     """Drag so that the region is lost, and begin to search; returns where everything is then."""
     drag(flank(now()), (0.0, 0.0, 0.05))
-    assert len(home.live.lost_points())
+    assert home.live.stands_in()
     assert tick(home) == home.TICK
     assert home.live.message == home.SEARCHING
     return now()
@@ -96,7 +96,7 @@ def test_blender_goes_on_while_the_surface_is_searched_for(home: Any, slow: Slow
         assert np.array_equal(now(), carried)
     slow.go.set()
     wait_for(home)
-    assert (len(home.live.lost_points()), home.live.message, slow.begun) == (0, "", 1)
+    assert (home.live.stands_in(), home.live.message, slow.begun) == (False, "", 1)
     assert 1e-4 < np.abs(now() - carried).max() < 0.1
 
 
@@ -119,7 +119,7 @@ def test_a_change_meanwhile_makes_the_answer_worthless(home: Any, slow: Slow) ->
         time.sleep(0.01)
     wait_for(home)
     assert (slow.begun, slow.most_inside) == (2, 1)
-    assert len(home.live.lost_points()) == 0
+    assert not home.live.stands_in()
     found = now()
     slow.real = lambda *_: None  # from here on nothing is found: what stands must be what a fresh region would give
     switch(False)
@@ -139,7 +139,7 @@ def test_undo_meanwhile(home: Any, slow: Slow) -> None:
     slow.go.set()
     wait_for(home)
     np.testing.assert_allclose(now(), start, atol=2e-5)
-    assert len(home.live.lost_points()) == 0
+    assert not home.live.stands_in()
 
 
 def test_leaving_edit_mode_meanwhile(home: Any, slow: Slow) -> None:
@@ -156,7 +156,7 @@ def test_leaving_edit_mode_meanwhile(home: Any, slow: Slow) -> None:
     bpy.context.view_layer.update()
     assert home.live.waits(obj)
     wait_for(home)
-    assert len(home.live.lost_points()) == 0
+    assert not home.live.stands_in()
     assert np.abs(now() - carried).max() > 1e-4
 
 
@@ -194,6 +194,6 @@ def test_a_script_waits_for_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     before = now()
     drag(flank(before), (0.0, 0.0, 0.05))
     switch(True)
-    assert len(home.live.lost_points()) == 0
+    assert not home.live.stands_in()
     assert np.abs(now() - before).max(axis=1)[np.abs(before[:, :2]).max(axis=1) < 0.5].max() > 1e-4
     switch(False)

@@ -130,7 +130,7 @@ def test_blender_goes_on_until_the_surface_is_there(gate: Gate) -> None:
     assert operator._run.wait(10.0)
     assert tick(operator) == {"FINISHED"}
     live = module("follow.live").live
-    assert (live.message, len(live.lost_points()), live.updates) == ("", 0, 0)
+    assert (live.message, live.stands_in(), live.updates) == ("", False, 0)
     assert np.abs(now() - before).max() > 1e-3
     assert bpy.context.window_manager.fairing_live.on
     assert not bpy.context.window_manager.fairing_progress.running

@@ -8,6 +8,7 @@ from typing import Any
 
 import bpy
 import meshes
+import numpy as np
 import pytest
 from extension import give_options, module
 
@@ -166,6 +167,45 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
     finally:
         bpy.ops.object.mode_set(mode="OBJECT")
     assert meshes.positions(obj).tobytes() == meshes.positions(scripted).tobytes()
+
+
+@pytest.mark.parametrize("end", ["ESC", "the run", "stop_all"])
+def test_the_first_surface_is_shown_meanwhile(end: str, go_on: threading.Event) -> None:
+    """At the next look of the timer; whatever ends the run, the mesh is what the run alone makes of it."""
+    job, preview_of = module("run.job"), module("run.preview")
+    alone, faces = meshes.domed_grid()
+    fair = module("core.options").FairOptions()
+    if end == "the run":
+        meshes.fair(alone, faces)
+        meshes.leave()
+    obj, _ = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, faces)
+    operator = started(obj, faces, go_on)
+    preview = preview_of.Preview(operator._tasks)
+    operator._signs.preview = preview
+    job.memory.clear()
+    job.solve(operator._tasks, fair, lambda *_: True, give=preview.give)  # its thread would do this
+    start = module("mesh.mesh_io").edit_positions(obj.data)
+    assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+    shown = module("mesh.mesh_io").edit_positions(obj.data)
+    assert np.abs(shown - start).max() > 1e-3
+    if end == "ESC":
+        assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
+    elif end == "stop_all":
+        go_on.set()
+        module("run.background").stop_all()
+    else:
+        go_on.set()
+        assert operator._run.wait(10.0)
+        assert operator.modal(bpy.context, event("TIMER")) == {"FINISHED"}
+    go_on.set()
+    assert operator._run.wait(10.0)
+    meshes.leave()
+    if end == "the run":
+        np.testing.assert_array_equal(meshes.positions(obj), meshes.positions(alone))
+        assert np.abs(meshes.positions(obj) - shown).max() > 1e-6  # it was another surface
+    else:
+        assert meshes.contents(obj) == before
 
 
 @pytest.mark.parametrize("quick", [True, False])

@@ -38,29 +38,29 @@ struct Asked {
 }  // namespace
 
 TEST_CASE("a small disc is solved on its own mesh before the engine's") {
-    CHECK(Asked(12).plan() == "direct, own mesh | least variation");
+    CHECK(Asked(12).plan() == "direct, own mesh | least variation, first surface");
 }
 
 TEST_CASE("a large disc is solved from coarse to fine") {
-    CHECK(Asked(50).plan() == "levels, own mesh | least variation");
+    CHECK(Asked(50).plan() == "levels, own mesh | least variation, first surface");
     Asked single_level(50);
     single_level.problem.options.nested = false;
-    CHECK(single_level.plan() == "direct, own mesh | least variation");
+    CHECK(single_level.plan() == "direct, own mesh | least variation, first surface");
 }
 
 TEST_CASE("between jagged loops the low-passed ones are next, and least variation never stands in") {
-    CHECK(Asked(12, 2.0).plan() == "direct, own mesh, low-passed | ");
-    CHECK(Asked(50, 2.0).plan() == "levels, own mesh, low-passed | ");
+    CHECK(Asked(12, 2.0).plan() == "direct, own mesh, low-passed | first surface");
+    CHECK(Asked(50, 2.0).plan() == "levels, own mesh, low-passed | first surface");
 }
 
 TEST_CASE("weights that are not uniform are given up before the boundary is") {
     Asked other(12, 2.0);
     other.problem.weights = RowWeights();
-    CHECK(other.plan() == "direct, own mesh, uniform weights, low-passed | ");
+    CHECK(other.plan() == "direct, own mesh, uniform weights, low-passed | first surface");
 }
 
 TEST_CASE("pins that may have a radius are lifted before anything stands in") {
-    CHECK(Asked(12).plan(true) == "direct, own mesh, lifted pins | least variation");
+    CHECK(Asked(12).plan(true) == "direct, own mesh, lifted pins | least variation, first surface");
 }
 
 TEST_CASE("another equation than the harmonic one has a strategy of its own, and stop has no stand-in") {
@@ -77,18 +77,19 @@ TEST_CASE("another equation than the harmonic one has a strategy of its own, and
 TEST_CASE("between several loops the shape before stands in, and a loft where there is none") {
     test::Pipe pipe(8);
     const auto plan = [&] { return text_of(plan_for(pipe.problem, Traits(pipe.problem), false)); };
-    CHECK(plan() == "direct, own mesh | least variation, loft");
+    CHECK(plan() == "direct, own mesh | least variation, loft, first surface");
     pipe.problem.before = pipe.single.points;
-    CHECK(plan() == "direct, own mesh | least variation, old shape, loft");
+    CHECK(plan() == "direct, own mesh | least variation, old shape, loft, first surface");
     pipe.problem.fixed_normals = Asked::turned(pipe.problem.fixed_normals, 2.0);
-    CHECK(plan() == "direct, own mesh | old shape, loft");
+    CHECK(plan() == "direct, own mesh | old shape, loft, first surface");
 }
 
 TEST_CASE("between loops that are no tubes' ends least variation does not stand in") {
     test::Pipe steep(8, 1.2);  // a ball between two small caps
-    CHECK(text_of(plan_for(steep.problem, Traits(steep.problem), false)) == "direct, own mesh | loft");
+    CHECK(text_of(plan_for(steep.problem, Traits(steep.problem), false)) == "direct, own mesh | loft, first surface");
     steep.problem.before = steep.single.points;
-    CHECK(text_of(plan_for(steep.problem, Traits(steep.problem), false)) == "direct, own mesh | old shape, loft");
+    CHECK(text_of(plan_for(steep.problem, Traits(steep.problem), false)) ==
+          "direct, own mesh | old shape, loft, first surface");
 }
 
 TEST_CASE("between jagged loops far apart, whose membrane is poor, no mesh of the engine's own is made") {
@@ -97,7 +98,7 @@ TEST_CASE("between jagged loops far apart, whose membrane is poor, no mesh of th
     pipe.problem.fixed_normals = Asked::turned(pipe.problem.fixed_normals, 2.0);
     const Traits traits(pipe.problem);
     CHECK(traits.poor_share_of_membrane() > 0.1);
-    CHECK(text_of(plan_for(pipe.problem, traits, false)) == "levels | old shape, loft");
+    CHECK(text_of(plan_for(pipe.problem, traits, false)) == "levels | old shape, loft, first surface");
 }
 
 TEST_CASE("what coarse levels refuse between smooth loops the whole mesh may keep") {

@@ -65,6 +65,7 @@ class Solver:
         fixed_curvatures: _Floats | None,
         reference: _Floats | None,
         progress: Callable[[float, str], bool | None] | None,
+        preview: Callable[[_Floats], object] | None,
     ) -> dict[str, Any]: ...
 
 def fair(
@@ -81,6 +82,7 @@ def fair(
     options: Options,
     paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,
+    preview: Callable[[_Floats], object] | None,
 ) -> dict[str, Any]: ...
 def mean_curvature(
     vertices: _Floats,

@@ -11,9 +11,10 @@ import numpy.typing as npt
 from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
 from fairing._adopted import adopted
 from fairing._groups import Boundary, Options, Skin
-from fairing._types import FairResult, IntArray
+from fairing._types import FairResult, FloatArray, IntArray
 
 Progress = Callable[[float, str], "bool | None"]
+Preview = Callable[[FloatArray], object]
 
 
 def fair(
@@ -23,6 +24,7 @@ def fair(
     options: Options | None = None,
     *,
     progress: Progress | None = None,
+    preview: Preview | None = None,
     threads: int = 0,
     **before: Any,
 ) -> FairResult:
@@ -46,6 +48,11 @@ def fair(
     progress : callable(fraction, stage) -> None | bool
         Called every 50 ms or so, by the calling thread, with the part done (0 … 1, never less than before) and what
         is being done. None or True goes on, False cancels; exceptions come out of the call.
+    preview : callable(vertices) -> None
+        Called once, by the calling thread, before the search begins: with the (n, 3) vertices of a first surface, which
+        always exists and is finite. Of bi-Laplacian fills of the boundary, by the connectivity and by ``reference``, it
+        is the one with the least bending energy, after two steps of its descent. Without ``detail``, and between the
+        boundary that is given. Exceptions come out of the call.
     threads : int
         0: one for each core, eight at most. The result has the same bits for every number of threads.
     before
@@ -70,7 +77,7 @@ def fair(
         There is not enough memory; on Linux a large run (100,000 free vertices) says so before it begins.
     """
     held, chosen = adopted("fair", boundary, options, before)
-    return solved(vertices, triangles, held, chosen, progress, threads)
+    return solved(vertices, triangles, held, chosen, progress, threads, preview)
 
 
 def solved(
@@ -80,6 +87,7 @@ def solved(
     chosen: Options,
     progress: Progress | None,
     threads: int,
+    preview: Preview | None = None,
 ) -> FairResult:
     """What :func:`fair` does."""
     surface, layout, skin = chosen.surface, chosen.layout, chosen.skin
@@ -115,7 +123,7 @@ def solved(
     def call(held: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
             held.vertices, faces, held.fixed, held.normals, held.curvatures, m0, edges, rows, around.outside, sample,
-            engine, of_paper, progress,
+            engine, of_paper, progress, preview,
         )  # fmt: skip
 
     fitted = _arguments.choice("outline", surface.outline, _options.OUTLINES) == "mended"

@@ -17,6 +17,7 @@ _ORDER = (
     "swept_tube",
     "old_shape",
     "loft",
+    "first_surface",
 )  # the last one is named
 _WORST = ("converged", "iteration_limit", "stalled", "folded")
 

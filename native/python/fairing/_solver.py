@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _options, _paper
-from fairing._fair import Progress
+from fairing._fair import Preview, Progress
 from fairing._paper import PaperOptions
 from fairing._types import FairResult, FloatArray, IntArray
 
@@ -129,6 +129,7 @@ class Solver:
         reference: npt.ArrayLike | None = None,
         progress: Progress | None = None,
         fixed_curvatures: npt.ArrayLike | None = None,
+        preview: Preview | None = None,
     ) -> FairResult:
         """Solve for these positions and normals; arguments, result and errors are those of fairing.fair.
 
@@ -147,7 +148,8 @@ class Solver:
             _arguments.indices_within("neighbours", self._neighbours, count)
         if self._weights is not None:
             _arguments.indices_within("inner_fairness", self._weights[:, :2].astype(np.int32), count)
-        return FairResult(**self._engine.solve(points, given_normals, curvatures, m0, _options.callback(progress)))
+        callback = _options.callback(progress)
+        return FairResult(**self._engine.solve(points, given_normals, curvatures, m0, callback, preview))
 
     def _curvatures(self, given: npt.ArrayLike | None) -> FloatArray | None:
         """Checked; needed for "G2" and refused without it."""

@@ -10,7 +10,7 @@ from fairing._loops import Outline
 from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 
 _OPPOSITE = -0.5  # cosine between the normals of two sides of a wall
-_TOLD_ELSEWHERE = ("loft", "smoothed")  # by NO_SOLUTION, with their kinks
+_TOLD_ELSEWHERE = ("loft", "smoothed", "bilaplacian")  # by NO_SOLUTION, with their kinks
 
 
 def not_tangent(

@@ -76,14 +76,14 @@ class FairResult:
 
     equation: str
     """The equation that holds: the one asked for, or "least_variation" where any component has it instead, or "loft"
-    where any is a loft, or "smoothed" where any is its own shape, smoothed (see ``otherwise`` of :func:`fairing.fair`;
-    the warning NO_SOLUTION names the component). ``converged`` refers to it. The last two are linear solves:
-    ``residual`` says nothing about them."""
+    where any is a loft, "smoothed" where any is its own shape, smoothed, or "bilaplacian" where any has nothing better
+    (see ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component). ``converged`` refers to
+    it. The last three solve no equation: ``residual`` says nothing about them."""
     provenance: str
     """Where the surface comes from: "equation"; "low_passed", the same between boundary loops without their short
     waves, beside which the real ones lie; or what stands in for a surface that the equation does not have:
-    "least_variation", "loft", "least_bent", "swept_tube" or "old_shape". Of several components the last in this
-    order. All but the first come with the warning NO_SOLUTION."""
+    "least_variation", "loft", "least_bent", "swept_tube", "old_shape" or "first_surface". Of several components
+    the last in this order. All but the first come with the warning NO_SOLUTION."""
     vertices: FloatArray
     """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
     base: FloatArray

@@ -125,7 +125,7 @@ def _rests() -> bool:
 
 def settled() -> bool:
     """Whether no region is carried along any more."""
-    return not len(_live().lost_points())
+    return not _live().stands_in()
 
 
 def _is_on() -> bool:
