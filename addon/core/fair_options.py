@@ -212,8 +212,8 @@ FAIR: Table = (
     Option(
         "pull_locally",
         "Pull Locally",
-        "Lone pinned vertices lift what is within three times Pin Radius, and the rest is as without them. Otherwise the "
-        "surface passes through all of them as a whole, and bends everywhere for them",
+        "Lone pinned vertices lift what is within three times Pin Radius, and the rest is as without them. Otherwise "
+        "the surface passes through all of them as a whole, and bends everywhere for them",
         False,
         PINS,
         shown=lambda o: bool(o.pin_group) and o.pin_radius > 0.0 and not o.remesh,

@@ -41,7 +41,7 @@ def heights(obj: bpy.types.Object, name: str) -> Any:
 
 def test_all_keys_are_faired_each_from_its_own_surroundings() -> None:
     obj, faces = keyed()
-    meshes.fair(obj, faces, keys="ALL")
+    meshes.fair(obj, faces, all_keys=True)
     assert meshes.report().verdict == "GOOD"
     for name in ("Basis", "High"):
         assert np.abs(heights(obj, name)[:, 2]).max() < 0.01, name
@@ -77,5 +77,5 @@ def test_a_locked_key_refuses_them_all() -> None:
     obj.data.shape_keys.key_blocks["Tilted"].lock_shape = True
     before = meshes.in_edit_mode_once(obj, faces)
     with pytest.raises(RuntimeError, match="'Tilted' is locked"):
-        meshes.fair(obj, faces, keys="ALL")
+        meshes.fair(obj, faces, all_keys=True)
     assert meshes.contents(obj) == before
