@@ -73,7 +73,7 @@ class _Chosen:
             setattr(given, name, value)
         for name in used:
             given.property_unset(name)
-        warn_of_names_before(self.table, used, f"bpy.ops.{self.bl_idname}")
+        warn_of_names_before(self.table, used, f"bpy.ops.{self.bl_idname.replace('_OT_', '.').lower()}")
 
 
 class FairProperties(_Chosen):

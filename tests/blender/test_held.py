@@ -98,6 +98,28 @@ def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
     assert off_box(points) < 1e-5
 
 
+def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:
+    """By default they move, with Factor one half half of the way; marks that end inside are held for their angle."""
+    results = {}
+    for name, options in {"held": {"pin_curve": "HELD"}, "half": {"factor": 0.5}, "fair": {}}.items():
+        obj, faces = box()
+        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
+        before = bumpy(obj, meshes.free_vertices(obj, faces))
+        meshes.fair(obj, faces, **options)
+        results[name] = meshes.positions(obj)[on_edge], before[on_edge]
+    assert results["held"][0].tobytes() == results["held"][1].tobytes()
+    half = 0.5 * (results["fair"][0] + results["fair"][1])
+    assert np.abs(results["half"][0] - half).max() < 1e-6
+    obj, faces = box()
+    for edge in obj.data.edges:
+        ends = [obj.data.vertices[v].co for v in edge.vertices]
+        edge.use_edge_sharp = edge.use_edge_sharp and max(abs(x) for end in ends for x in end) < 0.35
+    before = bumpy(obj, meshes.free_vertices(obj, faces))
+    meshes.fair(obj, faces)
+    assert off_box(meshes.positions(obj)) < 1e-6
+    assert "though not marked" in meshes.report().warnings
+
+
 @pytest.mark.parametrize("border", ["HELD", "FAIRED"])
 def test_a_noisy_open_border(border: str) -> None:
     """A strip of a cylinder, selected up to its open border."""

@@ -61,6 +61,7 @@ def test_operator_moves_them_over(before: dict[str, Any], now: dict[str, Any]) -
         old = {*before} & {*module("core.option_table").names_before(module("core.fair_options").FAIR)}
         assert len(told) == (len(old) if options is before else 0)
         assert all(warning.filename.endswith("meshes.py") for warning in told)  # the line that has used it
+        assert all(str(warning.message).startswith("bpy.ops.mesh.fair_region: ") for warning in told)
     assert results[0] == results[1]
 
 

@@ -28,7 +28,7 @@ def test_nothing_is_good_before_it_has_been_looked_at() -> None:
 
 def test_options_that_nothing_looked_at_are_reported_by_their_labels(capfd: pytest.CaptureFixture[str]) -> None:
     obj, faces = meshes.domed_grid()
-    meshes.fair(obj, faces, bulge=0.5, shape="LEAST_VARIATION")
+    meshes.fair(obj, faces, shape="MINIMAL_ENERGY", bulge=0.5)
     assert checks()["Without effect"] == ("Bulge", "TOLD")
     assert details()["Without effect"]
     assert "Without effect with these options: Bulge" in capfd.readouterr().out
