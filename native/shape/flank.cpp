@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "geometry/surface_fit.h"
 #include "shape/knobs.h"
 #include "shape/limits.h"
 
@@ -14,139 +15,130 @@ namespace fairing {
 
 namespace {
 
-// Distances from the boundary, in radii of the patch, of the surroundings that are asked what they are as a whole.
-constexpr double ring_begin = 0.5;
-constexpr double ring_end = 1.5;
-constexpr double end_step = 0.2;             // how finely a feature's end is looked for
-constexpr double same_way = 0.6;             // length of the mean normal of what may be seen as one surface
-constexpr double widest_gap = 90.0;          // degrees around the patch without any of them
-constexpr double top = 0.1;                  // the share of the patch that stands off most
-constexpr Eigen::Index most_samples = 3000;  // triangles and vertices that are enough
-constexpr std::size_t most_places = 300;     // of the boundary
-constexpr std::size_t fewest = 12;
-constexpr int terms = 6;  // of a quadric
+// Distances from the boundary, in radii of the patch.
+struct Band {
+    double from;
+    double to;
+};
+constexpr Band inside_band{0.3, 0.7};
+constexpr std::array<Band, 2> outside_bands{{{0.5, 1.1}, {0.8, 1.8}}};  // a feature ends within one of them
+constexpr double end_step = 0.2;                                        // how finely its end is looked for
+// Triangles on either side and edges of the boundary that are enough.
+constexpr Eigen::Index most_triangles = 3000;
+constexpr std::size_t most_edges = 300;
 
-// A place around the patch.
-struct Sample {
-    Vector3 place;
-    Vector3 normal;
-    double away;  // from the boundary
+Vector3 area_vector(const Points& points, const Eigen::Vector3i& corners) {
+    const Vector3 a = points.col(corners[0]);
+    return (points.col(corners[1]) - a).cross(Vector3(points.col(corners[2]) - a));
+}
+
+// Edges of a boundary.
+struct Frames {
+    Points middles;
+    Points normals;  // of the surface
+    Points outward;  // unit
 };
 
-Indices spread(const Indices& from, std::size_t most) {
-    Indices found;
-    for (std::size_t k = 0; k < from.size(); k += from.size() / most + 1) found.push_back(from[k]);
+Frames frames_of(const Patch& patch, const Points& points) {
+    const Points fixed_normals = one_sided_normals(patch, points);
+    const Indices loop = patch.loops().front();  // the patch on its left
+    const std::size_t stride = loop.size() / most_edges + 1;
+    const auto count = static_cast<Eigen::Index>((loop.size() + stride - 1) / stride);
+    Frames frames{Points(3, count), Points(3, count), Points(3, count)};
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const std::size_t place = stride * static_cast<std::size_t>(k);
+        const int a = loop[place];
+        const int b = loop[(place + 1) % loop.size()];
+        const Vector3 normal =
+            direction(fixed_normals.col(a - patch.free_count) + fixed_normals.col(b - patch.free_count));
+        frames.middles.col(k) = 0.5 * (points.col(a) + points.col(b));
+        frames.normals.col(k) = normal;
+        frames.outward.col(k) = direction(Vector3(points.col(b) - points.col(a)).cross(normal));
+    }
+    return frames;
+}
+
+// Triangles as the boundary sees them.
+struct Leans {
+    std::vector<double> away;     // from the nearest edge
+    std::vector<double> degrees;  // by how many they lean away from it, as a dome does on both sides
+    Indices nearest;
+};
+
+// `side`: 1 for triangles outside, −1 inside.
+Leans leans(const Frames& frames, const Points& points, const Triangles& triangles, double side) {
+    Leans found;
+    for (Eigen::Index t = 0; t < triangles.cols(); t += triangles.cols() / most_triangles + 1) {
+        const Eigen::Vector3i corners = triangles.col(t);
+        const Vector3 centre = (points.col(corners[0]) + points.col(corners[1]) + points.col(corners[2])) / 3.0;
+        Eigen::Index nearest = 0;
+        const double squared = (frames.middles.colwise() - centre).colwise().squaredNorm().minCoeff(&nearest);
+        const Vector3 normal = area_vector(points, corners);
+        const double ahead = side * normal.dot(frames.outward.col(nearest));
+        found.away.push_back(std::sqrt(squared));
+        found.degrees.push_back(std::atan2(ahead, normal.dot(frames.normals.col(nearest))) * 180.0 / std::numbers::pi);
+        found.nearest.push_back(static_cast<int>(nearest));
+    }
     return found;
 }
 
-std::vector<Sample> samples_of(const Around& around, const Points& boundary) {
-    std::vector<Sample> samples;
-    for (Eigen::Index t = 0; t < around.triangles.cols(); t += around.triangles.cols() / most_samples + 1) {
-        const auto corners = around.triangles.col(t);
-        const Vector3 a = around.points.col(corners[0]);
-        const Vector3 b = around.points.col(corners[1]);
-        const Vector3 c = around.points.col(corners[2]);
-        const Vector3 centre = (a + b + c) / 3.0;
-        const double squared = (boundary.colwise() - centre).colwise().squaredNorm().minCoeff();
-        samples.push_back({centre, direction((b - a).cross(Vector3(c - a))), std::sqrt(squared)});
+// The mean degrees at each place of the boundary that has triangles in a band.
+std::vector<double> means_within(const Leans& leans, const Band& band, double radius, Eigen::Index place_count) {
+    VectorX sums = VectorX::Zero(place_count);
+    VectorX counts = VectorX::Zero(place_count);
+    for (std::size_t k = 0; k < leans.away.size(); ++k) {
+        if (leans.away[k] <= band.from * radius || leans.away[k] >= band.to * radius) continue;
+        sums[leans.nearest[k]] += leans.degrees[k];
+        counts[leans.nearest[k]] += 1.0;
     }
-    return samples;
+    std::vector<double> means;
+    for (Eigen::Index k = 0; k < place_count; ++k) {
+        if (counts[k] > 0.0) means.push_back(sums[k] / counts[k]);
+    }
+    return means;
+}
+
+// Whether places lean by so many degrees in the mean, and so many of them visibly, to the side of the sign.
+bool lean_to(const std::vector<double>& places, double sign, double degrees, double share) {
+    double sum = 0.0;
+    double seen = 0.0;
+    for (const double lean : places) {
+        sum += sign * lean;
+        seen += sign * lean > seen_lean ? 1.0 : 0.0;
+    }
+    const auto count = static_cast<double>(places.size());
+    return count > 0.0 && sum >= degrees * count && seen >= share * count;
+}
+
+// How far out, in radii, the surroundings bend back by nearly as much as they do at most.
+double end_of_flank(const Leans& outside, double sign, double radius) {
+    const auto count = static_cast<Eigen::Index>(std::lround(outside_bands.back().to / end_step));
+    VectorX sums = VectorX::Zero(count);
+    VectorX counts = VectorX::Zero(count);
+    for (std::size_t k = 0; k < outside.away.size(); ++k) {
+        const auto step = static_cast<Eigen::Index>(outside.away[k] / radius / end_step);
+        if (step >= count) continue;
+        sums[step] -= sign * outside.degrees[k];
+        counts[step] += 1.0;
+    }
+    const VectorX means = sums.cwiseQuotient(counts.cwiseMax(1.0));
+    Eigen::Index step = 0;
+    while (means[step] < flank_end * means.maxCoeff()) ++step;
+    return static_cast<double>(step + 1) * end_step;
+}
+
+// Whether the surface leaves its boundary so steeply that this is no slope but the stump of a limb.
+bool stands_on_end(const Patch& patch, const Points& points, const Frames& frames) {
+    Vector3 axis = Vector3::Zero();
+    for (const auto corners : patch.triangles.colwise()) axis += area_vector(points, corners);
+    const double facing = (direction(axis).transpose() * frames.normals).mean();
+    return facing < std::cos(steepest_flank * std::numbers::pi / 180.0);
 }
 
 double radius_of(const Points& points, const Triangles& triangles) {
     double doubled = 0.0;
-    for (const auto corners : triangles.colwise()) {
-        const Vector3 a = points.col(corners[0]);
-        doubled += (points.col(corners[1]) - a).cross(Vector3(points.col(corners[2]) - a)).norm();
-    }
+    for (const auto corners : triangles.colwise()) doubled += area_vector(points, corners).norm();
     return std::sqrt(0.5 * doubled / std::numbers::pi);
-}
-
-// The quadric over a plane that fits some places best. Lengths are in radii of the patch.
-class Quadric {
-public:
-    Quadric(const Vector3& centre, const Vector3& up, double radius) : centre_(centre), up_(up), radius_(radius) {
-        x_ = up.unitOrthogonal();
-        y_ = up.cross(x_);
-    }
-
-    // Root of the mean squared distance that is left.
-    double fit(const std::vector<Sample>& samples) {
-        Eigen::MatrixXd rows(static_cast<Eigen::Index>(samples.size()), terms);
-        VectorX heights(rows.rows());
-        for (Eigen::Index k = 0; k < rows.rows(); ++k) {
-            rows.row(k) = row(samples[static_cast<std::size_t>(k)].place);
-            heights[k] = height(samples[static_cast<std::size_t>(k)].place);
-        }
-        coefficients_ = rows.colPivHouseholderQr().solve(heights);
-        return (heights - rows * coefficients_).norm() / std::sqrt(static_cast<double>(samples.size()));
-    }
-
-    [[nodiscard]] double above(const Vector3& place) const { return height(place) - row(place).dot(coefficients_); }
-    // Around the centre.
-    [[nodiscard]] double angle(const Vector3& place) const {
-        return std::atan2(y_.dot(place - centre_), x_.dot(place - centre_));
-    }
-
-private:
-    [[nodiscard]] double height(const Vector3& place) const { return up_.dot(place - centre_) / radius_; }
-    [[nodiscard]] Eigen::RowVectorXd row(const Vector3& place) const {
-        const double x = x_.dot(place - centre_) / radius_;
-        const double y = y_.dot(place - centre_) / radius_;
-        Eigen::RowVectorXd found(terms);
-        found << 1.0, x, y, x * x, x * y, y * y;
-        return found;
-    }
-
-    Vector3 centre_;
-    Vector3 up_;
-    Vector3 x_;
-    Vector3 y_;
-    double radius_;
-    VectorX coefficients_ = VectorX::Zero(terms);
-};
-
-// Degrees of the widest gap between the places, seen from the quadric's centre.
-double gap_around(const Quadric& quadric, const std::vector<Sample>& samples) {
-    std::vector<double> angles;
-    for (const Sample& sample : samples) angles.push_back(quadric.angle(sample.place));
-    std::sort(angles.begin(), angles.end());
-    double widest = angles.front() + 2.0 * std::numbers::pi - angles.back();
-    for (std::size_t k = 1; k < angles.size(); ++k) widest = std::max(widest, angles[k] - angles[k - 1]);
-    return widest * 180.0 / std::numbers::pi;
-}
-
-// How far the tenth of the patch that stands off most does, in the mean: above 0 where it stands out.
-double stands_out(const Quadric& quadric, const Points& points) {
-    std::vector<double> heights;
-    for (Eigen::Index v = 0; v < points.cols(); v += points.cols() / most_samples + 1) {
-        heights.push_back(quadric.above(points.col(v)));
-    }
-    std::sort(heights.begin(), heights.end(), [](double a, double b) { return std::abs(a) > std::abs(b); });
-    const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(top * static_cast<double>(heights.size())));
-    double size = 0.0;
-    double sum = 0.0;
-    for (std::size_t k = 0; k < count; ++k) {
-        size += std::abs(heights[k]);
-        sum += heights[k];
-    }
-    return std::copysign(size / static_cast<double>(count), sum);
-}
-
-// How far out, in radii, what stands off comes down to the quadric.
-double end_of_flank(const Quadric& quadric, const std::vector<Sample>& samples, double radius, double rest) {
-    const auto count = static_cast<Eigen::Index>(std::lround(ring_end / end_step));
-    VectorX sums = VectorX::Zero(count);
-    VectorX counts = VectorX::Zero(count);
-    for (const Sample& sample : samples) {
-        const auto step = static_cast<Eigen::Index>(sample.away / radius / end_step);
-        if (step >= count) continue;
-        sums[step] += std::abs(quadric.above(sample.place));
-        counts[step] += 1.0;
-    }
-    Eigen::Index step = 0;
-    while (step + 1 < count && sums[step] > 2.0 * rest * counts[step]) ++step;
-    return static_cast<double>(step + 1) * end_step;
 }
 
 }  // namespace
@@ -154,27 +146,21 @@ double end_of_flank(const Quadric& quadric, const std::vector<Sample>& samples, 
 std::optional<Flank> flank_of(const Patch& patch, const Points& points, const Around& around) {
     const double radius = radius_of(points, patch.triangles);
     if (!is_plain_disc(patch) || !(radius > 0.0)) return std::nullopt;
-    const Indices loop = patch.loops().front();
-    const Points boundary = points(Eigen::all, spread(loop, most_places));
-    std::vector<Sample> samples = samples_of(around, boundary);
-    std::vector<Sample> ring;
-    Vector3 sum = Vector3::Zero();
-    for (const Sample& sample : samples) {
-        if (sample.away < ring_begin * radius || sample.away > ring_end * radius) continue;
-        ring.push_back(sample);
-        sum += sample.normal;
+    const Frames frames = frames_of(patch, points);
+    if (stands_on_end(patch, points, frames)) return std::nullopt;
+    const Eigen::Index count = frames.middles.cols();
+    const auto inside = means_within(leans(frames, points, patch.triangles, -1.0), inside_band, radius, count);
+    double sum = 0.0;
+    for (const double lean : inside) sum += lean;
+    const double sign = sum > 0.0 ? 1.0 : -1.0;
+    if (!lean_to(inside, sign, flank_over, most_over)) return std::nullopt;
+    const Leans outside = leans(frames, around.points, around.triangles, 1.0);
+    for (const Band& band : outside_bands) {
+        if (lean_to(means_within(outside, band, radius, count), -sign, flank_back, most_back)) {
+            return Flank{patch.loops().front(), sign > 0.0, end_of_flank(outside, sign, radius) * radius};
+        }
     }
-    if (ring.size() < fewest || sum.norm() < same_way * static_cast<double>(ring.size())) return std::nullopt;
-    const Vector3 up = direction(sum);
-    const auto turned_away = [&](const Sample& sample) { return sample.normal.dot(up) <= 0.0; };
-    std::erase_if(ring, turned_away);
-    std::erase_if(samples, turned_away);
-    Quadric quadric(boundary.rowwise().mean(), up, radius);
-    if (ring.size() < fewest || gap_around(quadric, ring) > widest_gap) return std::nullopt;
-    const double rest = std::max(quadric.fit(ring), least_rest);
-    const double height = stands_out(quadric, points);
-    if (std::abs(height) <= stands_off * rest) return std::nullopt;
-    return Flank{loop, height > 0.0, end_of_flank(quadric, samples, radius, rest) * radius};
+    return std::nullopt;
 }
 
 }  // namespace fairing

@@ -1,7 +1,7 @@
-// Boundaries on the flank of a bump or a dent: the surface continues that slope, so that the feature, or half of it,
-// stays.
+// Boundaries on the flank of a bump or a dent: the surface continues that slope, so that the feature stays.
 //
-// What is around the patch, from half a radius of it on, is smooth as a whole; the patch stands off that.
+// All around such a boundary the patch bends over to one side, and its surroundings bend back to the other. Around
+// whole features they run on, or bend to both sides.
 #pragma once
 
 #include <optional>

@@ -17,11 +17,18 @@ inline constexpr double least_knob = 0.25;
 // Of what the old surface had of it: one with less is an improvement, whatever it is.
 inline constexpr double calmer = 0.8;
 
-// By how much a patch stands off the quadric of its surroundings where its boundary is on a flank: of what these stand
-// off it themselves, which is a fiftieth of the patch's radius at least. Bumps and dents that stay come to 6.7 and
-// more, what was kept to 4.7 at most (benchmarks/verdicts, both halves).
-inline constexpr double stands_off = 6.0;
-inline constexpr double least_rest = 0.02;
+// Degrees by which a patch bends over, and its surroundings bend back, on average where its boundary is on a flank;
+// degrees from which a place there counts, and how many of the places do. They miss half of the bumps that stay
+// (docs/blender.md).
+inline constexpr double flank_over = 4.0;
+inline constexpr double flank_back = 6.0;
+inline constexpr double seen_lean = 3.0;
+inline constexpr double most_over = 0.7;
+inline constexpr double most_back = 0.75;
+inline constexpr double flank_end = 0.9;  // of the largest lean
+// Degrees between a boundary's normals and the way that the patch faces, in the mean: a limb has 90, the flanks of
+// bumps up to 50.
+inline constexpr double steepest_flank = 65.0;
 
 // Degrees by which a hard edge becomes flatter that is rounded off; edges of its chain that do, and that stay, at
 // least; what other edges of the same triangles may bend, of its own bend: the rims of fins and folds of skin are

@@ -74,17 +74,6 @@ def test_a_selection_around_all_of_it_is_not(ground: Ground, height: float) -> N
     assert found(scene(3.2 * SIGMA, bumped(height, ground))) is None
 
 
-@pytest.mark.parametrize("ground", [plane, on_sphere])
-@pytest.mark.parametrize("height", [0.2, -0.2])
-def test_an_outline_over_the_root_leaves_half_of_it_and_is_reported(ground: Ground, height: float) -> None:
-    """On one side only is the boundary on the slope."""
-    for aside in (0.8, 1.2):
-        middle = np.array([aside * SIGMA, 0.0, 0.0])
-        reported = found(scene(1.9 * SIGMA, bumped(height, ground), middle))
-        assert reported is not None, aside
-        assert reported.is_bump == (height > 0.0)
-
-
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_the_floor_of_a_bowl_is_no_flank(sign: float) -> None:
     def bowl(points: Floats) -> Floats:

@@ -76,9 +76,8 @@ def flank(
 ) -> Flank | None:
     """Where a disc's boundary lies on the flank of a bump or a dent, which the surface continues; None where none does.
 
-    The disc stands off the quadric that the triangles ``around`` it fit, (m, 3) wound likewise, from half a radius of
-    it on: by six times as much as these do. Components with several loops, with pins or with an open border don't
-    count. Errors as for
+    All around, the disc bends over to one side and the triangles ``around`` it, (m, 3) wound likewise, as far as it is
+    wide, bend back. Components with several loops, with pins or with an open border don't count. Errors as for
     :func:`fairing.fair`.
     """
     points, faces, held = _bounded(vertices, triangles, fixed)
