@@ -7,9 +7,8 @@ one of the words has: these stand for what isn't read here, the versions of clan
 Precompiled headers are left out of the commands: clang can't read GCC's, and without them each source has to include
 what it needs.
 
-Reading libraries' headers takes three quarters of the time. Where many sources have changed, up to SIZE of them are
-therefore read as one. What clang-tidy finds in such a group, it has to find again in a source by itself: sources that
-declare one name twice don't go together.
+Where many sources have changed they are read in groups (source_groups.py). What clang-tidy finds in a group, it has to
+find again in a source by itself.
 """
 
 from __future__ import annotations
@@ -23,36 +22,13 @@ import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[1]
-INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
+from source_groups import ROOT, closure, groups
+
 PRECOMPILED = re.compile(r" -Winvalid-pch| -include \S*cmake_pch\.hxx")
-PRIVATE = re.compile(r"^namespace \{\n(.*?)^\}", re.MULTILINE | re.DOTALL)
-TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|enum class|using) (\w+)", re.MULTILINE)
-NAME = re.compile(r"^[A-Za-z].*?\b(\w+)(?: = |[({;[])", re.MULTILINE)
 FEW = 24  # sources: read by themselves
-SIZE = 16
-
-
-@cache
-def included(path: Path) -> frozenset[Path]:
-    """Headers of ours that a file includes itself."""
-    names = INCLUDE.findall(path.read_text(encoding="utf-8"))
-    places = ((folder / name).resolve() for name in names for folder in (path.parent, ROOT / "native"))
-    return frozenset(place for place in places if place.is_file())
-
-
-def closure(path: Path) -> list[Path]:
-    """The file and all of ours that it includes, through others too, in a fixed order."""
-    found, waiting = {path}, [path]
-    while waiting:
-        new = included(waiting.pop()) - found
-        found |= new
-        waiting += new
-    return sorted(found)
 
 
 def key(entry: dict[str, Any], words: list[str]) -> str:
@@ -78,19 +54,12 @@ def commands(build: Path, folder: Path) -> list[dict[str, Any]]:
 
 @dataclass(frozen=True)
 class Source:
-    """A source that has changed, with what it declares for itself alone and all that it names."""
+    """A source that has changed."""
 
     entry: dict[str, Any]
     path: Path
     stamp: Path
     key: str
-    types: frozenset[str]
-    names: frozenset[str]
-    words: frozenset[str]
-
-    def fits(self, other: Source) -> bool:
-        """Whether both can be read as one: no name of the one means something else in the other."""
-        return not (self.names & other.names or self.types & other.words or other.types & self.words)
 
 
 def changed(entry: dict[str, Any], folder: Path, words: list[str]) -> Source | None:
@@ -99,28 +68,15 @@ def changed(entry: dict[str, Any], folder: Path, words: list[str]) -> Source | N
     stamp, wanted = folder / str(path.relative_to(ROOT)).replace("/", "."), key(entry, words)
     if stamp.is_file() and stamp.read_text(encoding="utf-8") == wanted:
         return None
-    private = "".join(PRIVATE.findall(path.read_text(encoding="utf-8")))
-    named = "".join(each.read_text(encoding="utf-8") for each in closure(path))
-    types = frozenset(TYPE.findall(private))
-    names = types | frozenset(NAME.findall(private))
-    return Source(entry, path, stamp, wanted, types, names, frozenset(re.findall(r"\w+", named)))
+    return Source(entry, path, stamp, wanted)
 
 
-def groups(sources: list[Source]) -> list[list[Source]]:
-    """Sources to read together, neighbours first; each by itself where they are few."""
+def grouped(sources: list[Source]) -> list[list[Source]]:
+    """Sources to read together; each by itself where they are few."""
     if len(sources) <= FEW:
         return [[source] for source in sources]
-    found: list[list[Source]] = []
-    for source in sources:
-        room = source.path.parent.name == "bindings"  # these have other libraries
-        for group in found:
-            alike = (group[0].path.parent.name == "bindings") == room
-            if alike and len(group) < SIZE and all(source.fits(other) for other in group):
-                group.append(source)
-                break
-        else:
-            found.append([source])
-    return found
+    of = {source.path: source for source in sources}
+    return [[of[path] for path in group] for group in groups(list(of))]
 
 
 def as_one(group: list[Source], folder: Path) -> Path:
@@ -169,7 +125,7 @@ def main() -> int:
         return 1
     stale = [source for entry in entries if (source := changed(entry, stamps, given.words))]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return 0 if all(list(pool.map(lambda group: passes(group, stamps), groups(stale)))) else 1
+        return 0 if all(list(pool.map(lambda group: passes(group, stamps), grouped(stale)))) else 1
 
 
 if __name__ == "__main__":

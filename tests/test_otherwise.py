@@ -78,11 +78,11 @@ def test_a_solver_keeps_the_equation_that_automatic_chose_while_a_tube_is_dragge
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
-    bulb = tubes.pipe(7.0, -10.0, seed=3).faired(equation="harmonic", otherwise="stop")
-    assert bulb.converged
-    assert bulb.equation == "harmonic"
-    assert radii(bulb).max() > 1.6
-    assert not bulb.warnings
+    balloon = tubes.pipe(7.0, -10.0, seed=3).faired(equation="harmonic", otherwise="stop")
+    assert balloon.converged
+    assert balloon.equation == "harmonic"
+    assert radii(balloon).max() > 1.6
+    assert not balloon.warnings
     lost = tubes.pipe(5.0, 5.0, seed=3).faired(equation="harmonic", otherwise="stop")
     assert not lost.converged
     assert lost.equation == "harmonic"

@@ -37,7 +37,7 @@ PRECISE = 0.1  # of the mouse's way while Shift is held
 PATIENCE = 2.0  # seconds for a preview: what is hard to find is sought once, when it is accepted
 SLOW = "This width takes longer: click to have it"
 
-previews: list[Callable[[list[Rounded]], None]] = []  # told what a run by the mouse would write; [] when it ends
+previews: list[Callable[[list[Rounded]], None]] = []  # called with what a run by the mouse would write; [] at its end
 
 
 @dataclass(frozen=True)

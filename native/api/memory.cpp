@@ -34,12 +34,12 @@ std::optional<double> available_memory() {
     std::string name;
     double kilobytes = 0.0;
     double sum = 0.0;
-    bool told = false;
+    bool known = false;
     for (std::string unit; report >> name >> kilobytes && std::getline(report, unit);) {
         if (name == "MemAvailable:" || name == "SwapFree:") sum += 1024.0 * kilobytes;
-        told = told || name == "MemAvailable:";
+        known = known || name == "MemAvailable:";
     }
-    return told ? std::optional(sum) : std::nullopt;
+    return known ? std::optional(sum) : std::nullopt;
 }
 
 void check_memory(int free_count, std::optional<double> available) {

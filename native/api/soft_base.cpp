@@ -18,7 +18,7 @@ double softened_length(const SoftBaseSizes& sizes, double detail) {
     return std::max(detail, std::min(widths * sizes.width / sizes.diameter, most));
 }
 
-// As it is where that can't be told.
+// As it is where that is not known.
 Points without(BaseFilter& filter, const Points& surface, double wavelength, const Progress& progress) {
     std::optional<Points> smooth = filter.without(surface, wavelength, progress);
     if (!smooth || !smooth->allFinite()) return surface;

@@ -16,7 +16,7 @@ namespace {
 // Steps of the springs on the coarsest level, which begins anywhere.
 constexpr int most_coarsest_slides = 60;
 
-// From this many free vertices on the low-passed loop tells.
+// From this many free vertices on the low-passed loop shows what the surface is.
 bool begins_low_passed(const Problem& problem, const Traits& traits) {
     return traits.is_large && traits.is_jagged && problem.patch.free_count >= smallest_telling &&
            problem.patch.loop_count() == 1;

@@ -104,7 +104,7 @@ private:
         return levels_.problem(k).patch.free_count <= 2 * coarsest_size;
     }
 
-    // Analyses the operators of finer levels beside other work: the first surface tells about where vertices are.
+    // Analyses the operators of finer levels beside other work: the first surface shows roughly where vertices are.
     void prepare_beside(std::size_t from, const Points& surface) {
         operators_.resize(from);
         for (std::size_t k = operators_.size(); k-- > 0;) {

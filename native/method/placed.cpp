@@ -21,8 +21,8 @@ Problem for_few_steps(const Problem& problem) {
 
 }  // namespace
 
-// An iteration that ended nowhere may have left the surface, wrinkled, or have gone astray to a bulb, which tubes admit
-// besides (a pipe of twelve radii whose ends lean by 30° grew to four). Between three loops and more it was the surface
+// An iteration that ended nowhere may have left the surface, wrinkled, or gone astray to a balloon, which tubes have
+// too (a pipe of twelve radii whose ends lean by 30° grew to four). Between three loops and more it was the surface
 // in 20 of 20 blends, four times as fast as from the membrane and with fewer vertices off.
 bool OwnSurface::is_start(const Problem& problem) const {
     constexpr int most_loops_of_tubes = 2;

@@ -76,20 +76,6 @@ def test_a_symmetric_mesh_gets_a_symmetric_answer() -> None:
     assert any("not symmetric" in text for text in reported)
 
 
-def test_a_bulge_lifts_a_flat_disc_by_a_quarter_of_its_radius() -> None:
-    """The biharmonic plate: w = bulge (a² − r²)² / (4 a³) where it is small."""
-
-    def rings(points: Floats) -> Floats:
-        lengths = np.linalg.norm(points, axis=1, keepdims=True)
-        return points * np.abs(points).max(axis=1, keepdims=True) / np.maximum(lengths, 1e-9)
-
-    bulge = 0.02
-    done = fair(grid(40, 0.5, rings), equation="CONSTANT", bulge=bulge)
-    squared = (done.positions[:, :2] ** 2).sum(axis=1)  # of a plate with the radius a half
-    np.testing.assert_allclose(done.positions[:, 2], 0.25 * bulge * (0.25 - squared) ** 2 / 0.5**3, atol=5e-5)
-    assert done.positions[:, 2].max() == pytest.approx(0.25 * bulge * 0.5, rel=0.02)
-
-
 def counting_kept(ahead: bool = False) -> Kept:
     results: Memory[Solved] = Memory(2)
     solvers: Memory[RepeatedSolve | None] = Memory(2)

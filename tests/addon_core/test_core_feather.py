@@ -70,13 +70,6 @@ def test_what_is_pinned_hidden_or_on_a_border_stays_in_the_band() -> None:
     assert np.array_equal(wide.vertices, rows[1:-1, 1:-1].ravel())
 
 
-def test_without_feather_it_is_the_same_answer() -> None:
-    mesh = swollen()
-    plain, none = fair(mesh), fair(mesh, feather=0.0)
-    assert np.array_equal(plain.vertices, none.vertices)
-    assert np.array_equal(plain.positions, none.positions)
-
-
 def test_the_mirror_holds_in_the_band() -> None:
     mesh = replace(swollen(), mirror_x=True)
     rows = np.arange((SIZE + 1) ** 2).reshape(SIZE + 1, SIZE + 1)
@@ -95,12 +88,6 @@ def test_the_mirror_holds_in_the_band() -> None:
     pinned[band(mesh, done)[0]] = True
     lopsided = fair(replace(mesh, pinned=pinned), feather=WIDTH)
     assert any("X mirror is on, but the selection is not symmetric" in warning for warning in lopsided.warnings)
-
-
-def test_what_has_nothing_around_it_is_fair_without_a_band() -> None:
-    mesh = replace(swollen(), in_patch=np.ones(SIZE * SIZE, dtype=bool))
-    plain, soft = fair(mesh, inner_fairness="CONFORMAL"), fair(mesh, inner_fairness="CONFORMAL", feather=WIDTH)
-    assert np.array_equal(plain.vertices, soft.vertices)
 
 
 BY_GROUP = {"factor_group": "Soft"}  # `MeshArrays.parts` are its weights

@@ -45,10 +45,10 @@ BAD = Verdict(UNUSABLE, "2 faces of the result are folded over", np.array([3, 4]
 
 
 def test_a_sphere_meets_all(sphere: Fairing) -> None:
-    told = report(sphere)
-    assert set(states(told).values()) == {MET, TOLD}
-    assert (told.verdict.grade, told.verdict.reason, told.written) == (GOOD, "", True)
-    assert summary(told) == f"Good: faired {len(sphere.vertices)} vertices in 1.50 s"
+    found = report(sphere)
+    assert set(states(found).values()) == {MET, TOLD}
+    assert (found.verdict.grade, found.verdict.reason, found.written) == (GOOD, "", True)
+    assert summary(found) == f"Good: faired {len(sphere.vertices)} vertices in 1.50 s"
 
 
 def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
@@ -95,8 +95,8 @@ def test_counts_must_not_grow(
     sphere: Fairing, before: list[int] | None, after: list[int], value: str, state: str
 ) -> None:
     then = None if before is None else np.array(before)
-    told = report(replace(sphere, before=quality(then), after=quality(np.array(after, dtype=np.int64))))
-    assert (values(told)["Faces that cross"], states(told)["Faces that cross"]) == (value, state)
+    found = report(replace(sphere, before=quality(then), after=quality(np.array(after, dtype=np.int64))))
+    assert (values(found)["Faces that cross"], states(found)["Faces that cross"]) == (value, state)
 
 
 @pytest.mark.parametrize("options", [{"equation": "MINIMAL"}, {"factor": 0.5}])
@@ -110,8 +110,8 @@ def test_warnings_name_their_object_where_there_are_several(sphere: Fairing) -> 
     assert report(odd, sphere).warnings == ("Object 0: odd",)
 
 
-@pytest.mark.parametrize(("converged", "bulge", "told"), [(False, 2.0, True), (True, 2.0, False), (False, 0.0, False)])
-def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool, bulge: float, told: bool) -> None:
+@pytest.mark.parametrize(("converged", "bulge", "found"), [(False, 2.0, True), (True, 2.0, False), (False, 0.0, False)])
+def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool, bulge: float, found: bool) -> None:
     lost = replace(sphere, warnings=(), result=replace(sphere.result, converged=converged))
     notes = report(lost, equation="CONSTANT", bulge=bulge).warnings
-    assert ["no surface with a bulge of 2" in note for note in notes] == [True] * told
+    assert ["no surface with a bulge of 2" in note for note in notes] == [True] * found

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats, Mask
-from core.engine import bad_outline, fitted_boundary
+from core.engine import bad_outline
 from core.region import MeshArrays, make_patch
 from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, problem_of
 from core.symmetry import mirror_map, with_image
@@ -113,18 +113,6 @@ def test_growing_leaves_the_bad_vertices_inside() -> None:
     assert np.array_equal(grown_until_smooth(clean, np.eye(4)), clean.in_patch)
     hidden = ~mesh.in_patch
     assert np.array_equal(grown_until_smooth(replace(mesh, hidden=hidden), np.eye(4)), mesh.in_patch)
-
-
-def test_a_noisy_outline_is_moved_towards_the_sphere() -> None:
-    mesh = grid(20, 0.6, on_sphere)
-    noise = 0.012 * np.random.default_rng(2).normal(size=mesh.positions.shape)
-    noisy = replace(mesh, positions=mesh.positions + noise)
-    fitted = fitted_boundary(problem_of(noisy, np.eye(4)))
-    off = np.abs(np.linalg.norm(fitted.points, axis=1) - 1.0)
-    was = np.abs(np.linalg.norm(noisy.positions[fitted.vertices], axis=1) - 1.0)
-    assert len(off) > 20
-    assert np.median(off) < 0.7 * np.median(was)
-    assert len(fitted_boundary(problem_of(mesh, np.eye(4))).vertices) == 0
 
 
 def test_a_selection_on_one_side_gets_its_image() -> None:

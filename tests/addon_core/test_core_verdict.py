@@ -250,18 +250,18 @@ def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
 def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
     """The engine says how far the outline lies beside the surface; a mesh that had more folds is better off."""
     reported = fairing.Diagnostic("NO_SOLUTION", "", np.empty(0, np.int32), "vertex", {"distance": 0.02})
-    eased = replace(fine, result=replace(fine.result, warnings=(reported,)))
+    low_passed = replace(fine, result=replace(fine.result, warnings=(reported,)))
     rough = replace(CLEAN, folded=ints(FACE, OTHER), crossing=ints(FACE, OTHER))
     calm = replace(CLEAN, folded=ints(FACE), crossing=ints(OTHER))
-    verdict = judged(replace(eased, before=rough, after=calm))
+    verdict = judged(replace(low_passed, before=rough, after=calm))
     assert (verdict.grade, verdict.reason) == (LOOK, "1 face of the result is folded over")
     assert WRITE not in verdict.remedies
     assert judged(replace(fine, before=rough, after=calm)).grade == UNUSABLE  # another surface
     as_folded = replace(rough, folded=calm.folded)
-    assert judged(replace(eased, before=as_folded, after=calm)).grade == UNUSABLE  # no better than before
-    assert judged(replace(eased, before=rough, after=replace(calm, crossing=rough.crossing))).grade == UNUSABLE
+    assert judged(replace(low_passed, before=as_folded, after=calm)).grade == UNUSABLE  # no better than before
+    assert judged(replace(low_passed, before=rough, after=replace(calm, crossing=rough.crossing))).grade == UNUSABLE
     unknown = replace(rough, crossing=None)
-    assert judged(replace(eased, before=unknown, after=calm)).grade == LOOK
+    assert judged(replace(low_passed, before=unknown, after=calm)).grade == LOOK
 
 
 def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:

@@ -43,20 +43,6 @@ def test_all_but_free_positions_keep_their_bits() -> None:
     np.testing.assert_array_equal(changed, meshes.free_vertices(obj, faces))
 
 
-def test_factor() -> None:
-    results = {}
-    for factor in (0.0, 0.5, 1.0):
-        obj, faces = meshes.domed_grid()
-        before = meshes.in_edit_mode_once(obj, faces)
-        original = meshes.positions(obj)
-        meshes.fair(obj, faces, factor=factor)
-        if factor == 0.0:
-            assert not meshes.moved(before, meshes.contents(obj)).any()
-        results[factor] = meshes.positions(obj)
-    assert np.abs(results[1.0] - original).max() > 0.05
-    np.testing.assert_allclose(results[0.5], 0.5 * (original + results[1.0]), atol=1e-7)
-
-
 def test_undo_and_redo_restore_exactly() -> None:
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)

@@ -157,9 +157,9 @@ def _rising(progress: Progress | None) -> Progress | None:
         return None
     most = 0.0
 
-    def told(fraction: float, stage: str) -> bool | None:
+    def reported(fraction: float, stage: str) -> bool | None:
         nonlocal most
         most = max(most, fraction)
         return progress(most, stage)
 
-    return told
+    return reported

@@ -82,10 +82,10 @@ def reported_before_running() -> Story:
     open_tab()
     watch = module("follow.watch").watch
 
-    def told() -> bool:
+    def has_said() -> bool:
         return bool(not watch.stale and watch.found and "No vertex is free" in watch.found[0].refusal)
 
-    yield from wait_until(told, 10.0)
+    yield from wait_until(has_said, 10.0)
     yield 0.5
     screenshot("refusal")
     before = scenes.contents()
