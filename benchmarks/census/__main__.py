@@ -4,11 +4,14 @@
     python benchmarks/census --switches build/census [--count N] [--seed S] [NAME…]
     python benchmarks/census --table build/census
     python benchmarks/census --limits build/census --kind KIND [--count N] [--seed S]
+    python benchmarks/census --reach build/census [--count N] [--seed S] [--most K]
 
 The first form runs all problems with one built module (FOLDER/fairing) and writes a line of JSON each. The second does
 so for the tree as it is and for each change of switches.toml (or those named), made in a copy of the tree and built
 there; it needs an environment of scripts/setup on the PATH. The third writes the table. The fourth builds one module
-whose named limits can be set, and prints limits.toml's rows for calls of a kind (calls.py; "patches": plain ones).
+whose named limits can be set, and prints limits.toml's rows for calls of a kind (calls.py; "patches": plain ones). The
+fifth builds one, with clang++, that marks the branches that run, makes calls of all kinds, and prints the lines that
+at most K of them reach.
 """
 
 from __future__ import annotations
@@ -91,6 +94,22 @@ def set_limits(folder: Path, kind: str, count: int, seed: int) -> None:
     switched.report(_core, kind, count, seed)
 
 
+def reach_lines(folder: Path, count: int, seed: int, most: int) -> None:
+    """What hardly any call reaches, with the module built before where there is one."""
+    package = folder.resolve() / "modules" / "marks"
+    if not package.exists():
+        from variants import Tree
+
+        shutil.copytree(Tree(folder / "marked").built_with_marks(), package)
+    sys.path.insert(0, str(package))
+    import reach
+
+    from fairing import _core
+
+    reach.counted(_core, count, seed, folder / f"reached, seed {seed}")
+    reach.report(folder, ROOT / "native", most)
+
+
 def main() -> int:
     """By the options."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
@@ -99,6 +118,8 @@ def main() -> int:
     parser.add_argument("--switches", type=Path)
     parser.add_argument("--table", type=Path)
     parser.add_argument("--limits", type=Path)
+    parser.add_argument("--reach", type=Path)
+    parser.add_argument("--most", type=int, default=2)
     parser.add_argument("--kind", default="patches")
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
@@ -110,6 +131,8 @@ def main() -> int:
         run(options.switches, options.names, options.count, options.seed)
     elif options.limits:
         set_limits(options.limits, options.kind, options.count, options.seed)
+    elif options.reach:
+        reach_lines(options.reach, options.count, options.seed, options.most)
     elif options.table:
         from table import table
 

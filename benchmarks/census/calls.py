@@ -11,13 +11,19 @@ import fairing
 import joints
 import problems
 import real_meshes
+import scan_regions
 import tubes
 from joints import flat_arm
 from real_meshes import RealPatch
 
 Call = tuple[str, Callable[[], Any], Any]  # name, the call, the exact surface where one is known
-LARGEST = {"fill": 700, "remesh": 700, "least variation": 300, "paper": 900}  # vertices of a patch; of other kinds:
-USUAL = 1000
+LARGEST = {"fill": 700, "remesh": 700, "least variation": 300, "paper": 900}  # vertices of a patch
+USUAL = 1000  # of other kinds
+# Of a hundred problems of all kinds.
+SHARES = {
+    "patches": 28, "scans": 6, "fill": 10, "pins": 7, "detail": 7, "jagged": 7, "remesh": 4, "feather": 3, "G2": 6,
+    "mended": 4, "least variation": 3, "tubes": 7, "weights": 3, "equations": 4, "again": 1,
+}  # fmt: skip
 
 
 def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.random.Generator]]:
@@ -26,9 +32,9 @@ def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.ra
 
 
 def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
-    """Of a kind: KINDS, "tubes", or "patches" with the closed forms and options of problems.py."""
-    if kind == "tubes":
-        yield from _tubes(count, seed)
+    """Of a kind: KINDS, "tubes", "scans", or "patches" with the closed forms and options of problems.py."""
+    if kind in ("tubes", "scans"):
+        yield from (_tubes if kind == "tubes" else _scans)(count, seed)
         return
     if kind != "patches":
         for patch, rng in patches(kind, count, seed):
@@ -39,6 +45,13 @@ def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
     for problem in [*problems.exact(seed, (300,)), *problems.patches(count, seed)]:
         if len(problem.vertices) <= USUAL:
             yield problem.name + problem.kind, _faired(problem), problem
+
+
+def of_all_kinds(count: int, seed: int) -> Iterator[tuple[str, Call]]:
+    """The kind and the call; some `count`, shared out by SHARES."""
+    for number, (kind, share) in enumerate(SHARES.items()):
+        for call in calls(kind, max(1, share * count // 100), 100 * seed + number):
+            yield kind, call
 
 
 def _tubes(count: int, seed: int) -> Iterator[Call]:
@@ -53,6 +66,26 @@ def _tubes(count: int, seed: int) -> Iterator[Call]:
             yield f"bridge{make.__name__} {number}", _bridged(tube), None
         else:
             yield f"{equation}{make.__name__} {number}", _along(tube, equation), None
+
+
+def _scans(count: int, seed: int) -> Iterator[Call]:
+    """Large regions of scans, with noise of up to a quarter edge; some with weights or a pin."""
+    rng = np.random.default_rng(seed)
+    for number in range(count):
+        name = list(scan_regions.MESHES)[number % 2]
+        wanted, noise = int(rng.integers(1600, 7000)), float(rng.choice([0.0, 0.1, 0.25]))
+        vertices, triangles = scan_regions.scan(name, wanted)
+        vertices = scan_regions.shaken(vertices, triangles, noise)
+        region = scan_regions.region(vertices, triangles, int(rng.integers(5000)), wanted)
+        weights = "conformal" if number % 5 == 4 else "uniform"
+        fixed, normals = region.fixed, region.normals
+        if number % 5 == 2:
+            inside = np.setdiff1d(np.arange(len(region.vertices)), fixed)
+            fixed, normals = np.append(fixed, rng.choice(inside)), np.vstack([normals, [[0.0, 0.0, 1.0]]])
+        problem = problems.Problem(
+            f"{name} {number}", "scan", region.vertices, region.triangles, fixed, normals, {"inner_fairness": weights}
+        )
+        yield problem.name, _faired(problem), None
 
 
 def _style(rng: np.random.Generator) -> dict[str, int]:
@@ -166,6 +199,34 @@ def _sampled(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | 
     return _within(patch, 0.1, rng, detail=1.0, detail_from=sample.vertices_in_mesh[sample.triangles])
 
 
+def _weighted(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    return _fair(patch, inner_fairness=str(rng.choice(["conformal", "inverse_distance", "shape_preserving"])))
+
+
+def _of_other_equation(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    name = str(rng.choice(["constant", "minimal", "minimal_energy", "automatic"]))
+    return _fair(patch, equation=name, bulge=float(rng.choice([-1.0, 1.0, 4.0])) if name == "constant" else 0.0)
+
+
+def _again(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    """While the boundary moves; then from the last answer's vertices."""
+    steps = rng.normal(scale=np.ptp(patch.vertices[patch.fixed], axis=0).max(), size=(3, 3)) * [[0.005], [0.02], [0.1]]
+    part = patch.fixed[: len(patch.fixed) // 2]
+
+    def solved() -> Any:
+        solver = fairing.Solver(patch.triangles, fixed=patch.fixed, threads=1)
+        vertices = patch.vertices.copy()
+        solver.solve(vertices, patch.normals, patch.vertices)
+        for step in steps:
+            vertices[part] += step
+            last = solver.solve(vertices, patch.normals, patch.vertices)
+        return fairing.fair(
+            last.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, threads=1, start="given"
+        )
+
+    return solved
+
+
 KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | None]] = {
     "fill": _filled,
     "pins": _pinned,
@@ -176,5 +237,8 @@ KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | 
     "G2": lambda patch, rng: _within(patch, 0.0, rng, continuity="G2"),
     "mended": lambda patch, rng: _within(patch, 0.1, rng, outline="mended"),
     "least variation": lambda patch, _: _fair(patch, equation="least_variation"),
+    "weights": _weighted,
+    "equations": _of_other_equation,
+    "again": _again,
     "paper": lambda patch, _: _fair(patch, method="paper"),
 }

@@ -8,6 +8,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import reach
 from limits import make_settable
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -61,6 +62,13 @@ class Tree:
         make_settable(self.tree / "native")
         self._build("-DFAIRING_WARNINGS_AS_ERRORS=OFF", "-DFAIRING_BUILD_TESTS=OFF")
         return self._packed(self.folder / "modules" / "limits")
+
+    def built_with_marks(self) -> Path:
+        """The folder that holds the package `fairing` whose module says which branches ran."""
+        module = self.tree / "native/bindings/module.cpp"
+        module.write_text(reach.marked(module.read_text()))
+        self._build(*reach.OPTIONS)
+        return self._packed(self.folder / "modules" / "marks")
 
     def _packed(self, package: Path) -> Path:
         shutil.rmtree(package, ignore_errors=True)

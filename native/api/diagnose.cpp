@@ -28,12 +28,10 @@ void warn_of_flips(const Patch& patch, const Solution& solution, Diagnostics& wa
     Indices flipped = solution.flipped ? *solution.flipped : flipped_triangles(patch, solution.points);
     if (flipped.empty()) return;
     flipped = input_numbers(patch, std::move(flipped));
-    warnings.push_back(
-        {Code::flipped_triangles,
-         counted(flipped.size(), "triangle of the result is turned over", "triangles of the result are turned over"),
-         flipped,
-         ElementKind::triangle,
-         {{"triangles", size_of(flipped)}}});
+    warnings.push_back(about(
+        Code::flipped_triangles,
+        counted(flipped.size(), "triangle of the result is turned over", "triangles of the result are turned over"),
+        flipped, ElementKind::triangle, "triangles"));
 }
 
 void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
@@ -61,12 +59,10 @@ void warn_of_crossings(const Patch& patch, const Solution& solution, Diagnostics
     Indices crossing = solution.crossings ? *solution.crossings : crossing_triangles(patch.triangles, solution.points);
     if (crossing.empty()) return;
     crossing = input_numbers(patch, std::move(crossing));
-    warnings.push_back({Code::self_intersection,
-                        counted(crossing.size(), "triangle of the result passes through others of the patch",
-                                "triangles of the result pass through others of the patch"),
-                        crossing,
-                        ElementKind::triangle,
-                        {{"triangles", size_of(crossing)}}});
+    warnings.push_back(about(Code::self_intersection,
+                             counted(crossing.size(), "triangle of the result passes through others of the patch",
+                                     "triangles of the result pass through others of the patch"),
+                             crossing, ElementKind::triangle, "triangles"));
 }
 
 // The end of a sentence on a component, and the figures in it.
@@ -170,13 +166,12 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
     std::sort(bad.begin(), bad.end());
     bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
     if (!collapsed && static_cast<double>(bad.size()) <= tolerated_share * patch.triangle_count()) return true;
-    warnings.push_back({Code::reference_unusable,
-                        counted(bad.size(), "triangle of the reference mesh is a needle or turned over",
-                                "triangles of the reference mesh are needles or turned over") +
-                            ", so that no distribution of vertices can be read off it; uniform inner fairness was used",
-                        bad,
-                        ElementKind::triangle,
-                        {{"triangles", size_of(bad)}}});
+    warnings.push_back(
+        about(Code::reference_unusable,
+              counted(bad.size(), "triangle of the reference mesh is a needle or turned over",
+                      "triangles of the reference mesh are needles or turned over") +
+                  ", so that no distribution of vertices can be read off it; uniform inner fairness was used",
+              bad, ElementKind::triangle, "triangles"));
     return false;
 }
 
@@ -269,12 +264,10 @@ void warn_of_sharp_pins(const Patch& patch, const Solution& solution, Diagnostic
     Indices pins = sharp_pins(patch, solution.points);
     if (pins.empty()) return;
     for (int& place : pins) place = fixed_vertices(patch)[place];
-    warnings.push_back({Code::pins_not_spread,
-                        counted(pins.size(), "pin is the tip of a spike", "pins are tips of spikes") +
-                            ": the surface rises far within a short distance",
-                        pins,
-                        ElementKind::vertex,
-                        {{"tips", size_of(pins)}}});
+    warnings.push_back(about(Code::pins_not_spread,
+                             counted(pins.size(), "pin is the tip of a spike", "pins are tips of spikes") +
+                                 ": the surface rises far within a short distance",
+                             pins, ElementKind::vertex, "tips"));
 }
 
 }  // namespace

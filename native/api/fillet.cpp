@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
+#include "fillet/limits.h"
 #include "fillet/seam_sides.h"
 #include "fillet/side_normals.h"
 #include "geometry/angle.h"
@@ -18,9 +19,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double resolution = 0.5;     // of the spacing: how finely the line is sought
-constexpr double snap = 0.02;          // of the spacing: edges that are shorter yet bring thin triangles for no gain
-constexpr double corner_angle = 0.35;  // radians: 20° between normals at one place are of two sides
+constexpr double resolution = 0.5;  // of the spacing: how finely the line is sought
 
 std::vector<VertexPair> joined(const std::vector<VertexPair>& a, const std::vector<VertexPair>& b) {
     std::vector<VertexPair> both = a;
@@ -191,8 +190,6 @@ Indices swallowed_vertices(const SeamMesh& mesh, const SeamDistance& distance, c
     return {found.begin(), found.end()};
 }
 
-constexpr double flat = 0.02;  // of the spacing: lower triangles stop all moves of a mesh that is made even
-
 // A seam that is a cap's longest side becomes the two sides over it, likewise a wall.
 void part_edges(const TurnedCap& turned, std::vector<VertexPair>& edges) {
     const auto [a, b] = turned.ends;
@@ -220,7 +217,7 @@ void turn_caps_at_seams(FilletInput& input, Indices& plane) {
         at_seam[t] = on_seam[corners[0]] + on_seam[corners[1]] + on_seam[corners[2]] > 1 ? 1 : 0;
     }
     const std::vector<char> all(plane.size(), 1);
-    for (const TurnedCap& turned : turn_caps(input.vertices, at_seam, all, flat * input.spacing, input.triangles)) {
+    for (const TurnedCap& turned : turn_caps(input.vertices, at_seam, all, snap * input.spacing, input.triangles)) {
         plane[turned.cap] = plane[turned.beside];
         for (auto* widths : {&input.widths.left, &input.widths.right}) {
             double& width = (*widths)[turned.over];
@@ -235,7 +232,7 @@ void turn_caps_at_seams(FilletInput& input, Indices& plane) {
 void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
     Points points(3, input.vertices.cols() + cut.points.cols());
     points << input.vertices, cut.points;
-    for (const TurnedCap& turned : turn_caps(points, cut.inside, cut.inside, flat * input.spacing, cut.triangles))
+    for (const TurnedCap& turned : turn_caps(points, cut.inside, cut.inside, snap * input.spacing, cut.triangles))
         cut.parent[turned.cap] = cut.parent[turned.beside];
 }
 

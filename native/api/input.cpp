@@ -71,14 +71,12 @@ Triangles drop_unbounded_triangles(const MeshInput& input, const Triangles& tria
     }
     kept = std::move(kept_input);
     if (!dropped.empty()) {
-        warnings.push_back(
-            {Code::degenerate_face,
-             counted(dropped.size(), "triangle between fixed vertices has a corner that is NaN or infinite and was",
-                     "triangles between fixed vertices have a corner that is NaN or infinite and were") +
-                 " left out",
-             dropped,
-             ElementKind::triangle,
-             {{"unbounded", size_of(dropped)}}});
+        warnings.push_back(about(
+            Code::degenerate_face,
+            counted(dropped.size(), "triangle between fixed vertices has a corner that is NaN or infinite and was",
+                    "triangles between fixed vertices have a corner that is NaN or infinite and were") +
+                " left out",
+            dropped, ElementKind::triangle, "unbounded"));
     }
     return triangles(Eigen::all, kept_columns);
 }
@@ -89,11 +87,10 @@ void check_finite(const MeshInput& input, const VertexRoles& roles) {
         if (roles.used[v] && !input.vertices.col(v).allFinite()) offenders.push_back(v);
     }
     if (!offenders.empty()) {
-        throw MeshError({Code::nonfinite,
-                         "vertex " + std::to_string(offenders.front()) + " has a coordinate that is NaN or infinite",
-                         offenders,
-                         ElementKind::vertex,
-                         {{"vertices", size_of(offenders)}}});
+        throw MeshError(
+            about(Code::nonfinite,
+                  "vertex " + std::to_string(offenders.front()) + " has a coordinate that is NaN or infinite",
+                  offenders, ElementKind::vertex, "vertices"));
     }
 }
 
@@ -108,13 +105,11 @@ Indices all_fixed(const MeshInput& input, const VertexRoles& roles, Diagnostics&
     fixed.insert(fixed.end(), added.begin(), added.end());
     if (input.fixed && !added.empty()) {
         warnings.push_back(
-            {Code::open_border_in_selection,
-             counted(added.size(), "vertex on an open border was not given as fixed and stays where it is",
-                     "vertices on an open border were not given as fixed and stay where they are") +
-                 "; where this is a seam of doubled vertices, use Merge by Distance first",
-             added,
-             ElementKind::vertex,
-             {{"vertices", size_of(added)}}});
+            about(Code::open_border_in_selection,
+                  counted(added.size(), "vertex on an open border was not given as fixed and stays where it is",
+                          "vertices on an open border were not given as fixed and stay where they are") +
+                      "; where this is a seam of doubled vertices, use Merge by Distance first",
+                  added, ElementKind::vertex, "vertices"));
     }
     return fixed;
 }
@@ -183,12 +178,10 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
     }
     if (pins.empty()) return;
     mesh.warnings.push_back(
-        {Code::pin_normal_ignored,
-         counted(pins.size(), "fixed vertex has no fixed neighbour: its position counts, its normal doesn't",
-                 "fixed vertices have no fixed neighbour: their position counts, their normal doesn't"),
-         pins,
-         ElementKind::vertex,
-         {{"vertices", size_of(pins)}}});
+        about(Code::pin_normal_ignored,
+              counted(pins.size(), "fixed vertex has no fixed neighbour: its position counts, its normal doesn't",
+                      "fixed vertices have no fixed neighbour: their position counts, their normal doesn't"),
+              pins, ElementKind::vertex, "vertices"));
 }
 
 // Normals that point to the side from which the triangles given are clockwise. The interior given may be noise, and a
@@ -203,13 +196,11 @@ void warn_of_opposed_normals(const CheckedMesh& mesh, const FixedNormals& averag
     }
     if (static_cast<double>(opposed.size()) <= least_share * static_cast<double>(mesh.fixed.size())) return;
     warnings.push_back(
-        {Code::normals_oppose_winding,
-         counted(opposed.size(), "prescribed normal points against the winding of its triangles: turn it round",
-                 "prescribed normals point against the winding of their triangles: turn them round") +
-             ", or flip the triangles",
-         opposed,
-         ElementKind::vertex,
-         {{"vertices", size_of(opposed)}}});
+        about(Code::normals_oppose_winding,
+              counted(opposed.size(), "prescribed normal points against the winding of its triangles: turn it round",
+                      "prescribed normals point against the winding of their triangles: turn them round") +
+                  ", or flip the triangles",
+              opposed, ElementKind::vertex, "vertices"));
 }
 
 // Of far more area than a flat one, by numbers that are neither too large nor too small for their squares.
@@ -232,11 +223,9 @@ void warn_of_flat_triangles(const MeshInput& input, const CutMesh& mesh, Diagnos
     }
     if (offenders.empty()) return;
     std::sort(offenders.begin(), offenders.end());
-    warnings.push_back({Code::degenerate_face,
-                        counted(offenders.size(), "triangle given has no area", "triangles given have no area"),
-                        offenders,
-                        ElementKind::triangle,
-                        {{"without_area", size_of(offenders)}}});
+    warnings.push_back(about(Code::degenerate_face,
+                             counted(offenders.size(), "triangle given has no area", "triangles given have no area"),
+                             offenders, ElementKind::triangle, "without_area"));
 }
 
 // H of all vertices, NaN where nothing is prescribed.

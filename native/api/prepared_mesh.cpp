@@ -4,6 +4,7 @@
 
 #include "base/background_task.h"
 #include "base/errors.h"
+#include "base/text.h"
 #include "mesh/pieces.h"
 
 namespace fairing {
@@ -26,13 +27,10 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
     if (closed.empty()) return patches;
     const std::string text = "a closed component has no fixed vertices to hold it: fix some of them";
     if (patches.empty()) {
-        throw MeshError({Code::no_boundary, text, closed, ElementKind::vertex, {{"closed", size_of(closed)}}});
+        throw MeshError(about(Code::no_boundary, text, closed, ElementKind::vertex, "closed"));
     }
-    warnings.push_back({Code::no_boundary,
-                        text + "; it was left alone",
-                        closed,
-                        ElementKind::vertex,
-                        {{"left_alone", size_of(closed)}}});
+    warnings.push_back(
+        about(Code::no_boundary, text + "; it was left alone", closed, ElementKind::vertex, "left_alone"));
     return patches;
 }
 

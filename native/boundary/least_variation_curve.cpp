@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "base/errors.h"
+#include "base/limits.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -133,11 +134,10 @@ public:
     // Ends in this direction with the least variation; false where Newton's method does not lead there.
     bool end_in(const Vector3& direction) {
         const Across across = orthogonal(direction);
-        constexpr int most_steps = 30;
         constexpr double small_step = 1e-12;
         const Shape<double> before = shape_;
         Condition multipliers = Condition::Zero();
-        for (int k = 0; k < most_steps; ++k) {
+        for (int k = 0; k < most_iterations; ++k) {
             checkpoint();
             const double size = newton_step(across, multipliers);
             if (!(size < 1.0)) break;

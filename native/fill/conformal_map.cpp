@@ -7,6 +7,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "base/errors.h"
+#include "base/limits.h"
 #include "geometry/cotangent.h"
 
 namespace fairing {
@@ -60,11 +61,10 @@ ComplexMatrix free_ones(Eigen::Index count, const Indices& fixed) {
 
 // Throws where a part of the mesh may turn or grow as it likes: the form has a kernel there.
 Eigen::VectorXcd solved(const ComplexMatrix& form, const Eigen::VectorXcd& rhs) {
-    constexpr double least_pivot = 1e-14;  // of the largest
     const Eigen::SimplicialLDLT<ComplexMatrix> factor(form);
     if (factor.info() == Eigen::Success) {
         const VectorX pivots = factor.vectorD().real();
-        if (pivots.minCoeff() > least_pivot * pivots.maxCoeff()) return factor.solve(rhs);
+        if (pivots.minCoeff() > roundoff * pivots.maxCoeff()) return factor.solve(rhs);
     }
     throw SolverError("the map is not determined: a piece of the mesh has no area, or less than two fixed vertices");
 }

@@ -19,7 +19,6 @@ namespace {
 constexpr double split_above = 4.0 / 3.0;  // of the wanted length
 constexpr double collapse_below = 0.75;
 constexpr double longest_after = 1.4;      // edges that a collapse makes
-constexpr double far_apart = 1.01;         // lengths whose two means differ at all
 constexpr double most_per_expected = 2.0;  // vertices; on a surface with folds splits would never end
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
@@ -59,7 +58,8 @@ EqualEdgeMesh::EqualEdgeMesh(const Patch& patch, const Points& points, const Tar
 // counts: by the mean of a long and a short one, the edge of a coarse outline's corner would never be split.
 double EqualEdgeMesh::wanted_between(Vertex one, Vertex other) const {
     const auto [low, high] = std::minmax(wanted_[one.idx()], wanted_[other.idx()]);
-    return high > far_apart * low ? (high - low) / std::log(high / low) : 0.5 * (low + high);
+    const double more = high - low;
+    return more > 0.0 ? more / std::log1p(more / low) : low;
 }
 
 double EqualEdgeMesh::relative_length(Edge e) const {

@@ -70,11 +70,10 @@ bool is_surface(const Triangles& triangles) {
 // Of least area. Where that closes a limb instead of going around it: the one that follows the normals, which a minimal
 // surface has none of.
 Triangles triangulated(const OpenOutline& outline, Equation equation) {
-    constexpr double crosswise = 0.8;  // mean cosine
-    constexpr double better = 0.25;
+    constexpr double better = 0.25;  // of the mean cosine
     const Triangles least = joined_loops(outline.points, outline.loops);
     const double before = agreement(outline, least);
-    if (before > crosswise || equation == Equation::minimal) return least;
+    if (before + better >= 1.0 || equation == Equation::minimal) return least;
     const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
     return agreement(outline, along) > before + better && is_surface(along) ? along : least;
 }

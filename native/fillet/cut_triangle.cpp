@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/limits.h"
+
 namespace fairing {
 
 namespace {
-
-constexpr double roundoff = 1e-14;  // of the whole triangle's area
 
 std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 

@@ -5,15 +5,13 @@
 #include <map>
 #include <set>
 
+#include "base/limits.h"
 #include "base/progress.h"
 #include "fillet/halved_mesh.h"
 
 namespace fairing {
 
 namespace {
-
-constexpr int most_steps = 100;      // of a root's search: halvings alone need 52
-constexpr double root_step = 1e-14;  // of a side
 
 class Marching {
 public:
@@ -102,7 +100,7 @@ private:
         double high = 1.0;
         double below = at(0.0);
         double above = at(1.0);
-        for (int step = 0; step < most_steps && high - low > root_step; ++step) {
+        for (int step = 0; step < most_iterations && high - low > roundoff; ++step) {
             const bool secant = std::isfinite(above) && step % 3 != 2;
             const double share = secant ? low + (high - low) * below / (below - above) : 0.5 * (low + high);
             const double found = at(share);

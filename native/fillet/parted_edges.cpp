@@ -5,14 +5,13 @@
 #include <utility>
 
 #include "fillet/level_line.h"
+#include "fillet/limits.h"
 #include "geometry/angle.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double straight_angle = 1e-3;  // radians: fits to planes agree to 1e-6, those to arcs turn more
-constexpr double longest = 2.0;          // of the spacing: beside longer edges the new mesh has needles
 constexpr double sliver = 0.1;         // of the spacing: points on both sides of lower triangles would nearly coincide
 constexpr double clear_of_line = 0.3;  // of the spacing: nearer to each other, or to the line, points bring short edges
 
@@ -106,7 +105,7 @@ void part_walls(const SeamMesh& mesh, const SeamDistance& distance, const SideNo
         const bool is_straight = radians_between(sides.normal(t, weights_along(h, 0.0)),
                                                  sides.normal(t, weights_along(h, 1.0))) < straight_angle;
         const int count =
-            is_straight ? parts(mesh, h, spacing) : static_cast<int>(mesh.length[h] / (longest * spacing));
+            is_straight ? parts(mesh, h, spacing) : static_cast<int>(mesh.length[h] / (longest_edge * spacing));
         for (int k = 1; k < count; ++k) {
             const double along = static_cast<double>(k) / count;
             if (!(distance.value(t, weights_along(h, along)) < -clear_of_line * spacing)) continue;

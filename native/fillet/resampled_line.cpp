@@ -4,17 +4,15 @@
 #include <map>
 
 #include "fillet/level_line.h"
+#include "fillet/limits.h"
 #include "geometry/angle.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double corner = 0.35;          // radians: a turn by 20° between neighbouring points is a corner of the line
-constexpr double straight = 0.02;        // of its length: how far a piece of the line may leave its chord
-constexpr double straight_angle = 1e-3;  // radians: fits to planes agree to 1e-6, those to arcs turn more
-constexpr double longest = 2.0;          // of the spacing: beside longer chords the new mesh has needles
-constexpr int fewest_of_loop = 6;        // points of a line that is closed within one triangle
+constexpr double straight = 0.02;  // of its length: how far a piece of the line may leave its chord
+constexpr int fewest_of_loop = 6;  // points of a line that is closed within one triangle
 
 class Resampling {
 public:
@@ -64,7 +62,7 @@ private:
         int begin = 0;
         for (int k = 1; k <= last; ++k) {
             const bool turns = k < last && radians_between(place(chain[k]) - place(chain[k - 1]),
-                                                           place(chain[k + 1]) - place(chain[k])) > corner;
+                                                           place(chain[k + 1]) - place(chain[k])) > corner_angle;
             if (k != last && !turns) continue;
             add_piece({chain.begin() + begin, chain.begin() + k + 1}, triangle);
             begin = k;
@@ -83,7 +81,7 @@ private:
         }
         const bool closed = chain.front() == chain.back();
         const double length = way.back();
-        auto count = static_cast<int>(std::ceil(length / (longest * spacing_)));
+        auto count = static_cast<int>(std::ceil(length / (longest_edge * spacing_)));
         if (closed || bulge > straight * length || runs_straight(chain.front(), chain.back(), triangle))
             count = static_cast<int>(std::lround(length / spacing_));
         count = std::max(count, 1);

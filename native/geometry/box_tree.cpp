@@ -6,13 +6,12 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/limits.h"
 #include "base/parallel.h"
 
 namespace fairing {
 
 namespace {
-
-constexpr std::size_t least_pieces = 16;  // nodes of a level to work on side by side
 
 struct Key {
     std::uint64_t place = 0;
@@ -85,7 +84,6 @@ void sort_few(std::span<Key> keys) {
 // What falls into one cell is sorted in a cube of its own: small parts of a large mesh would be in disorder otherwise.
 void sort_along_curve(std::span<Key> keys, const Points& centres) {
     constexpr std::size_t many = 1024;
-    constexpr std::ptrdiff_t crowd = 16;
     const Cube cube(centres, keys);
     if (!(cube.edge > 0.0 && cube.edge < HUGE_VAL)) return;
     for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {
@@ -95,7 +93,7 @@ void sort_along_curve(std::span<Key> keys, const Points& centres) {
     for (auto begin = keys.begin(); begin != keys.end();) {
         auto end = begin + 1;
         while (end != keys.end() && end->place == begin->place) ++end;
-        if (end - begin > crowd) sort_along_curve({begin, end}, centres);
+        if (end - begin > one_by_one) sort_along_curve({begin, end}, centres);
         begin = end;
     }
 }
@@ -262,7 +260,7 @@ void BoxTree::for_overlaps(const Visit& visit, const IsSettled& is_settled) cons
     const Walk walk{visit, is_settled, nodes};
     int level = static_cast<int>(levels_.size()) - 1;
     std::vector<Pair> pairs{{0, 0}};
-    for (; level > 0 && levels_[level].size() < least_pieces; --level) {
+    for (; level > 0 && std::ssize(levels_[level]) < one_by_one; --level) {
         std::vector<Pair> parts;
         for (const Pair& pair : pairs) split(level, pair, [&](const Pair& part) { parts.push_back(part); });
         pairs = std::move(parts);

@@ -6,6 +6,8 @@
 #include <Eigen/Jacobi>
 #include <Eigen/LU>
 
+#include "base/limits.h"
+
 namespace fairing {
 
 namespace {
@@ -47,7 +49,6 @@ private:
 
 VectorX gmres(const LinearMap& apply, const LinearMap& precondition, const VectorX& b, double relative_tolerance,
               int most_steps) {
-    constexpr double round_off = 1e-14;
     const double size = b.norm();
     if (!(size > 0.0)) return VectorX::Zero(b.size());
     Eigen::MatrixXd basis(b.size(), most_steps + 1);
@@ -65,7 +66,7 @@ VectorX gmres(const LinearMap& apply, const LinearMap& precondition, const Vecto
             w -= basis.leftCols(steps + 1) * h;
         }
         column[steps + 1] = w.norm();
-        const bool exhausted = !(column[steps + 1] > round_off * whole);  // A takes the directions to themselves
+        const bool exhausted = !(column[steps + 1] > roundoff * whole);  // A takes the directions to themselves
         left = projected.add(column);
         ++steps;
         if (exhausted) break;

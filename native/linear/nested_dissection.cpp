@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/limits.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 
@@ -13,7 +14,6 @@ namespace fairing {
 
 namespace {
 
-constexpr std::ptrdiff_t leaf = 16;
 constexpr int shared_depth = 4;
 
 class Dissection {
@@ -76,7 +76,7 @@ private:
     }
 
     void dissect(const Range& range) {
-        if (range.last - range.first <= leaf) return;
+        if (range.last - range.first <= one_by_one) return;
         for (const Range& half : cut(range)) dissect(half);
     }
 
@@ -84,7 +84,7 @@ private:
     // cut side by side look at no part_ but their own and those of separators, which stay as they are.
     std::array<Range, 2> cut(const Range& range) {
         const auto [first, last] = range;
-        if (last - first <= leaf) return {Range{first, first}, Range{first, first}};
+        if (last - first <= one_by_one) return {Range{first, first}, Range{first, first}};
         const int axis = longest_axis(range);
         const auto middle = first + (last - first) / 2;
         std::nth_element(first, middle, last, [&](int a, int b) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "base/progress.h"
 
 namespace fairing {
@@ -39,9 +40,8 @@ std::vector<Entry> bucket_sides(const Triangles& triangles, Indices& bucket_begi
 
 // A bucket's by their larger vertex, then as they are. They are few.
 void sort_bucket(Entry* first, Entry* last) {
-    constexpr std::ptrdiff_t few = 16;
     const auto is_less = [](const Entry& a, const Entry& b) { return a.high < b.high; };
-    if (last - first > few) {
+    if (last - first > one_by_one) {
         std::stable_sort(first, last, is_less);
         return;
     }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/errors.h"
+#include "base/text.h"
 #include "mesh/topology.h"
 
 namespace fairing {
@@ -40,11 +41,9 @@ void check_windings(const Triangles& triangles, const EdgeTable& edges, const In
         offenders.push_back(input_triangle[side / 3]);
     }
     if (offenders.empty()) return;
-    throw MeshError({Code::not_orientable,
-                     "the mesh is single-sided (like a Möbius strip): its border has no left side",
-                     offenders,
-                     ElementKind::triangle,
-                     {{"triangles", size_of(offenders)}}});
+    throw MeshError(about(Code::not_orientable,
+                          "the mesh is single-sided (like a Möbius strip): its border has no left side", offenders,
+                          ElementKind::triangle, "triangles"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "base/errors.h"
+#include "base/limits.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 
@@ -103,9 +104,8 @@ bool Patch::fill_ring(int vertex, int first, const Twins& twins) {
 
 // No edge twice.
 bool Patch::has_neighbours_once(int vertex) const {
-    constexpr std::ptrdiff_t few = 16;
     const auto neighbours = ring(vertex).vertices;
-    if (std::ssize(neighbours) > few) {
+    if (std::ssize(neighbours) > one_by_one) {
         Indices sorted(neighbours.begin(), neighbours.end());
         std::sort(sorted.begin(), sorted.end());
         return std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();

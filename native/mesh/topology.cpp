@@ -70,13 +70,11 @@ void check_fans(const Fans& fans, const VertexRoles& roles) {
         if (++count[v] == 2 && !roles.fixed[v]) offenders.push_back(v);
     }
     if (offenders.empty()) return;
-    throw MeshError({Code::nonmanifold_vertex,
-                     "free vertex " + std::to_string(offenders.front()) + " (and " +
-                         std::to_string(offenders.size() - 1) +
-                         " more) joins several fans of triangles: split it, or fix it",
-                     offenders,
-                     ElementKind::vertex,
-                     {{"vertices", size_of(offenders)}}});
+    throw MeshError(about(Code::nonmanifold_vertex,
+                          "free vertex " + std::to_string(offenders.front()) + " (and " +
+                              std::to_string(offenders.size() - 1) +
+                              " more) joins several fans of triangles: split it, or fix it",
+                          offenders, ElementKind::vertex, "vertices"));
 }
 
 // Union of triangles across edges; parity records the windings.
@@ -126,12 +124,10 @@ void check_orientable(const Indices& twisted, const Indices& input_triangle) {
     for (int t : twisted) offenders.push_back(input_triangle[t]);
     if (offenders.empty()) return;
     std::sort(offenders.begin(), offenders.end());
-    throw MeshError({Code::not_orientable,
-                     "the mesh has a single side (a Möbius strip) through triangle " +
-                         std::to_string(offenders.front()) + ": cut it open, or fair a part that has two sides",
-                     offenders,
-                     ElementKind::triangle,
-                     {{"triangles", size_of(offenders)}}});
+    throw MeshError(about(Code::not_orientable,
+                          "the mesh has a single side (a Möbius strip) through triangle " +
+                              std::to_string(offenders.front()) + ": cut it open, or fair a part that has two sides",
+                          offenders, ElementKind::triangle, "triangles"));
 }
 
 void check_doubled(const Triangles& triangles, const Indices& doubled) {
@@ -238,13 +234,11 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
     }
     if (offenders.empty()) return;
     std::sort(offenders.begin(), offenders.end());
-    warnings.push_back(
-        {Code::inconsistent_winding,
-         counted(offenders.size(), "triangle is wound against the others", "triangles are wound against the others") +
-             "; solved on a copy with one winding",
-         offenders,
-         ElementKind::triangle,
-         {{"triangles", size_of(offenders)}}});
+    warnings.push_back(about(
+        Code::inconsistent_winding,
+        counted(offenders.size(), "triangle is wound against the others", "triangles are wound against the others") +
+            "; solved on a copy with one winding",
+        offenders, ElementKind::triangle, "triangles"));
 }
 
 // By the lowest triangle of the input: here they may come in another order.
@@ -278,12 +272,10 @@ Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Di
     Triangles result(3, static_cast<Eigen::Index>(kept.size()));
     for (std::size_t k = 0; k < kept.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = triangles.col(kept[k]);
     if (!dropped.empty()) {
-        warnings.push_back({Code::degenerate_face,
-                            counted(dropped.size(), "triangle names a vertex twice and was left out",
-                                    "triangles name a vertex twice and were left out"),
-                            dropped,
-                            ElementKind::triangle,
-                            {{"repeated", size_of(dropped)}}});
+        warnings.push_back(about(Code::degenerate_face,
+                                 counted(dropped.size(), "triangle names a vertex twice and was left out",
+                                         "triangles name a vertex twice and were left out"),
+                                 dropped, ElementKind::triangle, "repeated"));
     }
     return result;
 }

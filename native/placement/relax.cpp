@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "linear/anderson.h"
 #include "linear/limits.h"
 #include "problem/surface_state.h"
@@ -10,7 +11,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int most_steps = 60;
 constexpr double done = 1e-7;
 
 class Relaxation {
@@ -23,7 +23,7 @@ public:
           anderson_(history_depth) {}
 
     void run() {
-        for (int step = 0; step < most_steps; ++step) {
+        for (int step = 0; step < most_iterations; ++step) {
             const Points d = tangential_.displacement(placement_.points, normals_at(placement_, target_));
             const double largest = largest_length(d);
             if (largest < done || !improve(d, largest)) break;

@@ -19,9 +19,8 @@ constexpr int most_fixed_point_steps = 12;
 // bound an irregular cap of 300 vertices goes on to a mesh of the engine's own.
 constexpr double tolerated_factor = 2.0;
 constexpr double tolerated_rise = 2.0;  // a hemisphere has 8 π
-// Beyond so many free vertices a descent ends that gains less than this share of the energy in so many steps: over
-// outlines of noisy scans it went on to the last step for the last hundredth.
-constexpr int largest_patient = 600;
+// Beyond `coarsest_size` free vertices a descent ends that gains less than this share of the energy in so many steps:
+// over outlines of noisy scans it went on to the last step for the last hundredth.
 constexpr double least_gain = 5e-3;
 constexpr std::size_t gain_window = 5;
 
@@ -104,7 +103,7 @@ private:
 
     // `energies`: before each of the steps taken.
     [[nodiscard]] bool creeps(const std::vector<double>& energies) const {
-        if (patch_.free_count <= largest_patient || energies.size() < gain_window) return false;
+        if (patch_.free_count <= coarsest_size || energies.size() < gain_window) return false;
         return energy_ > (1.0 - least_gain) * energies[energies.size() - gain_window];
     }
 

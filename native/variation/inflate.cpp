@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/direction.h"
+#include "base/limits.h"
 #include "operators/laplace_operator.h"
 #include "start/clamped_fill.h"
 
@@ -12,8 +13,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double share = 0.8;  // of the outline's spacing
-constexpr int most_rounds = 60;
+constexpr double share = 0.8;     // of the outline's spacing
 constexpr double settled = 1e-3;  // units of D
 
 // Logarithms of the mean lengths of the two border edges at each fixed vertex, zero elsewhere.
@@ -76,8 +76,8 @@ Points inflated(const Problem& problem, const Points& start, const Progress& pro
     const Inflation inflation(problem, progress);
     Points points = start;
     if (!inflation.ready()) return points;
-    for (int k = 0; k < most_rounds; ++k) {
-        progress.report(static_cast<double>(k) / most_rounds, "inflation");
+    for (int k = 0; k < most_iterations; ++k) {
+        progress.report(static_cast<double>(k) / most_iterations, "inflation");
         if (inflation.round(points) < settled) break;
     }
     return points.allFinite() ? points : start;
