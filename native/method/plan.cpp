@@ -1,6 +1,7 @@
 #include "method/plan.h"
 
 #include "fairness/inner_weights.h"
+#include "pins/spread_pins.h"
 #include "start/several_outlines.h"
 
 namespace fairing {
@@ -54,7 +55,7 @@ std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     if (!traits.is_jagged && may_vary_least) steps.push_back(Step::least_variation);
     if (traits.has_old_shape) steps.push_back(Step::old_shape);
     if (problem.patch.loop_count() > 1) steps.push_back(Step::loft);
-    steps.push_back(Step::first_surface);
+    if (isolated_pins(problem.patch).empty()) steps.push_back(Step::first_surface);  // its needles are no better
     return steps;
 }
 

@@ -104,5 +104,5 @@ TEST_CASE("between jagged loops far apart, whose membrane is poor, no mesh of th
 TEST_CASE("what coarse levels refuse between smooth loops the whole mesh may keep") {
     const test::Pipe pipe(60);
     CHECK(text_of(plan_for(pipe.problem, Traits(pipe.problem), false)) ==
-          "levels, direct, own mesh | least variation, loft");
+          "levels, direct, own mesh | least variation, loft, first surface");
 }
