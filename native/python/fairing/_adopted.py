@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy.typing as npt
 
+from fairing import _arguments, _core
 from fairing._groups import GROUP_OF, Boundary, Options
 
 _OF_BOUNDARY = {
@@ -43,6 +44,8 @@ def adopted(
         DeprecationWarning,
         stacklevel=level,
     )
+    if "inner_fairness" in before and before["inner_fairness"] is None:  # means something in Layout only
+        _arguments.choice("inner_fairness", None, _core.WORDS["inner_fairness"])
     held = {new: before.get(old, getattr(known, new)) for old, new in _OF_BOUNDARY.items()}
     return Boundary(**held), chosen.changed(**{name: before[name] for name in before if name in GROUP_OF})
 
