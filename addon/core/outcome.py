@@ -140,10 +140,16 @@ def _lost(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> 
     return replace(
         sunken(patch, after[: len(patch.vertices)], problem),
         is_smoother=is_smoother(world, world.positions, problem, after),
-        is_rougher=fairing.is_rougher(after, patch.triangles, problem.outside),
+        is_rougher=_is_plain(patch) and fairing.is_rougher(after, patch.triangles, problem.outside),
         border=moved_border(problem, after),
         key=kept_key(problem, after, offsets),
     )
+
+
+def _is_plain(patch: Patch) -> bool:
+    """Return whether one loop bounds the patch and nothing is held inside: fillets and pins bend as they must."""
+    held_inside = len(np.setdiff1d(patch.fixed, patch.outline)) > 0
+    return not held_inside and len(fairing.boundary_loops(patch.triangles)) == 1
 
 
 def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
