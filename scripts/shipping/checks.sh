@@ -72,43 +72,50 @@ check_sbom() {
 
 # Debian 12 has no Python 3.13; Debian 13 in a folder has.
 use_zip_in_python313() {
-    local folder=$build/trixie
+    local folder=$build/trixie version
     if ((EUID != 0)); then
-        say "Left out: bpy $bpy_of_python313 (its Python 3.13 is installed with debootstrap, as root)"
+        say "Left out: bpy ${all_bpy_of_python313[*]} (its Python 3.13 is installed with debootstrap, as root)"
         return
     fi
     if ! unshare --mount true 2>/dev/null; then
-        say "Left out: bpy $bpy_of_python313 (nothing can be mounted here; in a container: --privileged)"
+        say "Left out: bpy ${all_bpy_of_python313[*]} (nothing can be mounted here; in a container: --privileged)"
         return
     fi
     make_trixie "$folder"
-    say "One solve in bpy $bpy_of_python313, Python 3.13"
-    in_folder "$folder/root" bash -c "cd /src && timeout --kill-after 10 300 /venv/bin/python \
-        scripts/shipping/use_zip.py '$(zip_of build/release "$native")'"
+    for version in "${all_bpy_of_python313[@]}"; do
+        install_in_trixie "$folder" "$version"
+        say "One solve in bpy $version, Python 3.13"
+        in_folder "$folder/root" bash -c "cd /src && timeout --kill-after 10 300 /venv-$version/bin/python \
+            scripts/shipping/use_zip.py '$(zip_of build/release "$native")'"
+    done
 }
 
 make_trixie() {
     local folder=$1 packages
-    if is_done "$folder/.bpy" "$bpy_of_python313"; then return; fi
+    if [[ -f $folder/.root ]]; then return; fi
     packages=ca-certificates,python3-venv,libx11-6,libxrender1,libxfixes3,libxi6,libxkbcommon0,libsm6,libgl1
     packages+=,libegl1,libxxf86vm1,libgomp1
     mkdir -p "$folder"
     command -v debootstrap >/dev/null || quietly apt-debootstrap apt-get install --yes debootstrap
-    if [[ ! -f $folder/.root ]]; then
-        rm -rf "$folder/root"
-        quietly trixie debootstrap --variant=minbase "--include=$packages" trixie "$folder/root" "$(mirror)"
-        touch "$folder/.root"
-    fi
+    rm -rf "$folder/root"
+    quietly trixie debootstrap --variant=minbase "--include=$packages" trixie "$folder/root" "$(mirror)"
+    touch "$folder/.root"
+}
+
+# usage: install_in_trixie FOLDER VERSION: bpy, into /venv-VERSION there
+install_in_trixie() {
+    local folder=$1 version=$2
+    if [[ -f $folder/root/venv-$version/.complete ]]; then return; fi
     # Fetched from outside: certificates and settings of the network are this machine's.
-    quietly "download-bpy-$bpy_of_python313" "$python" -m pip download --progress-bar off --only-binary :all: \
+    quietly "download-bpy-$version" "$python" -m pip download --progress-bar off --only-binary :all: \
         --python-version 3.13 "${platforms_of_python313[@]}" --dest "$folder/root/wheels" \
-        --require-hashes --requirement "scripts/locked/bpy-$bpy_of_python313.txt"
-    in_folder "$folder/root" python3 -m venv /venv
-    quietly "pip-bpy-$bpy_of_python313" in_folder "$folder/root" /venv/bin/python -m pip install \
+        --require-hashes --requirement "scripts/locked/bpy-$version.txt"
+    in_folder "$folder/root" python3 -m venv --clear "/venv-$version"
+    quietly "pip-bpy-$version" in_folder "$folder/root" "/venv-$version/bin/python" -m pip install \
         --progress-bar off --no-index --find-links /wheels \
-        --require-hashes --requirement "/src/scripts/locked/bpy-$bpy_of_python313.txt"
+        --require-hashes --requirement "/src/scripts/locked/bpy-$version.txt"
     rm -r "$folder/root/wheels"
-    printf '%s' "$bpy_of_python313" >"$folder/.bpy"
+    touch "$folder/root/venv-$version/.complete"
 }
 
 # usage: install_sdist COMPILER: into build/venv-COMPILER, with build tools of known hashes

@@ -3,7 +3,7 @@
 
 zig_version=0.17.1
 lld='lld-19' # Debian's package, the newest of Debian 12: links for macOS
-bpy_of_python313=5.2.3
+all_bpy_of_python313=(5.2.3 5.3.0)
 platforms_of_python313=(
     --platform manylinux_2_28_x86_64 --platform manylinux_2_27_x86_64
     --platform manylinux_2_17_x86_64 --platform manylinux2014_x86_64
