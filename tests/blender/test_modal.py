@@ -139,7 +139,7 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
         watching = lambda stand, context: setattr(stand, "_signs", background.Signs(context))  # noqa: E731
         stand = type("Stand", (), {**methods, "_start_watching": watching, "report": lambda *_: None})()
         give_options(stand)
-            stand.source, stand.face_set, stand.group, stand.under_mouse = "MASK", 0, "", False
+        stand.source, stand.face_set, stand.group, stand.under_mouse = "MASK", 0, "", False
         assert stand.invoke(bpy.context, event("LEFTMOUSE")) == {"RUNNING_MODAL"}
         return stand
 
