@@ -36,6 +36,7 @@ public:
     Nearest(const Vector3& p, const Points& points, const Triangles& triangles)
         : p_(p), points_(points), triangles_(triangles) {}
 
+    // NOLINTBEGIN(readability-identifier-naming): Eigen calls them
     [[nodiscard]] double minimumOnVolume(const Box& box) const { return box.squaredExteriorDistance(p_); }
     double minimumOnObject(int triangle) {
         const Corners corners = corners_of(triangle);
@@ -50,6 +51,7 @@ public:
         }
         return squared;
     }
+    // NOLINTEND(readability-identifier-naming)
 
     [[nodiscard]] Corners corners_of(int triangle) const {
         const auto corners = triangles_.col(triangle);
