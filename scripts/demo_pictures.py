@@ -107,7 +107,7 @@ def tint(mesh: bpy.types.Mesh, faces: Any) -> None:
 
 def contact_sheet(rows: Iterable[Iterable[Path]], target: Path) -> None:
     """Join pictures of one size, rows from top to bottom."""
-    strips = [np.concatenate([_pixels(path) for path in row], axis=1) for row in rows]
+    strips = [np.concatenate([pixels(path) for path in row], axis=1) for row in rows]
     joined = np.concatenate(strips[::-1], axis=0)  # Blender's images start at the bottom
     height, width, _ = joined.shape
     image = bpy.data.images.new(target.stem, width, height, alpha=True)
@@ -118,7 +118,8 @@ def contact_sheet(rows: Iterable[Iterable[Path]], target: Path) -> None:
     bpy.data.images.remove(image)
 
 
-def _pixels(path: Path) -> Any:
+def pixels(path: Path) -> Any:
+    """Return (height, width, 4), from the bottom to the top as Blender has them."""
     image = bpy.data.images.load(str(path))
     width, height = image.size
     values = np.empty(width * height * 4, dtype=np.float32)

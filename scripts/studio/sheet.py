@@ -10,6 +10,8 @@ import imbuf
 import numpy as np
 from numpy.typing import NDArray
 
+from demo_pictures import pixels
+
 Pixels = NDArray[np.float32]
 
 GAP = 8  # pixels between tiles
@@ -23,16 +25,6 @@ class Tile(NamedTuple):
 
     pictures: Sequence[Path]
     lines: Sequence[str]
-
-
-def pixels(path: Path) -> Pixels:
-    """Return (height, width, 4), from the bottom to the top as Blender has them."""
-    image = bpy.data.images.load(str(path))
-    width, height = image.size
-    values = np.empty(width * height * 4, dtype=np.float32)
-    image.pixels.foreach_get(values)
-    bpy.data.images.remove(image)
-    return values.reshape(height, width, 4)
 
 
 def save(values: Pixels, path: Path, kind: str) -> None:
