@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -21,7 +22,11 @@ def fair_patch(patch: Patch, **options: Any) -> fairing.FairResult:
 
 
 def called(vertices: Any, triangles: Any, boundary: fairing.Boundary, settings: dict[str, Any]) -> fairing.FairResult:
-    """A call with options by name."""
+    """A call with options by name, those of the boundary among them."""
+    if "fixed_curvatures" in settings:
+        boundary = replace(boundary, curvatures=settings.pop("fixed_curvatures"))
+    if "outside" in settings:
+        boundary = replace(boundary, outside=settings.pop("outside"))
     apart = {name: settings.pop(name) for name in ("progress", "threads") if name in settings}
     return fairing.fair(vertices, triangles, boundary, fairing.Options.of(**settings), **apart)
 

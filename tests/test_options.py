@@ -98,7 +98,7 @@ def test_a_fillet_takes_them_too() -> None:
 def test_signatures_are_short(call: Any) -> None:
     parameters = inspect.signature(call).parameters
     assert "options" in parameters
-    assert len(inspect.signature(fairing.fair).parameters) == 7
+    assert len(inspect.signature(fairing.fair).parameters) == 8
 
 
 def test_defaults_are_those_that_callers_rely_on() -> None:

@@ -200,8 +200,8 @@ def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
 def test_where_no_surface_holds_the_edge_it_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """The solve along the curve is made to fail: the smooth surface comes back, and the ends are named."""
     hole = hard_holes.in_bent_sheet(14, 1)
-    fair = _along.fair
-    monkeypatch.setattr(_along, "fair", lambda *given, **options: replace(fair(*given, **options), converged=False))
+    solved = _along.solved
+    monkeypatch.setattr(_along, "solved", lambda *given: replace(solved(*given), converged=False))
     result, smooth = (filled(hole, edges=how) for how in ("run_on", "ignored"))
     (warning,) = [reported for reported in result.warnings if reported.code == "EDGES_LEFT_ALONE"]
     assert warning.figures["no_surface"] == 1.0

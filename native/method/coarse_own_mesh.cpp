@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/limits.h"
 #include "method/levels.h"
 #include "placement/disc_placement.h"
 #include "placement/first_placement.h"
@@ -12,9 +13,6 @@
 namespace fairing {
 
 namespace {
-
-// Steps of the springs on the coarsest level, which begins anywhere.
-constexpr int most_coarsest_slides = 60;
 
 // From this many free vertices on the low-passed loop shows what the surface is.
 bool begins_low_passed(const Problem& problem, const Traits& traits) {
@@ -121,7 +119,7 @@ private:
     }
 
     void slide(std::size_t k, const TargetSurface& target, Placement& placement) {
-        const int most = k == levels_.coarsest() ? most_coarsest_slides : most_slides;
+        const int most = k == levels_.coarsest() ? most_iterations : most_slides;
         slide_on(target, *levels_.work(k).tangential, most, placement.where, placement.points);
     }
 

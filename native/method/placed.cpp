@@ -51,25 +51,6 @@ Solution polished(const Problem& problem, Workspace& work, Solution placed, cons
     return flaw_of(problem, own) == Flaw::absent ? own : placed;
 }
 
-Solution placed_by_weights(const Problem& problem, const Solution& uniform, const Progress& progress) {
-    const SurfaceState state = measured_surface(problem, uniform.points);
-    const TargetSurface target(problem.patch, state.points, state.normals);
-    Workspace work{make_normal_operator(problem, state.points.leftCols(problem.patch.free_count)),
-                   make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
-    const Placed placed =
-        place_from(problem, *work.tangential, target, at_vertices(problem, target, state.points), progress.here());
-    Solution solution = uniform;
-    solution.mean_curvature = carried_over(placed.placement, target, uniform.mean_curvature, problem);
-    solution.points = placed.placement.points;
-    solution.crossings.reset();
-    solution.polished = false;
-    refuse_folds(problem, placed, solution);
-    if (solution.termination == Termination::folded) return solution;
-    const SolvedSurface surface{target, uniform.mean_curvature, mean_edge(problem.patch, state.points),
-                                placed.placement.where};
-    return polished(problem, work, std::move(solution), surface, progress);
-}
-
 SolvedSurface surface_of(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement) {
     return {target, proxy.solution.mean_curvature, mean_edge(proxy.mesh.patch, proxy.mesh.points), placement.where};
 }

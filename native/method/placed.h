@@ -31,10 +31,6 @@ Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const
 Solution polished(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
                   const Progress& progress);
 
-// The vertices of `uniform`, a solution of the same patch with uniform weights, placed on it by the problem's weights,
-// and the equation solved from there as above; `folded` where no placement without folds is found.
-Solution placed_by_weights(const Problem& problem, const Solution& uniform, const Progress& progress);
-
 // The proxy's surface, for that comparison.
 SolvedSurface surface_of(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement);
 

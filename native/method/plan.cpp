@@ -31,9 +31,6 @@ std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, b
     if (problem.options.equation == Equation::minimal) return {Step::direct};
     if (problem.options.equation == Equation::least_variation) return {Step::least_variation};
     std::vector<Step> steps = on_the_users_mesh(problem, traits);
-    // A large mesh resolves its surface better than one of the engine's own: strongly jittered quads of 16,000 vertices
-    // with conformal weights are 3e-6 off so, 1e-5 by the next step. Of 220 small patches it decides none.
-    if (traits.is_large && !is_uniform(problem.weights)) steps.insert(steps.begin() + 1, Step::placed_weights);
     const bool is_hopeless = (traits.is_large && traits.is_beyond_reach) || has_little_chance(traits);
     if (!is_hopeless) steps.push_back(Step::own_mesh);
     if (!is_uniform(problem.weights)) steps.push_back(Step::uniform_weights);
@@ -72,7 +69,6 @@ const char* name_of(Step step) {
         case Step::levels: return "levels";
         case Step::direct: return "direct";
         case Step::own_mesh: return "own mesh";
-        case Step::placed_weights: return "placed weights";
         case Step::uniform_weights: return "uniform weights";
         case Step::low_passed: return "low-passed";
         case Step::lifted_pins: return "lifted pins";

@@ -13,7 +13,6 @@ enum class Step {
     levels,           // from coarse to fine over the user's connectivity (method/nested)
     direct,           // at once on the user's mesh (method/direct)
     own_mesh,         // on a mesh of the engine's own, the vertices placed on it (method/own_mesh)
-    placed_weights,   // from coarse to fine with uniform weights, the vertices then placed by the problem's
     uniform_weights,  // all of these with uniform weights, where the problem's turn triangles over
     low_passed,       // on a mesh of the engine's own between loops without their short waves (method/own_mesh)
     lifted_pins,      // the surface without pins, lifted to pins that have a radius (method/pinned)

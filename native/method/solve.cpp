@@ -31,11 +31,9 @@ bool is_answer(const Solution& solution) { return end_of(solution) == Terminatio
 // end from there on between several loops. Small discs ended well from up to 2.5e4; those of 600 random patches that
 // did not, after four beginnings, had 4e5 and more.
 constexpr double most_product = 1e3;
-VariationLimits limits_for(const Problem& problem, const Traits& traits) {
+VariationLimits limits_for(const Problem& problem) {
     const bool is_patient = problem.patch.loop_count() == 1 && problem.patch.free_count <= coarsest_size;
-    VariationLimits limits{is_patient ? 1e5 : most_product};
-    if (traits.is_large) limits.most_beginnings = 1;
-    return limits;
+    return {is_patient ? 1e5 : most_product};
 }
 
 Found least_variation(const Problem& problem, const VariationLimits& limits, const Progress& progress) {
@@ -49,21 +47,9 @@ Found least_variation(const Problem& problem, const VariationLimits& limits, con
     return found;
 }
 
-Problem with_uniform_weights(const Problem& problem) {
+Found solve_uniform_weights(const Problem& problem, const Progress& progress) {
     Problem uniform = problem;
     uniform.weights = uniform_weights(problem.patch);
-    return uniform;
-}
-
-Found solve_placed_weights(const Problem& problem, const Traits& traits, const Progress& progress) {
-    const Problem uniform = with_uniform_weights(problem);
-    Found solution = solve_nested(uniform, traits, progress.range(0.0, 0.5));
-    if (!solution || flaw_of(uniform, *solution) != Flaw::absent) return std::nullopt;
-    return placed_by_weights(problem, *solution, progress.range(0.5, 1.0));
-}
-
-Found solve_uniform_weights(const Problem& problem, const Progress& progress) {
-    Problem uniform = with_uniform_weights(problem);
     uniform.tolerated_folds = 0;
     Solution solution = solve_equation_alone(uniform, progress);
     if (solution.flaw != Flaw::absent) return std::nullopt;
@@ -151,14 +137,13 @@ private:
                 return is_all ? solve_directly(problem_, progress) : try_directly(problem_, progress);
             }
             case Step::own_mesh: return solve_on_own_mesh(problem_, traits_, attempts_, progress);
-            case Step::placed_weights: return solve_placed_weights(problem_, traits_, progress);
             case Step::uniform_weights: return solve_uniform_weights(problem_, progress);
             case Step::low_passed: return solve_low_passed(problem_, traits_, attempts_, progress);
             case Step::lifted_pins: return lift_pins(problem_, pin_radius_, std::nullopt, progress);
             case Step::least_variation:
                 if (problem_.options.equation == Equation::least_variation)
                     return solve_least_variation(problem_, progress);
-                return least_variation(problem_, limits_for(problem_, traits_), progress);
+                return least_variation(problem_, limits_for(problem_), progress);
             case Step::old_shape: return smoothed(problem_, progress);
             case Step::loft: return lofted(problem_, progress);
             case Step::first_surface: break;
@@ -224,9 +209,8 @@ std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, 
         Solution first = as_solution(problem, first_surface(problem, progress));
         return answer(problem, std::move(first), name_of(Step::first_surface), watch);
     }
-    const Traits traits(problem);
-    if (traits.is_jagged) return std::nullopt;
-    VariationLimits limits = limits_for(problem, traits);
+    if (Traits(problem).is_jagged) return std::nullopt;
+    VariationLimits limits = limits_for(problem);
     limits.most_product = HUGE_VAL;  // it was asked for
     if (near) {
         VariationLimits close_by{HUGE_VAL};

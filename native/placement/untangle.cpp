@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "base/limits.h"
 #include "base/progress.h"
 #include "geometry/frame.h"
 #include "linear/limits.h"
@@ -118,9 +119,6 @@ Vector2 lower(const LocalEnergy& f) {
 }
 
 class Untangling {
-    static constexpr double still = 0.02;                 // of an edge
-    static constexpr std::size_t widest_of_small = 1000;  // vertices
-
 public:
     Untangling(const Problem& problem, const TargetSurface& target, Placement& placement)
         : problem_(problem),
@@ -130,12 +128,10 @@ public:
           awake_(patch_.vertex_count(), 1) {}
 
     void run() {
-        constexpr int fewest_rings = 3;
-        for (const int rings : {fewest_rings, 6, 12}) {
+        for (const int rings : {3, 6, 12}) {
             const Indices folded = folded_triangles(problem_, target_, placement_);
             if (folded.empty()) return;
-            // A sheet that lies turned over as a whole keeps its folds from the first sweeps on.
-            if (!spread(region(folded, rings)) && rings == fewest_rings) return;
+            spread(region(folded, rings));
         }
     }
 
@@ -175,47 +171,33 @@ private:
         return result;
     }
 
-    // False where many folds hardly fall in number within the first window of sweeps.
-    bool spread(const Region& where) {
-        constexpr int most_sweeps = 60;
-        constexpr int settling_sweeps = 3;      // once nothing is folded
-        constexpr std::size_t window = 10;      // sweeps; the last few folds may stay twice as long
-        constexpr double falls_at_first = 0.6;  // in a window
-        constexpr double falls = 0.93;
+    // Until nothing has been folded for some sweeps, or as much as a window of sweeps before.
+    void spread(const Region& where) {
+        constexpr int settling_sweeps = 3;
+        constexpr std::size_t window = 15;
         std::vector<double> folded{count_folded(where)};
         int settled = 0;
-        for (int sweep = 0; sweep < most_sweeps && settled < settling_sweeps; ++sweep) {
+        for (int sweep = 0; sweep < most_iterations && settled < settling_sweeps; ++sweep) {
             sweep_once(where);
             folded.push_back(count_folded(where));
             settled = folded.back() > 0 ? 0 : settled + 1;
-            if (folded.back() <= few_folds) {
-                const bool stays =
-                    folded.size() > 2 * window && folded.back() >= folded[folded.size() - 1 - 2 * window];
-                if (folded.back() > 0 && stays) return true;
-                continue;
-            }
-            if (folded.size() <= window) continue;
-            const double share = folded.back() / folded[folded.size() - 1 - window];
-            if (folded.size() == window + 1 && share > falls_at_first) return false;
-            if (share > falls) return true;
+            if (settled == 0 && folded.size() > window && folded.back() >= folded[folded.size() - 1 - window]) return;
         }
-        return true;
     }
 
+    // Most vertices come to rest after some sweeps.
     void sweep_once(const Region& where) {
+        constexpr double still = 0.02;  // of an edge
         const double area = mean_area(where);
         const double epsilon = smoothing(where, area);
-        if (is_wide(where)) wake_folded(where);
+        wake_folded(where);
         for (const int v : where.vertices) {
             checkpoint(v);
-            if (is_wide(where) && !awake_[v]) continue;
+            if (!awake_[v]) continue;
             awake_[v] = 0;
             if (move(v, area, epsilon) > still) wake_around(v);
         }
     }
-
-    // In wide regions most vertices have come to rest after some sweeps.
-    [[nodiscard]] static bool is_wide(const Region& where) { return where.vertices.size() > widest_of_small; }
 
     void wake_folded(const Region& where) {
         for (const int t : where.triangles) {

@@ -1,9 +1,9 @@
 #include "variation/least_variation.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "base/limits.h"
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
@@ -36,14 +36,12 @@ constexpr double longest = 0.5;
 constexpr int most_coarse = 1200;     // free vertices
 constexpr int most_fine_steps = 100;  // most of those that converge take 30 at most, a thin U of 180° takes 85
 
-// From a rough start descent may end in a minimum with a fold; another mesh or more damping then leads elsewhere.
 struct Beginning {
-    double share;           // of the outline's mean edge
-    double damping;         // at first
-    double settled = 0.02;  // relative change of the merit from one mesh to the next
+    double share;    // of the outline's mean edge
+    double damping;  // at first
+    double settled;  // relative change of the merit from one mesh to the next
 };
-constexpr std::array beginnings{Beginning{1.4, raised_damping}, Beginning{1.0, raised_damping}, Beginning{1.8, 1e-2},
-                                Beginning{1.0, 0.1}};
+constexpr Beginning rough_beginning{1.4, raised_damping, 0.02};
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
@@ -100,7 +98,6 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
 struct FineStart {
     double damping = 0.0;
     double most_merit = HUGE_VAL;  // given up where it stays above
-    bool flattest = false;         // variation/newton.h
     int most_steps = most_fine_steps;
 };
 
@@ -110,7 +107,6 @@ SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedShee
     NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;
-    limits.flattest = begin.flattest;
     return solve_on(mesh, problem, coarse, Measure::scale_free, limits, progress);
 }
 
@@ -163,9 +159,9 @@ struct Begun {
     [[nodiscard]] bool is_within(double most) const { return !std::isfinite(most) || coarse.result.merit <= most; }
 };
 
-Begun begun(const Problem& problem, const Points& start, const Beginning& beginning, const Progress& progress) {
+Begun begun(const Problem& problem, const Points& start, const Progress& progress) {
     ProxyMesh mesh(problem.patch, start);
-    SolvedSheet coarse = solve_coarse(mesh, problem, beginning, progress);
+    SolvedSheet coarse = solve_coarse(mesh, problem, rough_beginning, progress);
     return {std::move(mesh), std::move(coarse)};
 }
 
@@ -173,14 +169,6 @@ Attempt ended(const Problem& problem, Begun begun, const Progress& progress) {
     SolvedSheet fine = solve_fine(begun.mesh, problem, begun.coarse, {}, progress);
     return {std::move(begun.mesh), std::move(fine), begun.coarse.result.gradient,
             begun.coarse.mesh.patch.vertex_count()};
-}
-
-// Nothing where the coarse mesh's merit is more than `most`.
-std::optional<Attempt> attempted(const Problem& problem, const Points& start, const Beginning& beginning, double most,
-                                 const Progress& progress) {
-    Begun coarse = begun(problem, start, beginning, progress.range(0.0, 0.5));
-    if (!coarse.is_within(most)) return std::nullopt;
-    return ended(problem, std::move(coarse), progress.range(0.5, 1.0));
 }
 
 Solution solution_of(const Problem& problem, const Attempt& attempt, const Progress& progress) {
@@ -212,7 +200,7 @@ std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& t
                                          const Progress& progress) {
     ProxyMesh mesh(problem.patch, tube);
     SolvedSheet fine =
-        solve_fine(mesh, problem, well_suited(mesh, problem, progress), {raised_damping, most, true}, progress);
+        solve_fine(mesh, problem, well_suited(mesh, problem, progress), {raised_damping, most}, progress);
     if (std::isfinite(most) && !(fine.result.merit <= most)) return std::nullopt;
     const double gradient = fine.result.gradient;
     const int count = fine.mesh.patch.vertex_count();
@@ -223,18 +211,12 @@ std::optional<Attempt> attempted_on_tube(const Problem& problem, const Points& t
 std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation& near, double most,
                                      const Progress& progress) {
     // Bridges, elbows and S-bends end in 40 at most; where they don't, along wide bends, 300 end nowhere, too, in 12 s.
-    constexpr int most_steps = 60;
-    const FineStart begin{.damping = near_damping, .most_steps = most_steps};
+    const FineStart begin{.damping = near_damping, .most_steps = most_iterations};
     Stopwatch watch;
     ProxyMesh mesh(problem.patch, near.points);
     SolvedSheet solved = near.roughly
                              ? solve_coarse(mesh, problem, near_beginning, progress.range(0.0, 0.9), most)
                              : solve_fine(mesh, problem, unsolved(mesh, problem), begin, progress.range(0.0, 0.5));
-    const bool has_ended = solved.result.converged || solved.result.steps >= most_steps;
-    if (!near.roughly && !has_ended) {  // too far from it: over a coarse mesh
-        const auto anew = attempted(problem, near.points, near_beginning, most, progress.range(0.5, 0.9));
-        if (anew) return solution_of(problem, *anew, progress.range(0.9, 1.0));
-    }
     if (std::isfinite(most) && !(solved.result.merit <= most)) return std::nullopt;
     if (near.roughly) solved.result.converged = true;  // near enough, whatever its last steps were
     const double solve_seconds = watch.lap();
@@ -246,7 +228,7 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
     return solution;
 }
 
-// The beginnings one after the other, until one ends in a surface.
+// From the membrane, and between two loops from the tube: first where that bends, last where it is straight.
 class Search {
 public:
     Search(const Problem& problem, const VariationLimits& limits)
@@ -255,9 +237,8 @@ public:
     // Over a coarse mesh elbows of 120° and more don't settle, and dense ones of 90° take 5 to 10 s on the fine one;
     // from the tube they end in one.
     std::optional<Attempt> run(const Progress& progress) {
-        const bool is_tube = tube_.has_value();
-        if (is_tube && tube_->turn() > wide_bend) try_tube(progress.range(0.0, 0.1));
-        if (!has_ended() && !is_in_valley()) try_membrane(is_tube, progress.range(0.1, 1.0));
+        if (tube_ && tube_->turn() > wide_bend) try_tube(progress.range(0.0, 0.1));
+        if (!has_ended() && !is_in_valley()) try_membrane(progress.range(0.1, 1.0));
         return std::move(best_);
     }
     [[nodiscard]] double start_seconds() const { return start_seconds_; }
@@ -266,40 +247,31 @@ private:
     [[nodiscard]] bool has_ended() const { return best_ && best_->fine.result.converged; }
 
     // A descent that took all its steps: along wide bends the product falls to loops many radii off, which is where
-    // other beginnings end, too.
+    // the membrane leads to, too.
     [[nodiscard]] bool is_in_valley() const { return best_ && best_->fine.result.steps >= most_fine_steps; }
 
-    // Whether there was anything to take.
-    bool takes(std::optional<Attempt> attempt) {
-        const bool is_there = attempt.has_value();
-        if (attempt && (!best_ || attempt->is_better_than(*best_))) best_ = std::move(attempt);
-        return is_there;
+    void take(Attempt attempt) {
+        if (!best_ || attempt.is_better_than(*best_)) best_ = std::move(attempt);
     }
 
     void try_tube(const Progress& progress) {
         if (!tube_) return;
         const auto start = swept_start(problem_, *tube_, progress.here());
         tube_.reset();  // once is enough
-        if (start) takes(attempted_on_tube(problem_, *start, limits_.most_product, progress));
+        if (!start) return;
+        if (auto attempt = attempted_on_tube(problem_, *start, limits_.most_product, progress))
+            take(std::move(*attempt));
     }
 
-    void try_membrane(bool is_tube, const Progress& progress) {
+    void try_membrane(const Progress& progress) {
         Stopwatch watch;
         const Points start = start_of(problem_, progress.range(0.0, 0.1));
         start_seconds_ = watch.lap();
-        Begun first = begun(problem_, start, beginnings[0], progress.range(0.1, 0.2));
-        if (!first.coarse.result.converged) try_tube(progress.range(0.2, 0.3));
+        Begun first = begun(problem_, start, progress.range(0.1, 0.5));
+        if (!first.coarse.result.converged) try_tube(progress.range(0.5, 0.6));
         if (has_ended() || !first.is_within(limits_.most_product)) return;
-        takes(ended(problem_, std::move(first), progress.range(0.3, 0.4)));
-        if (!has_ended()) try_tube(progress.range(0.4, 0.5));
-        if (!is_tube) try_others(start, progress.range(0.4, 1.0));
-    }
-
-    void try_others(const Points& start, const Progress& progress) {
-        for (int k = 1; k < limits_.most_beginnings && !has_ended(); ++k) {
-            const Progress part = progress.range((k - 1) / 3.0, k / 3.0);
-            if (!takes(attempted(problem_, start, beginnings[k], limits_.most_product, part))) break;
-        }
+        take(ended(problem_, std::move(first), progress.range(0.6, 0.9)));
+        if (!has_ended()) try_tube(progress.range(0.9, 1.0));
     }
 
     const Problem& problem_;

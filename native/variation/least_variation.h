@@ -24,9 +24,8 @@ struct NearVariation {
 };
 
 struct VariationLimits {
-    double most_product = HUGE_VAL;  // returns nothing where the product is larger on a coarse mesh
-    int most_beginnings = 4;         // other meshes and dampings that are tried where the first does not converge
-    std::optional<NearVariation> near = std::nullopt;  // where to begin, instead of those
+    double most_product = HUGE_VAL;                    // returns nothing where the product is larger on a coarse mesh
+    std::optional<NearVariation> near = std::nullopt;  // where to begin
 };
 
 // The same within limits.

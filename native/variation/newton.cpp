@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/limits.h"
 #include "geometry/vertex_normal.h"
 #include "linear/limits.h"
 #include "linear/sparse_cholesky.h"
@@ -18,8 +19,7 @@ constexpr double largest_damping = 1e3;
 constexpr double largest_turn = 0.7;  // tangent of the angle of a normal in one step
 constexpr double largest_rise = 0.5;  // of the mean edge at a vertex
 constexpr double folded = 0.1;        // cosine between a triangle and its vertices' normals
-constexpr double roundoff = 1e-14;
-constexpr int steps_until_more = 4;  // each factorisation in vain costs as much as one that is used
+constexpr int steps_until_more = 4;   // each factorisation in vain costs as much as one that is used
 
 // The place of each unknown, for the order of elimination.
 Points layout_of(const VariationEnergy& energy, const Sheet& sheet) {
@@ -75,13 +75,11 @@ public:
         while (result.steps < limits_.most_steps && !result.converged) {
             progress_.report(static_cast<double>(result.steps) / limits_.most_steps, "least variation");
             energy_.update(sheet_, model_);
-            if (limits_.flattest) note_gradient();
             if (!step()) break;
             ++result.steps;
             result.converged = has_converged(result.steps);
             if (share_ < limits_.shortest_share || is_hopeless(result.steps)) break;
         }
-        if (!result.converged && flattest_) sheet_ = std::move(*flattest_);
         energy_.update(sheet_, model_);
         result.merit = model_.merit;
         result.gradient = largest_gradient();
@@ -95,13 +93,6 @@ private:
         if (steps > 1 && share_ == 1.0 && fall_ < limits_.settled * model_.merit) return true;
         return share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < share * limits_.tolerance &&
                largest_turn_ < limits_.turns;
-    }
-
-    void note_gradient() {
-        const double gradient = largest_gradient();
-        if (!(gradient < least_gradient_)) return;
-        least_gradient_ = gradient;
-        flattest_ = sheet_;
     }
 
     [[nodiscard]] bool is_hopeless(int steps) const {
@@ -243,8 +234,6 @@ private:
     int rest_ = 0;          // steps before more of it is tried
     double share_ = 0.0;
     double fall_ = 0.0;  // of the merit
-    double least_gradient_ = HUGE_VAL;
-    std::optional<Sheet> flattest_;  // the sheet there
     double largest_height_ = 0.0;
     double largest_rise_ = 0.0;  // in edges
     double largest_turn_ = 0.0;

@@ -18,7 +18,6 @@ struct NewtonLimits {
     double shortest_share = 0.0;   // of a step; the descent ends where only a smaller share can be taken
     double most_merit = HUGE_VAL;  // the descent is given up where the merit is larger after ten steps
     double turns = HUGE_VAL;       // tolerance of the largest turn of a full step, radians
-    bool flattest = false;         // a descent that doesn't converge returns its sheet with the least gradient
     double settled = 0.0;          // the descent also ends where a full step lowers the merit by less than this share
 };
 

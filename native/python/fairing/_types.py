@@ -134,8 +134,7 @@ class FairResult:
 
     "warm" begins at the last answer, "near" at the vertices given, "levels" goes from coarse to fine, "direct" stays
     on the mesh given, "own mesh" takes one of the engine's own, "low-passed" does so over the low-passed boundary,
-    "placed weights" solves with uniform weights and lets those asked for place the vertices, "uniform weights" stays
-    with uniform ones, "lifted pins" begins without the pins. "least variation", "old shape", "loft" and "paper" are
+    "uniform weights" stays with uniform ones, "lifted pins" begins without the pins. "least variation", "old shape", "loft" and "paper" are
     the surfaces and the method of that name. Several components follow each other."""
     warnings: tuple[Diagnostic, ...]
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
