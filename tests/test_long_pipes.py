@@ -14,10 +14,10 @@ from shapes import Patch, Style
 
 
 def solved(pipe: Patch) -> fairing.FairResult:
-    """From its outlines, to many digits, one way and no other equation."""
+    """From its outlines, one way and no other equation. On some processors 12 radii, near 4π, stall below 1e-9."""
     return fairing.fair(
         shapes.start_from_nothing(pipe), pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.fixed_normals,
-        reference=pipe.vertices, tolerance=1e-10, otherwise="stop",
+        reference=pipe.vertices, tolerance=1e-8, otherwise="stop",
     )  # fmt: skip
 
 

@@ -121,6 +121,8 @@ private:
         if (!solution) return std::nullopt;
         solution->flaw = flaw_of(problem_, *solution);
         if (is_final(problem_, *solution)) return solution;
+        // One that folds says less of the boundary than what the equation has left.
+        if (step == Step::first_surface && !is_answer(*solution)) return std::nullopt;
         attempts_.found.push_back(std::move(*solution));
         return std::nullopt;
     }
