@@ -160,7 +160,9 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
         bpy.ops.object.mode_set(mode="OBJECT")
         meshes.move(obj, before)
         bpy.ops.object.mode_set(mode="SCULPT")
+        go_on.clear()  # else it may end within the moment in which nothing is shown
         stand = started_masked()
+        go_on.set()
         assert stand._run.wait(10.0)
         assert stand.modal(bpy.context, event("TIMER")) == {"FINISHED"}
         assert bpy.context.mode == "SCULPT"
