@@ -7,6 +7,7 @@ import pickle
 import shutil
 import sys
 import time
+import traceback
 from pathlib import Path
 from typing import Any
 
@@ -122,13 +123,22 @@ def _old(old: Scene, deleted: Any) -> tuple[Floats, Floats]:
 
 
 def sweep(names: list[str], folder: Path, from_tree: bool) -> None:
-    """Run jobs one after the other into a folder, one file each."""
+    """Run jobs one after the other into a folder, one file each.
+
+    Exits with a status and the names of jobs that raised, after all others have run.
+    """
     install(from_tree)
     made = folder.parent / "jobs"
     for place in (folder, made):
         place.mkdir(parents=True, exist_ok=True)
+    failed = []
     for name in names:
         try:
-            np.savez(folder / f"{name}.npz", **run(name, made))
-        except Exception as error:
-            print(f"{name}: {error!r}", flush=True)
+            found = run(name, made)
+        except Exception:
+            traceback.print_exc()
+            failed.append(name)
+        else:
+            np.savez(folder / f"{name}.npz", **found)
+    if failed:
+        sys.exit(f"{len(failed)} of {len(names)} jobs raised: {', '.join(failed)}")

@@ -6,6 +6,7 @@ from typing import Any
 
 import bmesh
 import bpy
+import letters
 import numpy as np
 from rivals import SEAM
 from rows import Chosen, Points, Row, moved, placed
@@ -61,53 +62,11 @@ def lid() -> Chosen:
     return lambda face: bool(all(v.co.z > 0.3 for v in face.verts) and face.normal.z > 0.2)
 
 
-def bent_plate() -> bpy.types.Object:
-    """A plate of thickness .2, bent over a radius of 1.5."""
-    bpy.ops.mesh.primitive_cube_add(size=1.0)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.object.mode_set(mode="OBJECT")
-    mesh = bpy.context.object.data
-    bm = bmesh.new()
-    bm.from_mesh(mesh)
-    for axis, cuts in ((0, 23), (1, 2)):
-        along = [edge for edge in bm.edges if abs(edge.verts[0].co[axis] - edge.verts[1].co[axis]) > 0.9]
-        bmesh.ops.subdivide_edges(bm, edges=along, cuts=cuts, use_grid_fill=True)
-    bm.to_mesh(mesh)
-    bm.free()
-
-    def bent(points: Points) -> Points:
-        turn, radius = points[:, 0], 1.4 + 0.2 * points[:, 2]
-        return np.column_stack([radius * np.sin(turn), 1.2 * points[:, 1], radius * np.cos(turn) - 1.5])
-
-    moved(bent)
-    return bpy.context.object
-
-
 def letter() -> Chosen:
     """A letter on a bent plate, joined by a boolean; where it meets the plate is selected."""
-    plate = bent_plate()
-    text = bpy.data.curves.new("Letter", "FONT")
-    text.body, text.size, text.extrude, text.align_x, text.align_y = "R", 1.0, 0.15, "CENTER", "CENTER"
-    text.resolution_u = 3
-    curve = bpy.data.objects.new("Letter", text)
-    bpy.context.collection.objects.link(curve)
-    solid = bpy.data.meshes.new_from_object(curve.evaluated_get(bpy.context.evaluated_depsgraph_get()))
-    bpy.data.objects.remove(curve)
-    weld = bmesh.new()
-    weld.from_mesh(solid)
-    bmesh.ops.remove_doubles(weld, verts=weld.verts, dist=1e-6)
-    weld.to_mesh(solid)
-    weld.free()
-    boss = bpy.data.objects.new("Boss", solid)
-    bpy.context.collection.objects.link(boss)
-    tools.join(plate, boss)
+    bpy.context.view_layer.objects.active = letters.on_plate("R")
     pictures.add_camera((0.0, 0.0, 0.05), (0.35, -0.9, 0.9), 1.15)
-
-    def foot(edge: Any) -> bool:
-        on_plate = all(abs(np.hypot(v.co.x, v.co.z + 1.5) - 1.5) < 0.004 for v in edge.verts)
-        return bool(on_plate and len(edge.link_faces) == 2 and edge.calc_face_angle_signed() < -0.5)
-
-    return foot
+    return letters.at_foot
 
 
 FILLS = {"Grid Fill": tools.grid_fill, "Fair Fill": tools.fair_fill}

@@ -30,14 +30,15 @@ def foot(obj: bpy.types.Object) -> Any:
     """(e,) mask of the edges in which the letter meets the plate."""
     bm = bmesh.new()
     bm.from_mesh(obj.data)
-    found = [
-        len(edge.link_faces) == 2
-        and edge.calc_face_angle_signed() < -0.5
-        and all(abs(np.hypot(v.co.x, v.co.z + RADIUS) - RADIUS) < 0.01 for v in edge.verts)
-        for edge in bm.edges
-    ]
+    found = np.array([at_foot(edge) for edge in bm.edges])
     bm.free()
-    return np.array(found)
+    return found
+
+
+def at_foot(edge: Any) -> bool:
+    """Tell whether the letter meets the plate in this edge of a bmesh."""
+    meets = len(edge.link_faces) == 2 and edge.calc_face_angle_signed() < -0.5
+    return meets and all(abs(np.hypot(v.co.x, v.co.z + RADIUS) - RADIUS) < 0.01 for v in edge.verts)
 
 
 def _linked(name: str, mesh: bpy.types.Mesh) -> bpy.types.Object:
