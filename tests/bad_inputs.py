@@ -42,45 +42,44 @@ def _inner_edge(patch: shapes.Patch) -> tuple[int, int]:
     return int(free[0, 0]), int(free[0, 1])
 
 
+def _spoilt(array: Any, row: int, column: int, value: float) -> Any:
+    """A copy with one entry changed."""
+    copy = array.copy()
+    copy[row, column] = value
+    return copy
+
+
 def not_a_number() -> Case:
     """One free vertex is NaN."""
     patch = _base()
-    vertices = patch.vertices.copy()
-    vertices[patch.free[5], 1] = np.nan
-    return Case(vertices, patch.triangles, "NONFINITE", (int(patch.free[5]),))
+    at = int(patch.free[5])
+    return Case(_spoilt(patch.vertices, at, 1, np.nan), patch.triangles, "NONFINITE", (at,))
 
 
 def infinite() -> Case:
     """One fixed vertex is infinite."""
     patch = _base()
-    vertices = patch.vertices.copy()
-    vertices[patch.fixed[2], 0] = np.inf
-    return Case(vertices, patch.triangles, "NONFINITE", (int(patch.fixed[2]),))
+    at = int(patch.fixed[2])
+    return Case(_spoilt(patch.vertices, at, 0, np.inf), patch.triangles, "NONFINITE", (at,))
 
 
 def normal_not_a_number() -> Case:
     """One prescribed normal is NaN."""
     patch = _base()
-    normals = patch.fixed_normals.copy()
-    normals[3, 0] = np.nan
-    options = {"fixed": patch.fixed, "fixed_normals": normals}
+    options = {"fixed": patch.fixed, "fixed_normals": _spoilt(patch.fixed_normals, 3, 0, np.nan)}
     return Case(patch.vertices, patch.triangles, "NONFINITE", None, options)
 
 
 def index_too_large() -> Case:
     """A triangle names a vertex that does not exist."""
     patch = _base()
-    triangles = patch.triangles.copy()
-    triangles[4, 1] = len(patch.vertices)
-    return Case(patch.vertices, triangles, "INDEX_RANGE", None)
+    return Case(patch.vertices, _spoilt(patch.triangles, 4, 1, len(patch.vertices)), "INDEX_RANGE")
 
 
 def index_negative() -> Case:
     """A triangle names vertex −1."""
     patch = _base()
-    triangles = patch.triangles.copy()
-    triangles[4, 1] = -1
-    return Case(patch.vertices, triangles, "INDEX_RANGE", None)
+    return Case(patch.vertices, _spoilt(patch.triangles, 4, 1, -1), "INDEX_RANGE")
 
 
 def fixed_out_of_range() -> Case:

@@ -37,6 +37,66 @@ def ended(program: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     return done
 
 
+DAEMONS = {
+    "calls again and again": """
+def work():
+    while True:
+        try:
+            fair(progress=progress)
+        except fairing.Cancelled:
+            pass
+
+start(work)
+start(work)
+begun.wait()
+""",
+    "has no callback": """
+small = shapes.cap(3000)
+
+def work():
+    begun.set()
+    while True:
+        fairing.hierarchy(small.vertices, small.triangles, fixed=small.fixed)
+
+start(work)
+begun.wait()
+time.sleep(0.1)
+""",
+    "its callback never returns": """
+held = threading.Lock()
+held.acquire()
+
+def wait(fraction, stage):
+    begun.set()
+    with held:
+        return True
+
+start(lambda: fair(progress=wait))
+begun.wait()
+""",
+    # It comes back after the end has stopped to wait, and while the interpreter takes its time to go.
+    "its callback is still asleep when the interpreter is gone": """
+class Slow:
+    def __del__(self, sleep=time.sleep):
+        sleep(2)
+
+def wait(fraction, stage):
+    begun.set()
+    time.sleep(3)
+    return True
+
+sys.modules["slow"] = Slow()
+start(lambda: fair(progress=wait))
+begun.wait()
+""",
+}
+
+
+@pytest.mark.parametrize("kind", DAEMONS)
+def test_no_kind_of_daemon_aborts_or_holds_the_process(kind: str) -> None:
+    ended(DAEMONS[kind])
+
+
 DURING_A_RUN = """
 start(lambda: fair(progress=progress))
 begun.wait()
@@ -52,74 +112,12 @@ def test_a_daemon_at_work_does_not_abort_the_process(state: str, delay: float) -
     ended(DURING_A_RUN, str(delay), state)
 
 
-def test_a_daemon_that_calls_again_and_again_does_not_abort_the_process() -> None:
-    ended("""
-def work():
-    while True:
-        try:
-            fair(progress=progress)
-        except fairing.Cancelled:
-            pass
-start(work)
-start(work)
-begun.wait()
-""")
-
-
 def test_a_thread_that_is_no_daemon_comes_to_its_end() -> None:
     done = ended("""
 start(lambda: print(fair(progress=progress).converged), daemon=False)
 begun.wait()
 """)
     assert done.stdout.split() == ["True"]
-
-
-def test_work_without_a_callback_stops_too() -> None:
-    ended("""
-small = shapes.cap(3000)
-
-def work():
-    begun.set()
-    while True:
-        fairing.hierarchy(small.vertices, small.triangles, fixed=small.fixed)
-
-start(work)
-begun.wait()
-time.sleep(0.1)
-""")
-
-
-def test_a_callback_that_never_returns_does_not_hold_the_process() -> None:
-    ended("""
-held = threading.Lock()
-held.acquire()
-
-def wait(fraction, stage):
-    begun.set()
-    with held:
-        return True
-
-start(lambda: fair(progress=wait))
-begun.wait()
-""")
-
-
-def test_a_callback_that_is_still_asleep_when_the_interpreter_is_gone_does_not_abort_it() -> None:
-    """It comes back after the end has stopped to wait, and while the interpreter takes its time to go."""
-    ended("""
-class Slow:
-    def __del__(self, sleep=time.sleep):
-        sleep(2)
-
-def wait(fraction, stage):
-    begun.set()
-    time.sleep(3)
-    return True
-
-sys.modules["slow"] = Slow()
-start(lambda: fair(progress=wait))
-begun.wait()
-""")
 
 
 def test_the_thread_that_ends_may_still_call() -> None:
