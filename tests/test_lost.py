@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -79,18 +81,18 @@ def lost_grain(noise: float, where: str, kept: float = 0.0, ridges: bool = False
     return fairing.has_lost_grain(*points, triangles[inside], triangles[~inside])
 
 
-def test_grain_that_is_gone_is_lost() -> None:
-    assert lost_grain(0.15, "everywhere")
-    assert not lost_grain(0.1, "everywhere", kept=0.8)  # it was put back
-
-
-def test_no_grain_is_lost_that_is_not_seen_or_was_not_there() -> None:
-    assert not lost_grain(0.005, "everywhere")
-    assert not lost_grain(0.1, "around")
-
-
-def test_features_are_no_grain() -> None:
-    assert not lost_grain(0.1, "everywhere", ridges=True)
+@pytest.mark.parametrize(
+    ("noise", "where", "options", "is_lost"),
+    [
+        (0.15, "everywhere", {}, True),
+        (0.1, "everywhere", {"kept": 0.8}, False),  # it was put back
+        (0.005, "everywhere", {}, False),  # it is not seen
+        (0.1, "around", {}, False),  # it was not there
+        (0.1, "everywhere", {"ridges": True}, False),  # features are no grain
+    ],
+)
+def test_grain_that_is_gone_is_lost(noise: float, where: str, options: dict[str, Any], is_lost: bool) -> None:
+    assert lost_grain(noise, where, **options) == is_lost
 
 
 def test_what_bends_as_nothing_around_is_rougher() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -10,11 +12,9 @@ import measures
 import shapes
 
 
-def minimal(patch: shapes.Patch) -> fairing.FairResult:
-    return fairing.fair(
-        shapes.start_from_nothing(patch), patch.triangles,
-        fixed=patch.fixed, equation="minimal", tolerance=1e-10,
-    )  # fmt: skip
+def minimal(patch: shapes.Patch, **options: Any) -> fairing.FairResult:
+    start = shapes.start_from_nothing(patch)
+    return fairing.fair(start, patch.triangles, fixed=patch.fixed, equation="minimal", tolerance=1e-10, **options)
 
 
 @pytest.mark.parametrize(("n_free", "goal"), [(1000, 2e-5), (4000, 4e-6)])
@@ -47,10 +47,5 @@ def test_flat_outline_gives_a_plane() -> None:
 
 def test_prescribed_normals_do_not_matter() -> None:
     patch = shapes.catenoid(500)
-    start = shapes.start_from_nothing(patch)
-    wrong = np.tile([0.0, 0.0, 1.0], (len(patch.fixed), 1))
-    tilted = fairing.fair(
-        start, patch.triangles, fixed=patch.fixed, fixed_normals=wrong,
-        equation="minimal", tolerance=1e-10,
-    )  # fmt: skip
+    tilted = minimal(patch, fixed_normals=np.tile([0.0, 0.0, 1.0], (len(patch.fixed), 1)))
     assert np.abs(tilted.vertices - minimal(patch).vertices).max() < 1e-7 * patch.diameter

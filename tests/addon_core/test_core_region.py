@@ -38,23 +38,20 @@ def test_patch_of_a_grid() -> None:
     assert np.array_equal(np.unique(corners), patch.vertices)
 
 
-def test_triangles_of_the_patch_cover_it_once_and_face_up() -> None:
-    mesh = grid(8, 0.8)
-    patch = make_patch(mesh)
-    a, b, c = (mesh.positions[patch.vertices[column]] for column in patch.triangles.T)
-    areas = 0.5 * np.cross(b - a, c - a)[:, 2]
-    assert areas.min() > 0.0
-    assert areas.sum() == pytest.approx(1.5**2)  # 6 × 6 quads with sides of a quarter
-
-
-def test_a_mirroring_map_keeps_the_outside_outside() -> None:
-    mesh = grid(6, 0.67)
-    world = mesh.transformed(np.diag([-2.0, 1.0, 1.0, 1.0]))
+@pytest.mark.parametrize(
+    ("size", "share", "map_scale", "area"),
+    [(8, 0.8, 1.0, 1.5**2), (6, 0.67, -2.0, 2.0 * (4.0 / 3.0) ** 2)],  # 6 × 6 quads of a quarter; 4 × 4 of a third
+)
+def test_triangles_of_the_patch_cover_it_once_and_face_up(
+    size: int, share: float, map_scale: float, area: float
+) -> None:
+    """Up was outside, and a map that mirrors leaves it there."""
+    world = grid(size, share).transformed(np.diag([map_scale, 1.0, 1.0, 1.0]))
     patch = make_patch(world)
     a, b, c = (world.positions[patch.vertices[column]] for column in patch.triangles.T)
-    upward = 0.5 * np.cross(b - a, c - a)[:, 2]
-    assert upward.min() > 0.0  # up was outside, and the map leaves it there
-    assert upward.sum() == pytest.approx(2.0 * (4.0 / 3.0) ** 2)
+    areas = 0.5 * np.cross(b - a, c - a)[:, 2]
+    assert areas.min() > 0.0
+    assert areas.sum() == pytest.approx(area)
 
 
 @pytest.mark.parametrize("scale", [0.0, np.inf, np.nan, 1e-9])
