@@ -13,6 +13,7 @@ import shapes
 import tubes
 from joints import Arm, flat_arm
 from shapes import Patch, Style
+from tubes import radii
 
 
 def faired(patch: Patch, **options: object) -> fairing.FairResult:
@@ -29,11 +30,6 @@ def test_surfaces_without_variation_are_exact_on_irregular_meshes(family: str) -
     result = faired(patch)
     assert result.converged
     assert patch.error(result.vertices) < 1e-6
-
-
-def radii(result: fairing.FairResult) -> np.ndarray:
-    """Distances from the axis."""
-    return np.hypot(result.vertices[:, 0], result.vertices[:, 1])
 
 
 @pytest.mark.parametrize(("length", "lean"), [(3.0, 10.0), (5.0, 5.0), (5.0, -10.0), (10.0, 10.0), (10.0, -10.0)])

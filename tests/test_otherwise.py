@@ -10,15 +10,8 @@ import pytest
 import fairing
 import shapes
 import tubes
-
-
-def codes(result: fairing.FairResult) -> set[str]:
-    return {warning.code for warning in result.warnings}
-
-
-def radii(result: fairing.FairResult) -> np.ndarray:
-    """Distances from the axis."""
-    return np.hypot(result.vertices[:, 0], result.vertices[:, 1])
+from solving import codes
+from tubes import radii
 
 
 def test_a_pipe_without_a_harmonic_surface_has_even_curvature() -> None:

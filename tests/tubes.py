@@ -113,6 +113,11 @@ def s_bend(bend: float, degrees: float, **style: int) -> Tube:
     return tube(np.concatenate([half, 2 * half[-1] - half[-2::-1]]), (1.0, 1.0), **style)
 
 
+def radii(result: fairing.FairResult) -> FloatArray:
+    """Distances (n,) from the axis of a straight tube."""
+    return np.asarray(np.hypot(result.vertices[:, 0], result.vertices[:, 1]))
+
+
 def off_torus(vertices: FloatArray, bend: float) -> float:
     """Largest distance from the elbow's torus."""
     axis = np.hypot(vertices[:, 0] - bend, vertices[:, 2]) - bend
