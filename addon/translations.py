@@ -2,15 +2,19 @@
 
 A language is a file languages/CODE.json: English texts with their translations. To add one, copy de.json, translate its
 right-hand sides, and give Blender's names of it to _LOCALES; tests/blender/test_languages.py says what is missing.
-Labels, tooltips and menu entries are looked up by Blender itself; sentences put together at run time stay English.
+Labels, tooltips and menu entries are looked up by Blender itself. Sentences put together at run time are English until
+they are shown: `translated` recognizes them by their templates, which have fields in braces.
 """
 
 from __future__ import annotations
 
 import json
+from functools import cache
 from pathlib import Path
 
 import bpy
+
+from .core.templates import Templates
 
 _FOLDER = Path(__file__).parent / "languages"
 # Blender's names of a language: older versions know some by country only.
@@ -33,9 +37,16 @@ def table() -> dict[str, dict[tuple[str, str], str]]:
 
 
 def translated(text: str) -> str:
-    """Return the text in the language of the interface."""
+    """Return a text, or a sentence put together at run time, in the language of the interface."""
     found: str = bpy.app.translations.pgettext_iface(text)
-    return found
+    if found != text or not bpy.context.preferences.view.use_translate_interface:
+        return found
+    return _templates(bpy.app.translations.locale.partition("_")[0]).translated(text)
+
+
+@cache
+def _templates(code: str) -> Templates:
+    return Templates(languages().get(code, {}))
 
 
 def register() -> None:

@@ -86,7 +86,7 @@ FAIR: Table = (
     ),
     Option(
         "inner_fairness",
-        "Vertex Distribution",
+        "Distribution",
         "How vertices spread over the surface. The surface itself stays the same",
         "AUTOMATIC",
         VERTICES,

@@ -176,7 +176,7 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
         ("Equation solved", _endings(outcomes)),
         ("Residual", _residual_text(max(results, key=lambda result: result.residual))),
         ("Usual kink", angle_text(_worst_join(outcomes)[0])),
-        ("Angle to the slope asked for", angle_text(max(_widest(result) for result in results))),
+        ("Off the slope", angle_text(max(_widest(result) for result in results))),
         ("Curvature inside", f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"),
         (
             "Strategies tried",

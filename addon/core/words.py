@@ -23,7 +23,7 @@ _CROSSING_WIRES = (
     "them a common vertex, or delete some"
 )
 _DISSOLVE = "dissolve it, or split that edge there and use Merge by Distance"
-SPREAD_UNIFORMLY = "Vertex Distribution would turn faces over here: Uniform was used instead"
+SPREAD_UNIFORMLY = "Distribution would turn faces over here: Uniform was used instead"
 EDGES_HELD = "Hard edges run through the selection and are held, though not marked: Pin Edges: None rounds them off"
 EDGES_LET_GO = "Hard edges that run through the selection are not marked and were let go: no usable surface holds them"
 _SLOPE_ONLY = (

@@ -107,5 +107,5 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
         return {"FINISHED"}
 
     def _refuse(self, _context: bpy.types.Context, refusal: Refused) -> set[str]:
-        self.report({"ERROR"}, str(refusal))
+        self.report({"ERROR"}, translated(str(refusal)))
         return {"CANCELLED"}

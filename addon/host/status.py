@@ -48,7 +48,8 @@ def _draw_status(header: Any, context: bpy.types.Context) -> None:
     row = header.layout.row(align=True)
     row.ui_units_x = 16
     draw_progress(row, context)
-    header.layout.label(text="Cancel", icon="EVENT_ESC")
+    # The key's picture is wider than an icon, and the word began under it.
+    header.layout.label(text=f"  {translated('Cancel')}", icon="EVENT_ESC", translate=False)
 
 
 def hide_progress(context: bpy.types.Context) -> None:

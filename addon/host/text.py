@@ -8,6 +8,8 @@ from typing import Any
 import blf
 import bpy
 
+from ..translations import translated
+
 UNIT = 20.0  # pixels of a button's height at scale 1
 MARGINS = 3.4  # units that a panel and its scroll bar take of the sidebar
 NARROWEST = 60.0  # pixels that are left for words at least
@@ -27,10 +29,10 @@ def wrapped(text: str, width: Callable[[str], float], room: float) -> Iterator[s
 
 
 def draw_text(layout: Any, text: str, icon: str) -> None:
-    """Draw a sentence over as many lines as it needs: labels don't wrap."""
+    """Draw a sentence in the interface's language over as many lines as it needs: labels don't wrap."""
     column = layout.column(align=True)
     column.scale_y = 0.8
-    for line in wrapped(text, _width, _room(bpy.context)):
+    for line in wrapped(translated(text), _width, _room(bpy.context)):
         column.label(text=line, icon=icon, translate=False)
         icon = "BLANK1"
 

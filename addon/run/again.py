@@ -25,6 +25,7 @@ from ..core.verdict import (
 )
 from ..host.polling import require, require_edit_mode
 from ..host.status import look_at
+from ..translations import translated
 from . import last_run
 
 
@@ -45,7 +46,7 @@ class MESH_OT_fair_spots(bpy.types.Operator):
         try:
             last_run.select_spots(context)
         except last_run.Changed as change:
-            self.report({"ERROR"}, str(change))
+            self.report({"ERROR"}, translated(str(change)))
             return {"CANCELLED"}
         look_at(context, *last_run.worst_spot(context))
         return {"FINISHED"}

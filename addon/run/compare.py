@@ -13,6 +13,7 @@ from ..core.remeshing import Remeshed
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
 from ..mesh.free_normals import free_normals
+from ..translations import translated
 from .job import Task, objects_in_mode
 
 
@@ -151,7 +152,7 @@ class MESH_OT_fair_compare(bpy.types.Operator):
         try:
             shows_result = toggle(context)
         except Changed as change:
-            self.report({"ERROR"}, str(change))
+            self.report({"ERROR"}, translated(str(change)))
             return {"CANCELLED"}
         self.report({"INFO"}, "Shown: the result" if shows_result else "Shown: the shape before")
         return {"FINISHED"}

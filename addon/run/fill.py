@@ -163,8 +163,8 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added, notes)
         store(context.window_manager.fairing_report, report)
         for warning in report.warnings:
-            self.report({"WARNING"}, warning)
-        self.report({"INFO"}, summary(report))
+            self.report({"WARNING"}, translated(warning))
+        self.report({"INFO"}, translated(summary(report)))
         return {"FINISHED"}
 
     def _write(self, context: bpy.types.Context, named: list[tuple[str, Filled]]) -> list[Added]:
@@ -178,14 +178,14 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         """Leave every mesh as it is, and show the boundary where the surface is no good."""
         if len(self._tasks) == 1:
             self._show(context, self._tasks[0].object_name, spots)
-        self.report({"ERROR"}, reason)
+        self.report({"ERROR"}, translated(reason))
         return {"CANCELLED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
         self._show(context, refusal.object_name, np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64))
         store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.forget()
-        self.report({"ERROR"}, str(refusal))
+        self.report({"ERROR"}, translated(str(refusal)))
         return {"CANCELLED"}
 
     def _show(self, context: bpy.types.Context, name: str, vertices: Ints) -> None:

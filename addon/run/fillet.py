@@ -259,7 +259,7 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         for task, outcome in zip(self._tasks, outcomes, strict=True):
             remeshed.write_edit_mesh(objects[task.object_name], outcome)
             for warning in outcome.warnings:
-                self.report({"WARNING"}, warning)
+                self.report({"WARNING"}, translated(warning))
         count = sum(len(outcome.result.vertices) for outcome in outcomes)
         self.report({"INFO"}, f"{count} new vertices in {time.perf_counter() - self._begin:.2f} s")
         return {"FINISHED"}

@@ -27,6 +27,7 @@ from ..host.polling import require, require_idle
 from ..mesh import painted
 from ..mesh.free_normals import free_normals
 from ..preferences import background_from
+from ..translations import translated
 from . import compare, last_run
 from .background import Watched, at_once
 from .fair_arrays import fair_arrays
@@ -196,19 +197,19 @@ class MESH_OT_fair_masked(FairProperties, Picks, Watched, bpy.types.Operator):
         store(context.window_manager.fairing_report, report)
         last_run.forget()  # buttons for the next run belong to edit mode
         if not report.written:
-            self.report({"ERROR"}, summary(report))
+            self.report({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         with _in_object_mode(obj):
             normals = free_normals(obj.data)
             write(obj.data, outcome)
         compare.remember_one(obj.name, task.before, outcome, normals)
-        self.report({"INFO"}, summary(report))
+        self.report({"INFO"}, translated(summary(report)))
         return {"FINISHED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
         store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.forget()
-        self.report({"ERROR"}, str(refusal))
+        self.report({"ERROR"}, translated(str(refusal)))
         return {"CANCELLED"}
 
     def _faces(self, obj: bpy.types.Object) -> Ints:

@@ -101,16 +101,16 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         compare.remember(self._tasks, outcomes)
         last_run.renumber(job.write(context, self._tasks, outcomes))
         for warning in report.warnings:
-            self.report({"WARNING"}, warning)
+            self.report({"WARNING"}, translated(warning))
         for idle in labels.idle_in(report):
             self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
-        self.report({"INFO"}, summary(report))
+        self.report({"INFO"}, translated(summary(report)))
         return {"FINISHED"}
 
     def _leave(self, context: bpy.types.Context, reason: str) -> set[str]:
         """Leave every mesh as it is, and show where the result is no good."""
         last_run.select_spots(context)
-        self.report({"ERROR"}, reason)
+        self.report({"ERROR"}, translated(reason))
         return {"CANCELLED"}
 
     def _keep(self, context: bpy.types.Context, report: Report) -> set[str]:
@@ -130,5 +130,5 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
             selecting.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
         store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.refused(self._tasks)
-        self.report({"ERROR"}, str(refusal))
+        self.report({"ERROR"}, translated(str(refusal)))
         return {"CANCELLED"}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..host.polling import require, require_edit_mode
+from ..translations import translated
 from . import compare
 
 
@@ -27,7 +28,7 @@ class MESH_OT_fair_peek(bpy.types.Operator):
         try:
             compare.toggle(context)
         except compare.Changed as change:
-            self.report({"ERROR"}, str(change))
+            self.report({"ERROR"}, translated(str(change)))
             return {"CANCELLED"}
         self._key = event.type
         context.window_manager.modal_handler_add(self)

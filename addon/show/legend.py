@@ -21,7 +21,7 @@ TITLES = {
 }
 _STEPS = 32
 _SIZE = (180.0, 12.0)  # pixels at scale 1
-_PLACE = (24.0, 44.0)
+_ABOVE = 44.0  # the lower edge
 
 
 def colours(shares: Floats) -> Floats:
@@ -38,10 +38,10 @@ def texts(mode: str, full: float, largest: float) -> tuple[str, str, str, str]:
 
 
 def draw(context: Any, mode: str, full: float, largest: float) -> None:
-    """Draw it into the lower left of the 3D view."""
+    """Draw it into the middle of the lower edge: redo panel, toolbar and sidebar lie over the sides."""
     scale = context.preferences.system.ui_scale
-    left, bottom = (scale * value for value in _PLACE)
     width, height = (scale * value for value in _SIZE)
+    left, bottom = 0.5 * (context.region.width - width), scale * _ABOVE
     edges = np.linspace(0.0, 1.0, _STEPS + 1)
     xs = np.repeat(left + width * edges, 2)
     places = np.column_stack([xs, np.tile([bottom, bottom + height], _STEPS + 1)]).astype(np.float32)

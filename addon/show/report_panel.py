@@ -14,6 +14,7 @@ from ..translations import translated
 from .sidebar import SidebarPanel, pair
 
 _GRADE_ICONS = {"GOOD": "CHECKMARK", "LOOK": "ERROR", "UNUSABLE": "CANCEL"}
+_LONGEST = 20  # letters of a value that has room beside its name
 _ICONS = {"MET": "CHECKMARK", "MISSED": "ERROR", "TOLD": "BLANK1"}
 
 
@@ -80,6 +81,9 @@ def _draw_figures(column: Any, report: Any) -> None:
     for check in sorted(report.checks, key=lambda each: each.detail):
         row = column.row()
         row.alert = check.state == "MISSED"
-        pair(row, check.name, check.value, _ICONS[check.state])
+        if len(check.value) > _LONGEST:
+            draw_text(row, f"{translated(check.name)}: {check.value}", _ICONS[check.state])
+        else:
+            pair(row, check.name, check.value, _ICONS[check.state])
     pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
     pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")

@@ -54,6 +54,32 @@ def of_class(node: ast.ClassDef) -> Iterator[str]:
                 yield from constants(line.value)
 
 
+def template(node: ast.JoinedStr) -> str:
+    """Return a text put together at run time as the languages have it: its fields in braces."""
+    parts = []
+    for part in node.values:
+        if isinstance(part, ast.Constant):
+            parts.append(str(part.value))
+        elif isinstance(part, ast.FormattedValue):
+            form = ast.unparse(part.format_spec)[2:-1] if part.format_spec else ""
+            parts.append("{" + ast.unparse(part.value) + (f":{form}" if form else "") + "}")
+    return "".join(parts)
+
+
+def phrases(node: ast.Call) -> Iterator[str]:
+    """Yield what `counted` makes."""
+    if getattr(node.func, "id", "") == "counted":
+        for argument in node.args[1:]:
+            for phrase in constants(argument):
+                yield f"{{count}} {phrase}"
+
+
+def sentences() -> set[str]:
+    """Return the templates of the engine's errors and warnings."""
+    cases = (words for of_code in module("core.words").WORDS.values() for words in of_code)
+    return {text for words in cases for text in (words.one, words.many) if text}
+
+
 def of_operators() -> Iterator[str]:
     """Yield labels and tooltips of all options and choices that are offered."""
     for room in (bpy.ops.mesh, bpy.ops.object):
@@ -89,6 +115,7 @@ def shown() -> set[str]:
         of_operators(), of_settings(), module("core.option_shared").GROUPS, module("core.option_shared").FOLDED
     )
     found.add(module("core.fill_options").HOLES)
+    found |= sentences()
     return {text for text in found - NOT_SHOWN if any(letter.isalpha() for letter in text)}
 
 
@@ -99,9 +126,13 @@ def test_a_language_has_every_text(language: str) -> None:
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_language_has_nothing_that_is_not_said(language: str) -> None:
-    said: set[str] = set()
+    said = sentences()
     for tree in sources():
         for node in ast.walk(tree):
+            if isinstance(node, ast.JoinedStr):
+                said.add(template(node))
+            elif isinstance(node, ast.Call):
+                said.update(phrases(node))
             if isinstance(node, ast.Constant) and isinstance(node.value, str):
                 said.update((node.value, " ".join(node.value.split())))
     assert sorted(module("translations").languages()[language].keys() - said) == []
@@ -113,3 +144,35 @@ def test_no_translation_is_empty_or_has_lost_its_figures(language: str) -> None:
         assert translation.strip()
         fields: Any = re.findall(r"\{[^}]*\}", text)
         assert sorted(fields) == sorted(re.findall(r"\{[^}]*\}", translation)), text
+
+
+@pytest.mark.parametrize(
+    ("said", "german"),
+    [
+        ("No vertex is free to move: all are on the boundary or pinned", "Kein Vertex kann sich bewegen"),
+        ("3 faces have a part without area", "3 Flächen haben einen Teil ohne Inhalt"),
+        ("A kink shows at 2 vertices of the boundary, of 31° at worst", "Ein Knick zeigt sich am Rand, an 2 Vertices,"),
+        ("Cube: The tube narrows to 61% of its ends", "Cube: Die Röhre verengt sich auf 61% ihrer Enden"),
+        (
+            "The boundary is on the slope of a bump, so that the bump stays: grow the selection over it",
+            "Der Rand liegt am",
+        ),
+        ("Nobody says this of 3 things", "Nobody says this of 3 things"),
+    ],
+)
+def test_a_sentence_put_together_at_run_time_is_translated(said: str, german: str) -> None:
+    texts = module("translations").languages()["de"]
+    assert module("core.templates").Templates(texts).translated(said).startswith(german)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_sentence_of_the_engine_finds_its_own_template(language: str) -> None:
+    """Figures are put in; what comes out is the translation of this sentence and of no other."""
+    texts = module("translations").languages()[language]
+    made = module("core.templates").Templates(texts)
+    for text in sentences():
+        fields = re.findall(r"\{[^}]*\}", text)
+        english, expected = text, texts[text]
+        for k, field in enumerate(dict.fromkeys(fields)):
+            english, expected = english.replace(field, str(7 + k)), expected.replace(field, str(7 + k))
+        assert made.translated(english) == expected

@@ -79,18 +79,6 @@ def middle() -> tuple[int, int]:
     return region.x + region.width // 2, region.y + region.height // 2
 
 
-def type_text(text: str, x: int, y: int) -> None:
-    """Type digits and dots into the field that is being edited."""
-    names = {".": "PERIOD", **dict(zip("0123456789", NUMBERS, strict=True))}
-    window = view()[0]
-    for character in text:
-        window.event_simulate(type=names[character], value="PRESS", unicode=character, x=x, y=y)
-        window.event_simulate(type=names[character], value="RELEASE", x=x, y=y)
-
-
-NUMBERS = ("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE")
-
-
 def screenshot(name: str, crop: str = "") -> None:
     """Write what is on the screen to OUT; crop: WIDTHxHEIGHT+X+Y, default all."""
     cut = ["-crop", crop, "+repage"] if crop else []

@@ -11,17 +11,12 @@ import bpy
 import numpy as np
 import scenes
 import spoilt_scenes
-from driver import Story, click, in_view, look_as_first, middle, point, press, screenshot, tell
+from driver import Story, in_view, look_as_first, middle, press, screenshot, tell
 from long_run_chapters import seconds_of_redraw
 from panel import drag, module, open_tab, report, run_operator, set_options, wait_until
 
 STEPS = 40  # of the mouse in one drag
-SELECTION = (1250, 781)  # header of the panel Selection, whose height changes: it is folded
-HEADER = (1250, 754)  # of the panel Live below it, where there is no report
-SWITCH = (1081, 754)
-BUTTON = (1154, 723)
 AGAIN = 1e-5  # what answers from different starts may differ by: a few times the tolerance, 1e-6 of the diameter
-_opened: list[str] = []  # panels
 # What an answer may differ by from the operator's: a few times the tolerance, 1e-6 of the diameter, and spread pins
 # have an iteration of their own.
 FAIR = 5e-5
@@ -132,24 +127,9 @@ def _is_on() -> bool:
     return bool(bpy.context.window_manager.fairing_live.on)
 
 
-def _open_panel() -> Story:
-    """Fold the panel Selection and open the panel Live, in the first chapter that is played."""
-    if _opened:
-        return
-    _opened.append("Live")
-    scenes.bottle()  # other modes have no panel Selection
-    report().free_vertices = 0  # no panel Last Run in between
-    open_tab()
-    yield 1.0
-    yield from click(*SELECTION)
-    yield 0.7
-    yield from click(*HEADER)
-    yield 0.7
-
-
 def _make_live(name: str, scene: Callable[[], int], pin_group: str = "") -> Story:
     """Make the scene and press the panel's button: Live is on."""
-    yield from _open_panel()
+    open_tab()
     tell(f"{scene.__name__}: {scene()} faces selected of {len(bpy.context.object.data.polygons)}")
     set_options(pin_group=pin_group)
     report().free_vertices = 0
@@ -160,16 +140,12 @@ def _make_live(name: str, scene: Callable[[], int], pin_group: str = "") -> Stor
     screenshot(f"{name}_before")
     assert not _is_on()
     yield from _press_button()
-    if not _is_on():  # the panel was unfolded before the first click on its header, which Blender doesn't tell
-        yield from click(*HEADER)
-        yield 0.7
-        yield from _press_button()
-    assert _is_on(), "the button Live Region was not met"
+    assert _is_on(), "Live Region left Live off"
     tell(f"live region: {len(_session().region.free)} free vertices")
 
 
 def _press_button() -> Story:
-    yield from click(*BUTTON)
+    run_operator("mesh.fair_live_region")
     yield 1.0
     yield from wait_until(_rests, 20.0)
 
@@ -259,13 +235,8 @@ def _target(by: tuple[int, int]) -> tuple[int, int]:
 
 
 def _switch(on: bool) -> Story:
-    """Click the checkbox in the panel's title.
-
-    A report that popped up over it, where the last button was clicked, goes when the pointer is elsewhere.
-    """
-    yield from point(*middle())
-    yield 0.5
-    yield from click(*SWITCH)
+    """Turn Live on or off, as the checkbox in the panel's title does."""
+    bpy.context.window_manager.fairing_live.on = on
 
     def switched() -> bool:
         return _is_on() == on

@@ -11,17 +11,7 @@ import bpy
 from driver import Story, click, in_view, middle, move_mouse, press, view
 
 ID = "bl_ext.user_default.intrinsic_fairing"
-KEYS = {  # run operators, so that they are run by an event as from a menu
-    "mesh.fair_region": "F19",
-    "mesh.fair_fill": "F18",
-    "mesh.fair_fillet": "F17",
-    "mesh.fair_spots": "F16",
-    "mesh.fair_live_far_side": "F15",
-    "mesh.fair_live_region": "F14",
-}
-
-
-_entries: dict[str, Any] = {}  # of the keymap
+_options: dict[str, Any] = {}  # that Fair Region is run with
 
 
 def extension() -> None:
@@ -29,9 +19,6 @@ def extension() -> None:
     bpy.ops.extensions.package_install_files(
         repo="user_default", filepath=os.environ["FAIRING_ZIP"], enable_on_install=True, overwrite=True
     )
-    keymap = bpy.context.window_manager.keyconfigs.addon.keymaps.new("3D View", space_type="VIEW_3D")
-    for operator, key in KEYS.items():
-        _entries[operator] = keymap.keymap_items.new(operator, key, "PRESS")
     bpy.context.preferences.view.show_splash = False
     # Else the sidebar's redraws take the whole 3D view along, eight times each: slow without a GPU.
     bpy.context.preferences.system.viewport_aa = "OFF"
@@ -44,6 +31,19 @@ def open_tab() -> None:
     area = view()[1]
     next(r for r in area.regions if r.type == "UI").active_panel_category = "Fairing"
     area.tag_redraw()
+
+
+def open_panels() -> None:
+    """Open the panels that are closed at first: their class without the flag, registered anew.
+
+    Where headers and buttons lie changes with every label; no place in pixels is clicked.
+    """
+    for panel in module("show.ui").PANELS:
+        options = getattr(panel, "bl_options", set())
+        if "DEFAULT_CLOSED" in options:
+            bpy.utils.unregister_class(panel)
+            panel.bl_options = options - {"DEFAULT_CLOSED"}
+            bpy.utils.register_class(panel)
 
 
 def report() -> Any:
@@ -63,8 +63,8 @@ def wait_until(condition: Any, seconds: float) -> Story:
 
 
 def run_operator(operator: str = "mesh.fair_region") -> None:
-    """Run it by an event, with the properties of its key."""
-    press(KEYS[operator], *middle())
+    """Run it as a button does, Fair Region with what set_options has set."""
+    run_with(operator.partition(".")[2], **(_options if operator == "mesh.fair_region" else {}))
 
 
 def run_with(operator: str, **properties: Any) -> None:
@@ -74,13 +74,14 @@ def run_with(operator: str, **properties: Any) -> None:
 
 
 def set_options(**options: Any) -> None:
-    """Have the operator start with its defaults next time, apart from these."""
-    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")  # what Live goes by
-    for properties in (last, _entries["mesh.fair_region"].properties):
-        for option in module("core.fair_options").FAIR:
-            properties.property_unset(option.name)
-        for name, value in options.items():
-            setattr(properties, name, value)
+    """Have Fair Region run with its defaults, apart from these, and Live, which goes by the last run, too."""
+    _options.clear()
+    _options.update(options)
+    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
+    for option in module("core.fair_options").FAIR:
+        last.property_unset(option.name)
+    for name, value in options.items():
+        setattr(last, name, value)
 
 
 def redo_panel() -> Any:
@@ -95,6 +96,15 @@ def open_redo_panel() -> Story:
         yield from click(hud.x + hud.width // 2, hud.y + hud.height // 2)
         yield 1.0
     assert redo_panel().height > 100, "the redo panel is closed"
+
+
+def redo_with(**properties: Any) -> None:
+    """Change options of the last operator and run it again: what its redo panel does when a field is left."""
+    operator = bpy.context.window_manager.operators[-1]
+    for name, value in properties.items():
+        setattr(operator.properties, name, value)
+    with in_view():
+        bpy.ops.ed.undo_redo()
 
 
 def drag(steps: int, by: tuple[int, int], axis: str = "") -> Story:

@@ -97,7 +97,11 @@ def face_set_by_a_click() -> Story:
     assert np.abs(_now() - before).max() > 1e-2
     screenshot("face_set_after")
     yield from _undo()
-    np.testing.assert_array_equal(_now(), before)
+
+    def back() -> bool:
+        return np.array_equal(_now(), before)
+
+    yield from wait_until(back, 10.0)  # one step; a slow window takes its time
     assert report().undone, "a run that was undone is shown as the last"
     for menu in ("VIEW3D_MT_mask", "VIEW3D_MT_face_sets"):
         with in_view():

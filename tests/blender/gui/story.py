@@ -11,7 +11,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import bpy
 import numpy as np
 import scenes
-from driver import Story, click, in_view, middle, play, press, screenshot, tell, type_text
+from driver import Story, in_view, middle, play, press, screenshot, tell
 from ends_chapters import (
     another_file_ends_a_run,
     disabling_ends_a_run,
@@ -38,12 +38,13 @@ from panel import (
     module,
     open_redo_panel,
     open_tab,
-    redo_panel,
+    redo_with,
     report,
     run_operator,
     set_options,
     wait_until,
 )
+from screen_chapters import SCREENS
 from sculpt_chapters import face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
 from verdict_chapters import (
     again_in_other_ways,
@@ -115,22 +116,14 @@ def fair_it() -> Story:
 
 
 def adjust_in_redo_panel() -> Story:
-    """Set Factor to 0.5 in the panel at the lower left, with the mouse and the keyboard."""
+    """Set Factor to 0.5 where the panel at the lower left has it."""
     fair = scenes.positions()
     yield from open_redo_panel()
-    hud = redo_panel()
     screenshot("redo_open")
-    x, y = hud.x + int(0.7 * hud.width), hud.y + hud.height - 62
-    yield from click(x, y)
-    yield 0.3
-    press("A", x, y, ctrl=True)
-    type_text("0.5", x, y)
-    yield 0.3
-    screenshot("redo_typing")
-    press("RET", x, y)
+    redo_with(factor=0.5)
     yield 1.5
     operator = bpy.context.window_manager.operators[-1]
-    assert abs(operator.factor - 0.5) < 1e-6, operator.factor
+    assert abs(operator.properties.factor - 0.5) < 1e-6, operator.properties.factor
     half = scenes.positions()
     expected = 0.5 * (scenes.original() + fair)
     assert np.abs(half - expected).max() < 1e-6, np.abs(half - expected).max()
@@ -161,10 +154,6 @@ def judge() -> Story:
         screenshot(f"zebra_{name}")
         for option in look:
             settings.property_unset(option)
-    yield 1.0
-    yield from click(1250, 379)  # the header of the panel Quality Overlay, below the report
-    yield 0.7
-    screenshot("overlay_panel")
     settings.mode = "CURVATURE"
     yield 1.0
     screenshot("curvature_after")
@@ -218,6 +207,7 @@ CHAPTERS = (
     undo_and_removal_end_a_run,
     disabling_ends_a_run,
     another_file_ends_a_run,
+    *SCREENS,
 )
 # Each ends Blender, so that it has one of its own; they are played only where they are named.
 ENDINGS = (quits_during_a_run, quits_after_a_cancel, quits_during_a_search)
