@@ -1,8 +1,8 @@
 """A zoo of real patches: which converge to the same surface from every start, and what the others say.
 
-    python benchmarks/zoo  # 27 listed patches, 500 random ones; writes zoo.csv, zoo_worst.webp
+    python benchmarks/zoo                          # 27 listed patches, 500 random ones; writes zoo.csv, zoo_worst.webp
     python benchmarks/zoo --patches 60 --weights conformal
-    python benchmarks/zoo --seed 1 --outlines 2   # several outlines; zoo_lofts.webp: those whose surface no equation has
+    python benchmarks/zoo --seed 1 --outlines 2  # several outlines; zoo_lofts.webp: those whose surface no equation has
 
 Each patch is solved from its interior as given, flattened and noisy. *Same*: all converged, within 0.5 % of the patch's
 radius. *Told*: not the same, but no two that say that they converged differ. *Silent*: two such differ. *Folded*,
