@@ -38,7 +38,7 @@ def rows(scope: Scope) -> Iterator[Row]:
                 yield _failing(f"{title}, {kind}", "all", part)
         yield _angles(title, records)
     scope.engine.limit = limit
-    contact_sheet.save(worst(everything, 10), scope.folder / "accuracy_worst_patches.png")
+    contact_sheet.save(worst(everything, 10), scope.folder / "accuracy_worst_patches.webp")
 
 
 def _failing(title: str, weights: str, records: list[Record]) -> Row:

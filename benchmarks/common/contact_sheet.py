@@ -10,6 +10,7 @@ import matplotlib
 import numpy as np
 from PIL import Image
 
+import webp
 from engine import FloatArray
 from stripes import Layer, View, facing, render
 
@@ -20,7 +21,6 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 TILE = 170  # pixels
-COLOURS = 48  # of the picture, to keep it small
 AROUND, PATCH = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
 
 
@@ -38,10 +38,9 @@ def save(specimens: Sequence[Specimen], path: Path) -> None:
             axis.imshow(image)
         row[0].set_title(_title(specimen), fontsize=7, loc="left", pad=2)
     figure.subplots_adjust(0, 0, 1, 0.975, 0.01, 0.1)
-    path.parent.mkdir(parents=True, exist_ok=True)
     figure.canvas.draw()
     picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])  # type: ignore[attr-defined]
-    picture.quantize(COLOURS).save(path, optimize=True)
+    webp.save(picture, path)
     plt.close(figure)
 
 

@@ -13,10 +13,11 @@ from scipy.spatial import cKDTree
 
 import cases
 import fairing
+import webp
 from cases import Case
 from engine import FloatArray
 from meshing import IntArray
-from sheets import COLOURS, GREY, TILE, TINT
+from sheets import GREY, TILE, TINT
 from stripes import Layer, facing, render
 
 SIZE = 0.15  # of D: wider than a pore
@@ -104,4 +105,4 @@ def write(folder: Path) -> None:
         draw.text((k * TILE + 6, 2), name, fill="black")
         image = render([Layer(points, case.outside, GREY), Layer(points, case.inside, TINT)], view)
         picture.paste(Image.fromarray((255 * image.clip(0, 1)).astype(np.uint8)), (k * TILE, 16))
-    picture.quantize(COLOURS).save(folder / "detail_from.png", optimize=True)
+    webp.save(picture, folder / "detail_from.webp")

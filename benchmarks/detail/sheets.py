@@ -8,12 +8,12 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 import cases
+import webp
 from cases import Case
 from engine import FloatArray
 from stripes import Layer, facing, render
 
 TILE = 330  # pixels
-COLOURS = 64
 GREY, TINT = (0.86, 0.86, 0.86), (0.93, 0.82, 0.7)
 WAYS: tuple[tuple[str, dict[str, float]], ...] = (
     ("fair", {}),
@@ -25,9 +25,8 @@ WAYS: tuple[tuple[str, dict[str, float]], ...] = (
 
 def write(folder: Path) -> None:
     """One picture for each case."""
-    folder.mkdir(parents=True, exist_ok=True)
     for case in (cases.sphere(6000, 0.25, 3, along_normal=True), *cases.scans(), *cases.orange_skins()):
-        sheet(case).save(folder / f"detail_{case.name.split('-')[0]}.png", optimize=True)
+        webp.save(sheet(case), folder / f"detail_{case.name.split('-')[0]}.webp")
 
 
 def sheet(case: Case) -> Image.Image:
@@ -39,7 +38,7 @@ def sheet(case: Case) -> Image.Image:
         draw.text((k * TILE + 6, 2), name, fill="black")
         for line, reach in enumerate((0.75, 0.3)):
             picture.paste(tile(case, points, reach * case.diameter, close=line == 1), (k * TILE, 16 + line * TILE))
-    return picture.quantize(COLOURS)
+    return picture
 
 
 def tile(case: Case, points: FloatArray, reach: float, *, close: bool) -> Image.Image:

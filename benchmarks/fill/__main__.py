@@ -3,8 +3,8 @@
     python benchmarks/fill [hemisphere | peers | spacing | caps | shapes | limits | curvature | size | bridges |
                             elbows | corners | real | remade | unseen | pictures …]
 
-Prints all tables of docs/fill.md, in one run where none is named; `pictures` writes docs/pictures/fill_holes.png,
-fill_bridges.png and fill_meshes.png. Processor time, one thread. `real` and `pictures` need shared/data beside the
+Prints all tables of docs/fill.md, in one run where none is named; `pictures` writes docs/pictures/fill_holes.webp,
+fill_bridges.webp and fill_meshes.webp. Processor time, one thread. `real` and `pictures` need shared/data beside the
 checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
 """
 

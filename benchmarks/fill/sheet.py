@@ -16,10 +16,10 @@ from PIL import Image
 
 import fairing
 import real_meshes
+import webp
 from holes import FloatArray, IntArray
 from stripes import Layer, facing, render
 
-COLOURS = 48
 HOLES = (
     "ict_head:nose", "ict_head:scalp", "mh_body:ear_left", "mh_body:nose", "demosthenes-low-res:chest",
     "wingnut:wing_root_blend", "skull_low_resolution:cranium", "hammer:handle_end", "hand_lowres:palm",
@@ -78,13 +78,13 @@ def save(shown: list[Any], path: Path) -> None:
     figure.subplots_adjust(0, 0, 1, 0.97, 0.01, 0.1)
     figure.canvas.draw()
     picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])  # type: ignore[attr-defined]
-    picture.quantize(COLOURS).save(path, optimize=True)
+    webp.save(picture, path)
     plt.close(figure)
 
 
 def write_all(folder: Path) -> Iterator[str]:
     """All pictures; the names of the files."""
-    sheets = ("fill_holes.png", real_holes), ("fill_bridges.png", gaps), ("fill_meshes.png", quad_sheet.new_meshes)
+    sheets = ("fill_holes.webp", real_holes), ("fill_bridges.webp", gaps), ("fill_meshes.webp", quad_sheet.new_meshes)
     for name, kind in sheets:
         shown = list(kind())
         save(shown, folder / name)

@@ -24,12 +24,13 @@ import fairing
 import shapes
 import test_held_curves
 import test_spread_pins
+import webp
 import windows
 from engine import FloatArray
 from stripes import Layer, View, facing, render
 
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
-PIXELS, COLOURS = 300, 48
+PIXELS = 420
 SEEDS = range(2, 8)
 GREY = (0.9, 0.9, 0.9)
 
@@ -142,7 +143,7 @@ def _save(name: str, rows: list[list[FloatArray]]) -> None:
     whole = np.vstack([np.hstack(row) for row in rows])
     picture = Image.fromarray((255 * whole).astype(np.uint8))
     size = (PIXELS * len(rows[0]), PIXELS * len(rows))
-    picture.resize(size, Image.Resampling.LANCZOS).quantize(COLOURS).save(PICTURES / name)
+    webp.save(picture.resize(size, Image.Resampling.LANCZOS), PICTURES / name)
 
 
 def pictures() -> None:
@@ -152,7 +153,7 @@ def pictures() -> None:
         view = facing(np.array(eye), patch.vertices.mean(axis=0), 1.15, 2 * PIXELS)
         states = [patch.noisy(0.25), _fair(patch, False).vertices, _fair(patch, True).vertices]
         rows.append([_shown(patch, points, view) for points in states])
-    _save("curves_creases.png", rows)
+    _save("curves_creases.webp", rows)
     patch = shapes.plane(4000)
     pin = test_spread_pins.near(patch, [(0.0, 0.0)])
     row = []
@@ -163,7 +164,7 @@ def pictures() -> None:
             result.vertices.mean(axis=0), 0.75, 2 * PIXELS,
         )  # fmt: skip
         row.append(render([Layer(result.vertices, patch.triangles, GREY, striped=True)], view))
-    _save("curves_pins.png", [row])
+    _save("curves_pins.webp", [row])
 
 
 TABLES: dict[str, Callable[[], None]] = {

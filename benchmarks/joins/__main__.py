@@ -2,7 +2,7 @@
 
     python benchmarks/joins [exact | fitted | cost | pictures …]
 
-The pictures docs/pictures/joins_*.png are written; that of Suzanne's ear needs bpy.
+The pictures docs/pictures/joins_*.webp are written; that of Suzanne's ear needs bpy.
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ import scenes
 
 import fairing
 import shapes
+import webp
 from stripes import Layer, render
 
-GREY, COLOURS = (0.9, 0.9, 0.9), 32
+GREY = (0.9, 0.9, 0.9)
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 
 
@@ -100,9 +101,8 @@ def _show(scene: scenes.Scene) -> None:
         print(scene.name, result.continuity, result.iterations, [str(warning) for warning in result.warnings])
         views.append(render([Layer(result.vertices, scene.drawn(), GREY, striped=True)], scene.view))
     both = Image.fromarray((255 * np.hstack(views)).astype(np.uint8))
-    both.resize((2 * scenes.PIXELS, scenes.PIXELS), Image.Resampling.LANCZOS).quantize(COLOURS).save(
-        PICTURES / f"joins_{scene.name}.png"
-    )
+    size = (2 * scenes.PIXELS, scenes.PIXELS)
+    webp.save(both.resize(size, Image.Resampling.LANCZOS), PICTURES / f"joins_{scene.name}.webp")
 
 
 TABLES: dict[str, Callable[[], None]] = {"exact": exact, "fitted": fitted, "cost": cost, "pictures": pictures}

@@ -11,7 +11,7 @@ from engine import FloatArray
 from meshing import IntArray
 from stripes import View, facing
 
-PIXELS = 360  # of a picture's side, which is drawn twice as fine
+PIXELS = 600  # of a picture's side, which is drawn twice as fine
 
 
 @dataclass(frozen=True)

@@ -61,7 +61,7 @@ def figure_1(folder: Path) -> str:
         _linear(fine, "uniform", "(e) the same, reflection lines", STRIPES),
         _linear(fine, "conformal", "(f) Δ²f = 0, conformal", FLAT),
     ]
-    save_sheet([first, second], folder / "paper_fig1.png")
+    save_sheet([first, second], folder / "paper_fig1.webp")
     gap = curved.distance(
         study.cases[fine], study.linear[fine, "uniform"], study.cases[coarse], study.linear[coarse, "uniform"]
     )
@@ -96,7 +96,7 @@ def figure_2(folder: Path) -> str:
             model = model_of(study.cases[count], study.ours((count, weights)))
             row.append((draw(model, BLEND_VIEW, PIXELS, look), f"({letter}) {text}"))
         rows.append(row)
-    save_sheet(rows, folder / "paper_fig2.png")
+    save_sheet(rows, folder / "paper_fig2.webp")
     gap = curved.distance(
         study.cases[fine], study.ours((fine, "uniform")), study.cases[coarse], study.ours((coarse, "uniform"))
     )
@@ -126,7 +126,7 @@ def figure_7(folder: Path) -> str:
             (draw(model_of(case, points), BLEND_VIEW, PIXELS, FLAT), f"{name}: {text}")
             for text, points in {**starts, "Δ_B H = 0": result}.items()
         ])  # fmt: skip
-    save_sheet(rows, folder / "paper_fig7.png")
+    save_sheet(rows, folder / "paper_fig7.webp")
     return f"Linear and improved start are away from the result by, in D: {'; '.join(words)}."
 
 
@@ -140,7 +140,7 @@ def figure_8(folder: Path) -> str:
         (draw(large, TETRA_VIEW, PIXELS, FINE), f"(b) {len(fine.vertices)} vertices"),
         (draw(large, TETRA_VIEW, PIXELS, Look("stripes", 0.0, 12.0)), "(c) reflection lines of (b)"),
     ]
-    save_sheet([row], folder / "paper_fig8.png")
+    save_sheet([row], folder / "paper_fig8.webp")
     gap = curved.distance(coarse, results[0].vertices, fine, results[1].vertices)
     return (
         f"(a) and (b) lie up to {gap:.1%} of D apart as curved surfaces; "
@@ -166,7 +166,7 @@ def figure_9(folder: Path, ear: Case) -> str:
         [(draw(scene_of(ear, points), view, PIXELS, look), f"{text}, {name}") for points, text in shown]
         for name, look in looks
     ]
-    save_sheet(rows, folder / "paper_fig9.png")
+    save_sheet(rows, folder / "paper_fig9.webp")
     gap = np.linalg.norm(linear - result.vertices, axis=1).max() / ear.diameter
     return (
         f"Vertices of the linear bilaplacian and ours lie up to {gap:.0%} of D apart; "
@@ -190,7 +190,7 @@ def figure_10(folder: Path, face: Case) -> str:
         (draw(scene_of(face, points, uv), view, PIXELS, checker), text)
         for points, text in ((face.vertices, "checker, before"), (conformal, "(d) conformal"), (even, "uniform"))
     ]
-    save_sheet([first, second], folder / "paper_fig10.png")
+    save_sheet([first, second], folder / "paper_fig10.webp")
     words = [
         f"{name} {np.median(ratio):.2f} (in 5 % of the triangles above {np.quantile(ratio, 0.95):.1f})"
         for name, ratio in (

@@ -1,4 +1,4 @@
-"""Contact sheets: pictures in rows with a caption under each, as small PNG files."""
+"""Contact sheets: pictures in rows with a caption under each, as WebP files."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
+import webp
 from rasteriser import FloatArray
 
 CAPTION = 26  # pixels
@@ -16,8 +17,8 @@ PAPER = (255, 255, 255)
 Panel = tuple[FloatArray, str]
 
 
-def save_sheet(rows: list[list[Panel]], path: Path, colours: int = 96) -> None:
-    """Writes the rows as one PNG with a palette; all pictures of a row have the same height."""
+def save_sheet(rows: list[list[Panel]], path: Path) -> None:
+    """Writes the rows as one WebP; all pictures of a row have the same height."""
     widths = [sum(picture.shape[1] + GAP for picture, _ in row) + GAP for row in rows]
     heights = [max(picture.shape[0] for picture, _ in row) + CAPTION + GAP for row in rows]
     sheet = Image.new("RGB", (max(widths), sum(heights) + GAP), PAPER)
@@ -32,5 +33,4 @@ def save_sheet(rows: list[list[Panel]], path: Path, colours: int = 96) -> None:
             pen.text(centre, caption, fill=(20, 20, 20), font=font, anchor="mm")
             left += picture.shape[1] + GAP
         top += height
-    path.parent.mkdir(parents=True, exist_ok=True)
-    sheet.quantize(colours, dither=Image.Dither.NONE).save(path, optimize=True)
+    webp.save(sheet, path)

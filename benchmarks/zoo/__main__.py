@@ -1,8 +1,8 @@
 """A zoo of real patches: which converge to the same surface from every start, and what the others say.
 
-    python benchmarks/zoo                          # 27 listed patches, 500 random ones; writes zoo.csv, zoo_worst.png
+    python benchmarks/zoo                          # 27 listed patches, 500 random ones; writes zoo.csv, zoo_worst.webp
     python benchmarks/zoo --patches 60 --weights conformal
-    python benchmarks/zoo --seed 1 --outlines 2   # several outlines; zoo_lofts.png: those whose surface no equation has
+    python benchmarks/zoo --seed 1 --outlines 2  # several outlines; zoo_lofts.webp: those whose surface no equation has
 
 Each patch is solved from its interior as given, flattened and noisy. *Same*: all converged, within 0.5 % of the patch's
 radius. *Told*: not the same, but no two that say that they converged differ. *Silent*: two such differ. *Folded*,
@@ -109,9 +109,9 @@ def main() -> int:
     records = [specimen.record for specimen in specimens]
     print("\n".join([HEADER, *table(records, {patch.name for patch in listed})]))
     print("\n".join(["", ANSWERS, answers("several outlines", [r for r in records if r.loops > 1])]))
-    contact_sheet.save(worst(specimens, 10), options.out / "zoo_worst.png")
+    contact_sheet.save(worst(specimens, 10), options.out / "zoo_worst.webp")
     lofts = [specimen for specimen in specimens if specimen.record.equation in ("loft", "smoothed")]
-    contact_sheet.save(lofts[:10], options.out / "zoo_lofts.png")
+    contact_sheet.save(lofts[:10], options.out / "zoo_lofts.webp")
     return int(sum(r.good for r in records) < GOAL * len(records) or not all(r.honest for r in records))
 
 

@@ -1,7 +1,7 @@
 """Pictures of real patches with several outlines that no harmonic surface joins: before, by that equation, as taken.
 
-    python benchmarks/zoo/outlines.py --seed 1 --out docs/pictures/smoothed.png   # docs/dev/accuracy_log
-    python benchmarks/zoo/outlines.py --seed 31 --out docs/pictures/lofts.png     # docs/least_variation
+    python benchmarks/zoo/outlines.py --seed 1 --out docs/pictures/smoothed.webp   # docs/dev/accuracy_log
+    python benchmarks/zoo/outlines.py --seed 31 --out docs/pictures/lofts.webp     # docs/least_variation
 
 Each row: the patch before, what came of the harmonic equation alone (`otherwise="stop"`), and what is taken, from two
 sides each. Stripes are lines of equal tilt, red is seen from behind. The title names the equation that holds. Needs the
@@ -23,6 +23,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "paper"))
 import numpy as np
 from PIL import Image, ImageDraw
 
+import webp
 from engine import LIMIT, Engine, FloatArray, Outcome
 from rasteriser import View, rasterise
 from real_meshes import RealPatch, random_patches
@@ -31,7 +32,6 @@ from stripes import vertex_normals
 ROOT = Path(__file__).resolve().parents[2]
 SIZE = 120  # pixels of a tile
 TITLE = 12
-COLOURS = 24  # of the picture, to keep it small
 PATCH, AROUND, BEHIND = (0.5, 0.75, 1.0), (0.9, 0.9, 0.9), (0.8, 0.3, 0.3)
 STRIPES = 16.0
 LEAST_SIDED = 0.2  # share of the patch's area that faces one way, for a view from there
@@ -118,13 +118,13 @@ def row(case: Case) -> Image.Image:
 
 
 def sheet(rows: list[Image.Image]) -> Image.Image:
-    """All rows, two side by side, in a few colours."""
+    """All rows, two side by side."""
     half = (len(rows) + 1) // 2
     width, height = rows[0].size
     picture = Image.new("RGB", (2 * width + TITLE, half * height), "white")
     for k, one in enumerate(rows):
         picture.paste(one, ((k // half) * (width + TITLE), (k % half) * height))
-    return picture.quantize(COLOURS)
+    return picture
 
 
 def main() -> int:
@@ -132,14 +132,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--patches", type=int, default=120, help="number of random patches, of all outlines")
     parser.add_argument("--seed", type=int, default=1, help="of the random patches")
-    parser.add_argument("--out", type=Path, default=ROOT / "build" / "zoo" / "outlines.png", help="the picture")
+    parser.add_argument("--out", type=Path, default=ROOT / "build" / "zoo" / "outlines.webp", help="the picture")
     options = parser.parse_args()
     rows = [row(case) for case in cases(options.patches, options.seed)]
     if not rows:
         print("every patch has a harmonic surface", file=sys.stderr)
         return 2
-    options.out.parent.mkdir(parents=True, exist_ok=True)
-    sheet(rows).save(options.out, optimize=True)
+    webp.save(sheet(rows), options.out)
     return 0
 
 
