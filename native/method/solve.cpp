@@ -194,10 +194,6 @@ Solution solve(const Problem& problem, double pin_radius, const Progress& progre
     return run.stand_in(run.equation());
 }
 
-Solution with_stand_in(const Problem& problem, Solution first, const Progress& progress) {
-    return PlanRun(problem, 0.0, progress).stand_in(std::move(first));
-}
-
 Solution solve_equation_alone(const Problem& problem, const Progress& progress) {
     return PlanRun(problem, 0.0, progress).equation();
 }
