@@ -192,7 +192,8 @@ Indices swallowed_vertices(const SeamMesh& mesh, const SeamDistance& distance, c
 
 // A seam that is a cap's longest side becomes the two sides over it, likewise a wall.
 void part_edges(const TurnedCap& turned, std::vector<VertexPair>& edges) {
-    const auto [a, b] = turned.ends;
+    const int a = turned.ends[0];
+    const int b = turned.ends[1];
     const auto at = std::find_if(edges.begin(), edges.end(),
                                  [&](const VertexPair& e) { return e == VertexPair{a, b} || e == VertexPair{b, a}; });
     if (at == edges.end()) return;

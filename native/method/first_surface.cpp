@@ -1,9 +1,7 @@
 #include "method/first_surface.h"
 
-#include "geometry/surface_fit.h"
 #include "method/levels.h"
 #include "method/traits.h"
-#include "problem/surface_state.h"
 #include "start/quick_surface.h"
 #include "start/several_outlines.h"
 
@@ -47,17 +45,6 @@ Points as_before(const Problem& problem) {
 }
 
 }  // namespace
-
-Solution as_solution(const Problem& problem, const Points& points) {
-    Solution solution;
-    solution.points = points;
-    solution.termination = Termination::converged;
-    solution.mean_curvature = measured_surface(problem, points).curvature.mean;
-    solution.boundary_normals = one_sided_normals(problem.patch, points);
-    solution.iterations = 1;
-    solution.provenance = Provenance::first_surface;
-    return solution;
-}
 
 Points first_surface(const Problem& problem, const Progress& progress) {
     std::optional<Points> points;

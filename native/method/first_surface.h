@@ -3,7 +3,6 @@
 
 #include "base/progress.h"
 #include "problem/problem.h"
-#include "problem/solution.h"
 
 namespace fairing {
 
@@ -11,8 +10,5 @@ namespace fairing {
 // own connectivity, the others between them. Where there is none, the shape before over the boundary as it is now.
 // Throws Cancelled.
 Points first_surface(const Problem& problem, const Progress& progress);
-
-// It as an answer, not judged.
-Solution as_solution(const Problem& problem, const Points& points);
 
 }  // namespace fairing

@@ -14,6 +14,7 @@
 #include "method/pinned.h"
 #include "method/placed.h"
 #include "method/plan.h"
+#include "problem/solution_at.h"
 #include "problem/surface_state.h"
 #include "stand_in/lofted.h"
 #include "stand_in/smoothed.h"
@@ -150,7 +151,7 @@ private:
             case Step::loft: return lofted(problem_, progress);
             case Step::first_surface: break;
         }
-        return as_solution(problem_, first_surface(problem_, progress));
+        return solution_at(problem_, first_surface(problem_, progress), Provenance::first_surface);
     }
 
     // Converged ones come first, by what is wrong with them.
@@ -193,10 +194,6 @@ Solution solve(const Problem& problem, double pin_radius, const Progress& progre
     return run.stand_in(run.equation());
 }
 
-Solution with_stand_in(const Problem& problem, Solution first, const Progress& progress) {
-    return PlanRun(problem, 0.0, progress).stand_in(std::move(first));
-}
-
 Solution solve_equation_alone(const Problem& problem, const Progress& progress) {
     return PlanRun(problem, 0.0, progress).equation();
 }
@@ -208,7 +205,7 @@ std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, 
     if (kind == Provenance::old_shape)
         return answer(problem, smoothed(problem, progress), name_of(Step::old_shape), watch);
     if (kind == Provenance::first_surface) {
-        Solution first = as_solution(problem, first_surface(problem, progress));
+        Solution first = solution_at(problem, first_surface(problem, progress), Provenance::first_surface);
         return answer(problem, std::move(first), name_of(Step::first_surface), watch);
     }
     if (Traits(problem).is_jagged) return std::nullopt;

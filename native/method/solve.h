@@ -21,9 +21,6 @@ Solution solve(const Problem& problem, double pin_radius, const Progress& progre
 // The equation alone: nothing stands in.
 Solution solve_equation_alone(const Problem& problem, const Progress& progress);
 
-// The answer where the equation's solution `first`, which is not accepted, is all that there is.
-Solution with_stand_in(const Problem& problem, Solution first, const Progress& progress);
-
 // One surface of those that stand in, at once. Nothing where it is not accepted. `near`: 3 × local vertices where the
 // surface of least variation is sought first.
 std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, const Progress& progress,

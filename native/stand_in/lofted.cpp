@@ -5,9 +5,9 @@
 
 #include "accept/accept.h"
 #include "geometry/face_geometry.h"
-#include "geometry/surface_fit.h"
 #include "placement/folds.h"
 #include "placement/refill.h"
+#include "problem/solution_at.h"
 #include "problem/surface_state.h"
 #include "start/globalisation.h"
 #include "start/loft.h"
@@ -76,13 +76,8 @@ std::vector<Candidate> candidates(const Problem& problem, const Progress& progre
     return found;
 }
 
-Solution solution_at(const Problem& problem, const Candidate& candidate) {
-    Solution solution;
-    solution.points = candidate.points;
-    solution.termination = Termination::converged;
-    solution.boundary_normals = one_sided_normals(problem.patch, candidate.points);
-    solution.iterations = 1;
-    solution.provenance = candidate.provenance;
+Solution judged(const Problem& problem, const Candidate& candidate) {
+    Solution solution = solution_at(problem, candidate.points, candidate.provenance);
     solution.flaw = flaw_of(problem, solution);
     return solution;
 }
@@ -96,7 +91,7 @@ std::optional<Solution> repaired(const Problem& problem, const Candidate& candid
     Candidate trial = candidate;
     for (const int reach : rings) {
         trial.points = refilled(problem.patch, candidate.points, flawed.bad_triangles, reach);
-        Solution solution = solution_at(problem, trial);
+        Solution solution = judged(problem, trial);
         if (is_accepted(solution)) return solution;
     }
     return std::nullopt;
@@ -108,7 +103,7 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
                      [](const Candidate& a, const Candidate& b) { return a.energy < b.energy; });
     std::vector<std::pair<Candidate, Solution>> flawed;
     for (Candidate& candidate : candidates) {
-        Solution solution = solution_at(problem, candidate);
+        Solution solution = judged(problem, candidate);
         if (is_accepted(solution)) return solution;
         flawed.emplace_back(std::move(candidate), std::move(solution));
     }
@@ -121,9 +116,7 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
 }  // namespace
 
 std::optional<Solution> lofted(const Problem& problem, const Progress& progress) {
-    auto solution = best_of(problem, candidates(problem, progress));
-    if (solution) solution->mean_curvature = measured_surface(problem, solution->points).curvature.mean;
-    return solution;
+    return best_of(problem, candidates(problem, progress));
 }
 
 }  // namespace fairing

@@ -5,8 +5,7 @@
 #include <queue>
 
 #include "accept/accept.h"
-#include "geometry/surface_fit.h"
-#include "problem/surface_state.h"
+#include "problem/solution_at.h"
 #include "shape/blemishes.h"
 #include "start/several_outlines.h"
 #include "start/shape_before.h"
@@ -47,18 +46,6 @@ std::optional<Points> smoothest(const Problem& problem, ShapeBefore& shape, cons
     return best;
 }
 
-Solution solution_at(const Problem& problem, const Points& points) {
-    Solution solution;
-    solution.points = points;
-    solution.termination = Termination::converged;
-    solution.mean_curvature = measured_surface(problem, points).curvature.mean;
-    solution.boundary_normals = one_sided_normals(problem.patch, points);
-    solution.iterations = 1;
-    solution.provenance = Provenance::old_shape;
-    solution.flaw = flaw_of(problem, solution);
-    return solution;
-}
-
 }  // namespace
 
 std::optional<Solution> smoothed(const Problem& problem, const Progress& progress) {
@@ -67,7 +54,8 @@ std::optional<Solution> smoothed(const Problem& problem, const Progress& progres
     if (!shape) return std::nullopt;
     const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points()), progress);
     if (!points) return std::nullopt;
-    Solution solution = solution_at(problem, *points);
+    Solution solution = solution_at(problem, *points, Provenance::old_shape);
+    solution.flaw = flaw_of(problem, solution);
     if (end_of(solution) != Termination::converged) return std::nullopt;
     return solution;
 }
