@@ -124,9 +124,11 @@ def swollen(before: tuple[Patch, Floats], after: tuple[Patch, Floats]) -> Ints:
 
     Each with its positions (p, 3).
     """
-    was, _ = _knobs(*before)
     patch, points = after
-    tops: Ints = patch.vertices[_knobs(patch, points, was)[1]]
+    _, found = _knobs(patch, points)
+    if len(found):  # else what was there before, which only makes them fewer, need not be measured
+        _, found = _knobs(patch, points, _knobs(*before)[0])
+    tops: Ints = patch.vertices[found]
     return tops
 
 

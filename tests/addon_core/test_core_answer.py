@@ -194,16 +194,19 @@ def test_a_hard_edge_outside_stays_and_one_that_is_rounded_inside_is_reported(ou
 def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = spoilt_sphere()
 
+    compared: list[float] = []
+
     def most_lifted(points: Floats, triangles: Ints, *, fixed: Ints, before: float = 0.0) -> tuple[float, Ints]:
-        if not before:
+        if not np.allclose(np.linalg.norm(points, axis=1), 1.0, atol=0.02):  # not fair: the spoilt one
             return knobs(points, triangles, fixed=fixed)
-        assert before > 0.1  # the spoilt one
-        np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1.0, atol=0.02)  # fair already
-        return before, np.setdiff1d(triangles, fixed)[:1]
+        compared.append(before)
+        return 1.0, np.setdiff1d(triangles, fixed)[:1]
 
     knobs = fairing.knobs
     monkeypatch.setattr(fairing, "knobs", most_lifted)
     verdict = fair(mesh).verdict
+    assert compared[0] == 0.0
+    assert compared[1] > 0.1  # what the spoilt one has
     assert verdict.grade == LOOK
     assert "knob" in verdict.reason
     assert np.isin(verdict.spots, pose(mesh, EYE, FairOptions())[0].patch.vertices).all()
