@@ -30,28 +30,20 @@ def finger(around: int, layers: int) -> tuple[FloatArray, shapes.IntArray, Float
     return vertices, np.vstack([lower, upper, tip]), rim
 
 
-@pytest.mark.parametrize(("around", "layers"), [(24, 20), (24, 60), (16, 60)])
-def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int) -> None:
-    """Vertices sit on curved triangles over the proxy: 1e-4 of D between its vertices."""
+@pytest.mark.parametrize(
+    ("around", "layers", "limit", "curvature"),
+    [*((a, n, 1e-4, 2e-2) for a, n in ((24, 20), (24, 60), (16, 60))), (40, 100, 2e-5, 5e-3)],
+)
+def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int, limit: float, curvature: float) -> None:
+    """Within a share of D, with its H, although H of a large mesh itself is noise near the tip."""
     vertices, triangles, rim = finger(around, layers)
     result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
     assert result.converged
-    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < 1e-4
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < limit
     assert result.vertices[:, 2].min() > -1e-9
     # of the unit sphere; a last step of 1e-6 D shows in H as 1e-6 / h²
-    np.testing.assert_allclose(result.mean_curvature, -1.0, atol=2e-2)
-
-
-def test_a_large_crowded_mesh_is_placed_level_by_level() -> None:
-    """The sphere to 2e-5 D with its H, although H of the mesh itself is noise near the tip."""
-    around = 40
-    vertices, triangles, rim = finger(around, 100)
-    result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
-    assert result.converged
-    assert len(result.levels) > 1
-    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < 2e-5
+    np.testing.assert_allclose(result.mean_curvature, -1.0, atol=curvature)
     assert not len(fairing.flipped_triangles(result.vertices, triangles))
-    np.testing.assert_allclose(result.mean_curvature, -1.0, atol=5e-3)
 
 
 @pytest.mark.parametrize("inner_fairness", ["uniform", "conformal"])
