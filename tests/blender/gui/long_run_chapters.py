@@ -98,7 +98,7 @@ def finish_a_long_run() -> Story:
     def reported() -> bool:
         nonlocal ticks
         ticks += 1
-        if ticks == 8:
+        if ticks == 2:
             screenshot("progress")
         return bool(report().free_vertices)
 
