@@ -50,15 +50,6 @@ def _seconds(row: Row) -> str:
     return f"{row['wall']:.3g} ({row['cpu']:.3g})" if "wall" in row else row["failure"]
 
 
-def memory(done: Measured) -> str:
-    """MB above the input."""
-    sizes = sorted({row["size"] for row in done.memory})
-    cells = {(row["tool"], row["size"]): f"{row['megabytes']:,.0f}" for row in done.memory}
-    names = [name for name in tools.BY_NAME if any((name, size) in cells for size in sizes)]
-    rows = [[name, *(cells.get((name, size), "–") for size in sizes)] for name in names]
-    return _table(["peak memory above the input, MB", *(f"{size:,}" for size in sizes)], rows)
-
-
 def errors(done: Measured) -> str:
     """A row for each shape whose exact surface is known: ours beside the nearest of the linear tools."""
     rows = []
@@ -102,7 +93,6 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "times": times,
-    "memory": memory, "repeated": repeated,
+    "machine": machine, "times": times, "repeated": repeated,
     "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip
