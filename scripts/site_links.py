@@ -19,8 +19,8 @@ def on_files(files: Any, /, *, config: Any) -> Any:
 
 
 def on_page_markdown(markdown: str, /, *, page: Any, **_: Any) -> str:
-    """Links that leave docs/ for one of these pages stay in the site."""
+    """Links that leave docs/ for one of these pages stay in the site; of others, which have no address, the words."""
     up = "../" * (page.file.src_uri.count("/") + 1)
     for name in PAGES:
         markdown = markdown.replace(f"]({up}{name}", f"]({up[3:]}{name}")
-    return markdown
+    return re.sub(rf"(?<!!)\[([^\[\]]+)\]\({re.escape(up)}[^()\s]+\)", r"\1", markdown)

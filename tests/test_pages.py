@@ -65,7 +65,7 @@ def test_lines_of_prose_are_short(page: Path) -> None:
 )
 def test_page_and_template_have_the_same_words(page: str, template: str) -> None:
     words = re.split(r"\{\{\w+\}\}", (ROOT / template).read_text(encoding="utf-8"))
-    assert len(words) > 4
+    assert len(words) > 1
     pattern = ".*?".join(re.escape(part) for part in words)
     assert re.fullmatch(pattern, (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
 

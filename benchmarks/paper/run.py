@@ -49,8 +49,7 @@ def parts(data: Path, pictures: Path) -> dict[str, Callable[[], str]]:
         "figure_8": lambda: figures.figure_8(pictures),
         "figure_9": lambda: figures.figure_9(pictures, all_cases()[2]),
         "figure_10": lambda: figures.figure_10(pictures, all_cases()[1]),
-        "methods": lambda: tables.methods_table(all_cases()),
-        "accuracy": lambda: tables.accuracy_table((1000, 4000, 16000)),
+        "accuracy": lambda: tables.accuracy_table((1000, 16000)),
         "convergence": lambda: convergence.convergence_plot(all_cases()[0], pictures / "paper_convergence.png"),
     }
 

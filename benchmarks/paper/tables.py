@@ -1,4 +1,4 @@
-"""The numbers of docs/paper.md: Table 1, the two methods against each other, distances to exact surfaces."""
+"""The numbers of docs/paper.md: Table 1, distances to exact surfaces."""
 
 from __future__ import annotations
 
@@ -6,8 +6,6 @@ import time
 from collections.abc import Callable
 from functools import partial
 from typing import Any
-
-import numpy as np
 
 import fairing
 import shapes
@@ -28,28 +26,20 @@ def timed(case: Case, **options: Any) -> tuple[fairing.FairResult, float]:
     return min(runs, key=lambda run: run[1])
 
 
-def furthest(case: Case, one: fairing.FairResult, other: fairing.FairResult) -> float:
-    """Largest distance between vertices of the same number, over D."""
-    return float(np.linalg.norm(one.vertices - other.vertices, axis=1).max() / case.diameter)
-
-
 def table_one(cases: list[Case]) -> str:
     """Table 1 with ours beside it; method "paper" at two tolerances."""
     lines = [
-        "| case | vertices | triangles | boundary | base mesh (theirs) | paper, s | with hierarchy, s | global, s "
-        "| 2001, s | residual: paper, global | largest boundary angle: paper, global | ended: paper, global |",
-        "| --- " * 12 + "|",
+        "| case | vertices | base mesh (theirs) | paper, s | global, s | 2001, s "
+        "| largest boundary angle: paper, global |",
+        "| --- " * 7 + "|",
     ]
     for case in cases:
         rough, paper = (timed(case, method="paper", tolerance=t) for t in (1e-4, 1e-6))
         quick, brief = timed(case)
         lines.append(
-            f"| {case.name} | {len(case.vertices)} | {len(case.triangles)} | {len(case.fixed)} "
-            f"| {paper[0].levels[0]} ({case.base}) | {_solving(*rough):.2f}, {_solving(*paper):.2f} "
-            f"| {rough[1]:.2f}, {paper[1]:.2f} | {brief:.2f} | {case.seconds:g} "
-            f"| {paper[0].residual:.1g}, {quick.residual:.1g} "
-            f"| {paper[0].boundary_angle.max():.1f}°, {quick.boundary_angle.max():.1f}° "
-            f"| {_ending(paper[0])}, {_ending(quick)} |"
+            f"| {case.name} | {len(case.vertices)} | {paper[0].levels[0]} ({case.base}) "
+            f"| {_solving(*rough):.2f}, {_solving(*paper):.2f} | {brief:.2f} | {case.seconds:g} "
+            f"| {paper[0].boundary_angle.max():.1f}°, {quick.boundary_angle.max():.1f}° |"
         )
     return "\n".join(lines)
 
@@ -57,30 +47,6 @@ def table_one(cases: list[Case]) -> str:
 def _solving(run: fairing.FairResult, seconds: float) -> float:
     """The seconds without the hierarchy's share."""
     return seconds * (1 - run.seconds["hierarchy"] / run.seconds["total"])
-
-
-def _ending(run: fairing.FairResult) -> str:
-    """How it ended, after how many steps of the finest mesh."""
-    words = run.termination.replace("_", " ")
-    return f"{words} ({run.iterations}{'' if run.polished or not run.converged else ', own mesh'})"
-
-
-def methods_table(cases: list[Case]) -> str:
-    """Same mesh, same normals, virtual points everywhere: how far the methods are apart; then fitted normals."""
-    lines = [
-        "| case | paper: updates, ended | global, averaged: steps, ended | paper from global, averaged "
-        "| global, averaged from fitted |",
-        "| --- " * 5 + "|",
-    ]
-    for case in cases:
-        paper = case.fair(method="paper", max_iterations=ENOUGH)
-        averaged = case.fair(normals="averaged", tolerance=1e-8, max_iterations=1000)
-        fitted = case.fair(tolerance=1e-8, max_iterations=1000)
-        lines.append(
-            f"| {case.name} | {_ending(paper)} | {_ending(averaged)} | {furthest(case, paper, averaged):.1e} "
-            f"| {furthest(case, averaged, fitted):.1e} |"
-        )
-    return "\n".join(lines)
 
 
 EXACT: dict[str, Callable[[int], Patch]] = {

@@ -54,7 +54,7 @@ def write_pages(path: Path, out: Path) -> None:
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         (out / name).write_text(page)
     charts.save(done, out / "pictures")
-    print(goals.table(done))
+    print(goals.table(done, notes=True))
 
 
 def main() -> int:

@@ -32,10 +32,12 @@ class Goal:
             return f"**missed**: no surface ({', '.join(self.unsolved)})"
         return "met" if self.measured <= self.most else "**missed**"
 
-    def line(self) -> str:
-        """A row of the table."""
+    def line(self, notes: bool) -> str:
+        """A row of the table, with its note or without."""
         value = "–" if self.measured is None else f"{self.measured:.3g}{self.unit}"
-        return f"| {self.text} | ≤ {self.most:g}{self.unit} | {value} | {self.verdict} | {self.note} |"
+        return f"| {self.text} | ≤ {self.most:g}{self.unit} | {value} | {self.verdict} |" + (
+            f" {self.note} |" if notes else ""
+        )
 
 
 def goals(done: Measured) -> list[Goal]:
@@ -46,10 +48,10 @@ def goals(done: Measured) -> list[Goal]:
     ]  # fmt: skip
 
 
-def table(done: Measured) -> str:
-    """As Markdown."""
-    head = "| | goal | measured | | |\n| --- | --: | --: | --- | --- |\n"
-    return head + "\n".join(goal.line() for goal in goals(done))
+def table(done: Measured, notes: bool = False) -> str:
+    """As Markdown; the notes name the worst shape."""
+    head = "| | goal | measured | |" + " |" * notes + "\n| --- | --: | --: | --- |" + " --- |" * notes
+    return "\n".join([head, *(goal.line(notes) for goal in goals(done))])
 
 
 def _at(done: Measured, size: int) -> dict[str, dict[str, Row]]:

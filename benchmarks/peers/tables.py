@@ -50,15 +50,6 @@ def _seconds(row: Row) -> str:
     return f"{row['wall']:.3g} ({row['cpu']:.3g})" if "wall" in row else row["failure"]
 
 
-def memory(done: Measured) -> str:
-    """MB above the input."""
-    sizes = sorted({row["size"] for row in done.memory})
-    cells = {(row["tool"], row["size"]): f"{row['megabytes']:,.0f}" for row in done.memory}
-    names = [name for name in tools.BY_NAME if any((name, size) in cells for size in sizes)]
-    rows = [[name, *(cells.get((name, size), "–") for size in sizes)] for name in names]
-    return _table(["peak memory above the input, MB", *(f"{size:,}" for size in sizes)], rows)
-
-
 def errors(done: Measured) -> str:
     """A row for each shape whose exact surface is known: ours beside the nearest of the linear tools."""
     rows = []
@@ -91,42 +82,6 @@ def repeated(done: Measured) -> str:
     return _table(head, rows)
 
 
-def graded(done: Measured) -> str:
-    """Ours on graded and regular meshes."""
-    rows = [
-        [row["kind"], f"{row['free']:,}", f"{row['wall']:.3g} ({row['cpu']:.3g})", str(row["steps"]), row["state"],
-         f"{row['error']:.1e}"]
-        for row in done.graded if "wall" in row
-    ]  # fmt: skip
-    return _table(["mesh of the hemisphere", "free", "ours, s", "outer steps", "ended", "error / D"], rows)
-
-
-def irregular(done: Measured) -> str:
-    """Ours on irregular meshes beside the regular ones, and the nearest of the linear tools on the same mesh."""
-    rows = []
-    for key in dict.fromkeys((row["shape"], row["size"]) for row in done.irregular):
-        here = [row for row in done.irregular if (row["shape"], row["size"]) == key and "cpu" in row]
-        ours = {row["regular"]: row for row in here if row["tool"] == OURS}
-        peer = min((row for row in here if row["tool"] != OURS), key=lambda row: float(row["error"]))
-        rows.append([
-            f"{key[0]}, {key[1]:,}", *(f"{ours[regular]['cpu']:.3g}" for regular in (False, True)),
-            f"{ours[False]['state']}", f"{ours[False]['error']:.1e}", f"{ours[True]['error']:.1e}",
-            f"{peer['tool']}: {peer['cpu']:.3g}, {peer['error']:.1e}",
-        ])  # fmt: skip
-    head = ["mesh", "ours, irregular, s", "regular, s", "ended", "error / D, irregular", "regular",
-            "nearest linear tool: s, error / D"]  # fmt: skip
-    return _table(head, rows)
-
-
-def real(done: Measured) -> str:
-    """Ours on meshes as users have them."""
-    rows = [
-        [row["mesh"], f"{row['free']:,}", f"{row['cpu']:.3g}", f"{row['cpu'] / row['clean']:.2f}", row["state"]]
-        for row in done.real
-    ]  # fmt: skip
-    return _table(["mesh", "free", "s of the processor", "÷ clean patch", "strategies"], rows)
-
-
 def steps(_: Measured) -> str:
     """Of PyMeshLab's smoothing."""
     return str(SMOOTHING_STEPS)
@@ -138,7 +93,6 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "times": times,
-    "graded": graded, "real": real, "irregular": irregular, "memory": memory, "repeated": repeated,
+    "machine": machine, "times": times, "repeated": repeated,
     "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip

@@ -88,8 +88,7 @@ def summary(rows: list[Row]) -> str:
     for wanted in sorted({row.wanted for row in rows}):
         cells = [cell([row for row in rows if (row.wanted, row.noise) == (wanted, noise)]) for noise in noises]
         lines.append(f"| {wanted} | {' | '.join(cells)} |")
-    places = ", ".join(dict.fromkeys(row.region for row in rows))
-    note = f"Median (worst) × clean; converged within {GOAL:g} ×, polished, converged of all. Regions: {places}."
+    note = f"Median (worst) × clean; converged within {GOAL:g} ×, polished, converged of all."
     return "\n".join([*lines, "", textwrap.fill(note, 120, break_on_hyphens=False)])
 
 
