@@ -161,7 +161,7 @@ def pictures() -> None:
         result, _ = test_spread_pins.lifted(patch, pin, [0.25], pin_radius=radius)
         view = View(
             np.array([0.0, 1.0, 0.0]), np.array([-0.95, 0.0, 0.3122]), np.array([-0.3122, 0.0, -0.95]),
-            result.vertices.mean(axis=0), 0.75, 2 * PIXELS,
+            result.vertices.mean(axis=0), 1.05, 2 * PIXELS,
         )  # fmt: skip
         row.append(render([Layer(result.vertices, patch.triangles, GREY, striped=True)], view))
     _save("curves_pins.webp", [row])

@@ -1,6 +1,6 @@
 """Pictures of real patches with several outlines that no harmonic surface joins: before, by that equation, as taken.
 
-    python benchmarks/zoo/outlines.py --seed 1 --out docs/pictures/smoothed.webp   # docs/dev/accuracy_log
+    python benchmarks/zoo/outlines.py --seed 1                                     # build/zoo/outlines.webp
     python benchmarks/zoo/outlines.py --seed 31 --out docs/pictures/lofts.webp     # docs/least_variation
 
 Each row: the patch before, what came of the harmonic equation alone (`otherwise="stop"`), and what is taken, from two
