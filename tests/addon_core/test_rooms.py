@@ -20,7 +20,13 @@ ROOMS: dict[str, set[str]] = {
     "follow": {"core", "host", "mesh", "run"},
     "show": {"core", "host", "mesh", "run", "follow"},
 }
-GROUND = {"loading", "preferences", "tab_name", "translations"}  # modules beside the rooms that import none of them
+GROUND = {
+    "loading",
+    "preferences",
+    "tab_name",
+    "templates",
+    "translations",
+}  # modules beside the rooms that import none of them
 BLENDER = {
     "core": set(),
     "host": {"blf", "bpy", "mathutils"},

@@ -162,14 +162,14 @@ def test_no_translation_is_empty_or_has_lost_its_figures(language: str) -> None:
 )
 def test_a_sentence_put_together_at_run_time_is_translated(said: str, german: str) -> None:
     texts = module("translations").languages()["de"]
-    assert module("core.templates").Templates(texts).translated(said).startswith(german)
+    assert module("templates").Templates(texts).translated(said).startswith(german)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_every_sentence_of_the_engine_finds_its_own_template(language: str) -> None:
     """Figures are put in; what comes out is the translation of this sentence and of no other."""
     texts = module("translations").languages()[language]
-    made = module("core.templates").Templates(texts)
+    made = module("templates").Templates(texts)
     for text in sentences():
         fields = re.findall(r"\{[^}]*\}", text)
         english, expected = text, texts[text]
