@@ -18,6 +18,7 @@ OPTIONS = (
     "-DCMAKE_CXX_COMPILER_LAUNCHER=",
     "-DCMAKE_CXX_FLAGS=-g1 -fsanitize-coverage=edge,inline-bool-flag,pc-table,no-prune",
     "-DCMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF",  # the marks of one file are lost otherwise
+    "-DCMAKE_STRIP=",  # places are found by what it would take away
     "-DFAIRING_WARNINGS_AS_ERRORS=OFF",
     "-DFAIRING_BUILD_TESTS=OFF",
 )
