@@ -107,7 +107,7 @@ def reach_lines(folder: Path, count: int, seed: int, most: int) -> None:
     from fairing import _core
 
     reach.counted(_core, count, seed, folder / f"reached, seed {seed}")
-    reach.report(folder, ROOT / "native", most)
+    reach.report(folder, folder / "marked/tree/native", most)
 
 
 def main() -> int:
