@@ -9,6 +9,7 @@ import bpy
 from bpy_extras import view3d_utils
 
 from ..translations import translated
+from .handlers import hear_events
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,7 +25,7 @@ class Picks:
         """Begin to wait; text: what is to be clicked."""
         context.window.cursor_modal_set("EYEDROPPER")
         context.workspace.status_text_set(f"{translated(text)}    [Esc] {translated('Cancel')}")
-        context.window_manager.modal_handler_add(self)
+        hear_events(context, self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

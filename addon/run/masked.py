@@ -100,7 +100,7 @@ class MESH_OT_fair_masked(FairProperties, Picks, Watched, bpy.types.Operator):
         description="Number of the face set, as it was clicked; 0: the only visible one",
         default=0,
         min=0,
-        options={"HIDDEN"},
+        options={"HIDDEN", "SKIP_SAVE"},  # or the next run would not ask
     )
     under_mouse: BoolProperty(
         name="Under the Mouse",

@@ -109,14 +109,7 @@ def menus_are_seen() -> Story:
         _mode(mode)
         yield 0.3
         for menu in menus:
-            move_mouse(*middle())
-            yield 0.2
-            with in_view():
-                bpy.ops.wm.call_menu(name=menu)
-            yield 0.7
-            screenshot(f"menu_{menu}")
-            press("ESC", *middle())
-            yield 0.3
+            yield from menu_is_seen(menu)
         with in_view():
             bpy.ops.wm.call_menu_pie(name="VIEW3D_MT_fair_pie")
         yield 0.7
@@ -124,6 +117,18 @@ def menus_are_seen() -> Story:
         press("ESC", *middle())
         yield 0.3
     _mode("OBJECT")
+
+
+def menu_is_seen(menu: str) -> Story:
+    """Open it at the pointer and close it again."""
+    move_mouse(*middle())
+    yield 0.2
+    with in_view():
+        bpy.ops.wm.call_menu(name=menu)
+    yield 0.7
+    screenshot(f"menu_{menu}")
+    press("ESC", *middle())
+    yield 0.3
 
 
 def tools_are_seen() -> Story:

@@ -160,6 +160,8 @@ def judge() -> Story:
     bpy.ops.ed.undo()
     yield 1.5
     screenshot("curvature_before")
+    (surface,) = module("show.overlay").overlay.surfaces
+    np.testing.assert_allclose(surface.positions, scenes.positions(), atol=1e-6)
     settings.show = False
     yield 0.5
     bpy.ops.wm.save_userpref()  # the command line finds the extension enabled
