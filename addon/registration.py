@@ -28,7 +28,8 @@ from .run.peek import MESH_OT_fair_peek
 from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import fillet_preview, keymap, marks, menus, overlay, tab, tools, ui
+from .run.strokes import MESH_OT_fair_stroke
+from .show import fillet_preview, gizmos, keymap, marks, menus, overlay, tab, tools, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
 
@@ -58,7 +59,9 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_reset,
     *presets.CLASSES,
     *menus.MENUS,
+    MESH_OT_fair_stroke,
     *tools.MACROS,
+    *gizmos.GROUPS,
     *TOOLS,
     MESH_OT_fair_again,
     watch.MESH_OT_fair_inspect,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from gpu_extras.presets import draw_circle_2d
 
 from ..run.masked import MESH_OT_fair_masked
 
@@ -30,7 +31,7 @@ class MESH_OT_fair_paint(bpy.types.Macro):
     bl_idname = "mesh.fair_paint"
     bl_label = "Fair Paint"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-    steps = ("VIEW3D_OT_select_circle", "MESH_OT_fair_region")
+    steps = ("MESH_OT_fair_stroke", "MESH_OT_fair_region")
 
 
 class MESH_OT_fair_fillet_edge(bpy.types.Macro):
@@ -73,19 +74,18 @@ class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
     bl_label = "Fair Paint"
     bl_description = "Paint over the faces to be faired and let go"
     bl_icon = "ops.generic.select_circle"
-    bl_keymap = (
-        (
-            MESH_OT_fair_paint.bl_idname,
-            {"type": "LEFTMOUSE", "value": "PRESS"},
-            {"properties": [("VIEW3D_OT_select_circle", [("wait_for_input", False)])]},
-        ),
-    )
+    bl_keymap = ((MESH_OT_fair_paint.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
         """Draw the radius and the options in the header."""
         properties = tool.operator_properties(MESH_OT_fair_paint.bl_idname)
-        layout.prop(properties.VIEW3D_OT_select_circle, "radius")
+        layout.prop(properties.MESH_OT_fair_stroke, "radius")
         _draw_fair(layout, tool, MESH_OT_fair_paint.bl_idname)
+
+    def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
+        """Draw the circle around the pointer."""
+        radius = tool.operator_properties(MESH_OT_fair_paint.bl_idname).MESH_OT_fair_stroke.radius
+        draw_circle_2d(xy, (1.0, 1.0, 1.0, 0.8), radius, segments=32)
 
 
 class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):

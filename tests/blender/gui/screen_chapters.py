@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import bmesh
 import bpy
+import numpy as np
 import scenes
 import spoilt_scenes
-from driver import Story, in_view, middle, move_mouse, press, screenshot, view
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from driver import Story, in_view, middle, move_mouse, press, screenshot, tell, view
+from mathutils import Vector
 from panel import (
     ID,
+    module,
     open_panels,
     open_redo_panel,
     open_tab,
@@ -172,6 +177,105 @@ def lasso_and_paint_fair() -> Story:
             bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
 
 
+def arrows_pull_the_last_run() -> Story:
+    """The middle of a faired region is pulled up, and back by one step; and a fillet is pulled wider."""
+    scenes.ear()
+    with in_view():
+        bpy.ops.view3d.view_selected()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.paint")
+    yield 0.5
+    before = scenes.positions()
+    report().free_vertices = 0
+    yield from _stroke()
+    yield from wait_until(_reported, 20.0)
+    yield 1.5
+    screenshot("arrow_bulge")
+    faired = scenes.positions()
+    foot, tip = _ends_of_arrow()
+    yield from _pull(tip, (1.5 * tip[0] - 0.5 * foot[0], 1.5 * tip[1] - 0.5 * foot[1]))
+
+    def follows() -> bool:
+        return abs(scenes.positions() - faired).max() > 1e-3
+
+    yield from wait_until(follows, 10.0)
+    yield 1.0
+    screenshot("arrow_bulge_pulled")
+    moved = [np.flatnonzero((after != before).any(axis=1)) for after in (faired, scenes.positions())]
+    np.testing.assert_array_equal(*moved, "the run again was about other faces than those painted over")
+    tell(f"bulge pulled to {bpy.context.active_operator.properties.MESH_OT_fair_region.bulge:.3f}")
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert (scenes.positions() == before).all(), "one step back is not where it began"
+    yield from _wider_fillet()
+    with in_view():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+
+
+def _wider_fillet() -> Story:
+    scenes.clear()
+    bpy.ops.mesh.primitive_cube_add()
+    scenes.start(np.arange(6) == 0)
+    with in_view():
+        bpy.ops.view3d.view_all()
+        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.fillet")
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(bpy.context.object.data)
+    for edge in bm.edges:
+        edge.select_set(all(v.co.x > 0.0 and v.co.z > 0.0 for v in edge.verts))
+    bpy.ops.ed.undo_push(message="edge")
+    with in_view():
+        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3)
+    yield 1.5
+    screenshot("arrow_width")
+    foot, away = module("run.fillet").handle.flank
+    count = len(scenes.positions())
+    begin, end = _in_window(foot + 0.35 * away, foot + 0.9 * away)
+    yield from _pull(begin, end)
+
+    def wider() -> bool:
+        return bpy.context.active_operator.properties.width > 0.5 and len(scenes.positions()) != 8
+
+    yield from wait_until(wider, 10.0)
+    yield 1.0
+    screenshot("arrow_width_pulled")
+    tell(f"width pulled to {bpy.context.active_operator.properties.width:.3f}; {count} vertices before")
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert len(scenes.positions()) == 8, "one step back is not the cube"
+
+
+def _ends_of_arrow() -> tuple[Any, Any]:
+    """Foot and tip of the arrow that stands in the view, in pixels of the window."""
+    middle_of = module("run.last_run").middle
+    with in_view():
+        place, normal, radius = middle_of(bpy.context)
+    return _in_window(place, place + 0.1 * radius * normal)
+
+
+def _in_window(*places: Any) -> tuple[tuple[int, int], ...]:
+    """Places in world space, in pixels of the window."""
+    _, area, region = view()
+    there = [location_3d_to_region_2d(region, area.spaces.active.region_3d, Vector(place)) for place in places]
+    return tuple((int(p.x) + region.x, int(p.y) + region.y) for p in there)
+
+
+def _pull(begin: Any, end: Any, steps: int = 10) -> Story:
+    """Press there, drag, and let go."""
+    window = view()[0]
+    for x, y in (begin, (begin[0] + 1, begin[1]), begin):  # a gizmo lights up first
+        move_mouse(int(x), int(y))
+        yield 0.2
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=int(begin[0]), y=int(begin[1]))
+    for k in range(1, steps + 1):
+        yield 0.1
+        move_mouse(*(int(b + (e - b) * k / steps) for b, e in zip(begin, end, strict=True)))
+    yield 0.5
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=int(end[0]), y=int(end[1]))
+    yield 0.5
+
+
 def _stroke() -> Story:
     """Go once around the middle with the button held."""
     x, y = middle()
@@ -219,6 +323,7 @@ SCREENS = (
     menus_are_seen,
     tools_are_seen,
     lasso_and_paint_fair,
+    arrows_pull_the_last_run,
     overlays_are_seen,
     preferences_are_seen,
 )
