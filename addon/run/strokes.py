@@ -10,6 +10,8 @@ from typing import Any
 import bpy
 from bpy.props import CollectionProperty, IntProperty
 
+from ..host.handlers import hear_events
+
 STEP = 0.5  # of the radius, from one place to the next
 
 
@@ -17,19 +19,19 @@ class Stroke:
     """What such an operator needs besides `dab`, which does something at one place, and `let_go`."""
 
     radius: IntProperty(name="Radius", description="Of the circle", default=25, min=1, soft_max=300, subtype="PIXEL")
-    path: CollectionProperty(type=bpy.types.OperatorMousePath, options={"HIDDEN", "SKIP_SAVE"})
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+    _at: tuple[float, float] | None = None  # the last place, in pixels of the region
+
+    def begin_stroke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin where the pointer is."""
-        self.path.clear()
-        self._go_to(context, event.mouse_region_x, event.mouse_region_y)
-        context.window_manager.modal_handler_add(self)
+        self._go_to(context, event)
+        hear_events(context, self)
         return {"RUNNING_MODAL"}
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+    def follow_stroke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Follow the pointer."""
         if event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}:
-            self._go_to(context, event.mouse_region_x, event.mouse_region_y)
+            self._go_to(context, event)
         elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
             return self.let_go(context)
         elif event.type in {"ESC", "RIGHTMOUSE"}:
@@ -37,11 +39,11 @@ class Stroke:
             return {"CANCELLED"}
         return {"RUNNING_MODAL"}
 
-    def _go_to(self, context: bpy.types.Context, x: int, y: int) -> None:
-        before = self.path[-1].loc[:] if len(self.path) else (x, y)
-        for place in between(before, (x, y), max(1.0, STEP * self.radius)):
-            self.path.add().loc = place
+    def _go_to(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        there = (float(event.mouse_region_x), float(event.mouse_region_y))
+        for place in between(self._at or there, there, max(1.0, STEP * self.radius)):
             self.dab(context, *place)
+        self._at = there
 
 
 def between(before: Any, after: Any, step: float) -> Iterator[tuple[float, float]]:
@@ -59,12 +61,23 @@ class MESH_OT_fair_stroke(Stroke, bpy.types.Operator):
     bl_label = "Select by Stroke"
     bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
 
+    path: CollectionProperty(type=bpy.types.OperatorMousePath, options={"HIDDEN", "SKIP_SAVE"})
+
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has something to select."""
         return context.mode == "EDIT_MESH"
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin where the pointer is."""
+        self.path.clear()
+        return self.begin_stroke(context, event)
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Follow the pointer."""
+        return self.follow_stroke(context, event)
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
         """Go along the path again, as a change of an option asks for."""
         for k, point in enumerate(self.path):
             self._select(point.loc[0], point.loc[1], "ADD" if k else "SET")
@@ -72,6 +85,7 @@ class MESH_OT_fair_stroke(Stroke, bpy.types.Operator):
 
     def dab(self, _context: bpy.types.Context, x: float, y: float) -> None:
         """Select what is under the circle, and nothing else at first."""
+        self.path.add().loc = (x, y)
         self._select(x, y, "ADD" if len(self.path) > 1 else "SET")
 
     def let_go(self, _context: bpy.types.Context) -> set[str]:

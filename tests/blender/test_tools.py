@@ -35,7 +35,7 @@ def in_toolbar(mode: str) -> list[str]:
 
 def test_each_mode_has_its_tools() -> None:
     assert in_toolbar("EDIT_MESH") == ["lasso", "paint", "fillet"]
-    assert in_toolbar("SCULPT") == ["face_set"]
+    assert in_toolbar("SCULPT") == ["brush", "face_set"]
     assert in_toolbar("OBJECT") == ["face_set"]
 
 
@@ -120,7 +120,12 @@ def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch)
     bpy.context.view_layer.objects.active = obj
     picked = int(np.flatnonzero(faces)[0])
     monkeypatch.setattr(masked, "face_under_mouse", lambda *_: picked)
-    parts = (module("run.background").Watched, module("host.picking").Picks, masked.MESH_OT_fair_masked)
+    parts = (
+        module("run.background").Watched,
+        module("host.picking").Picks,
+        module("run.outside").FairsOutside,
+        masked.MESH_OT_fair_masked,
+    )
     methods = {name: value for part in parts for name, value in vars(part).items() if not name.startswith("__")}
     methods.pop("bl_rna", None)
     stand = give_options(type("Stand", (), {**methods, "report": lambda *_: None})())

@@ -14,6 +14,7 @@ from driver import Story, in_view, middle, move_mouse, press, screenshot, tell, 
 from mathutils import Vector
 from panel import (
     ID,
+    drag_over,
     module,
     open_panels,
     open_redo_panel,
@@ -25,9 +26,11 @@ from panel import (
     wait_until,
 )
 
+# Once around the middle.
+AROUND = [(90, 0), (64, 64), (0, 90), (-64, 64), (-90, 0), (-64, -64), (0, -90), (64, -64), (90, -10)]
 TOOLS = {
     "EDIT_MESH": ("intrinsic_fairing.lasso", "intrinsic_fairing.paint", "intrinsic_fairing.fillet"),
-    "SCULPT": ("intrinsic_fairing.face_set",),
+    "SCULPT": ("intrinsic_fairing.brush", "intrinsic_fairing.face_set"),
     "OBJECT": ("intrinsic_fairing.face_set",),
 }
 MENUS = {
@@ -165,7 +168,7 @@ def lasso_and_paint_fair() -> Story:
         yield 0.5
         before = scenes.positions()
         report().free_vertices = 0
-        yield from _stroke()
+        yield from drag_over(AROUND)
         yield from wait_until(_reported, 20.0)
         yield 1.0
         screenshot(f"stroke_{tool}")
@@ -187,7 +190,7 @@ def arrows_pull_the_last_run() -> Story:
     yield 0.5
     before = scenes.positions()
     report().free_vertices = 0
-    yield from _stroke()
+    yield from drag_over(AROUND)
     yield from wait_until(_reported, 20.0)
     yield 1.5
     screenshot("arrow_bulge")
@@ -274,22 +277,6 @@ def _pull(begin: Any, end: Any, steps: int = 10) -> Story:
     yield 0.5
     window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=int(end[0]), y=int(end[1]))
     yield 0.5
-
-
-def _stroke() -> Story:
-    """Go once around the middle with the button held."""
-    x, y = middle()
-    window = view()[0]
-    around = [(90, 0), (64, 64), (0, 90), (-64, 64), (-90, 0), (-64, -64), (0, -90), (64, -64), (90, -10)]
-    places = [(x + dx, y + dy) for dx, dy in around]
-    move_mouse(*places[0])
-    yield 0.2
-    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=places[0][0], y=places[0][1])
-    for px, py in places:
-        yield 0.1
-        move_mouse(px, py)
-    yield 0.1
-    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=places[-1][0], y=places[-1][1])
 
 
 def overlays_are_seen() -> Story:

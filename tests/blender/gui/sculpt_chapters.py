@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import spoilt_scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from panel import ID, open_redo_panel, open_tab, report, run_operator, run_with, wait_until
+from panel import ID, drag_over, open_redo_panel, open_tab, report, run_operator, run_with, wait_until
 
 
 def _reported() -> bool:
@@ -111,6 +111,38 @@ def _clicked_and_undone(name: str) -> Story:
 
     yield from wait_until(back, 10.0)  # one step; a slow window takes its time
     assert report().undone, "a run that was undone is shown as the last"
+
+
+def brush_in_sculpt_mode() -> Story:
+    """A dent is painted over: on release it is fair, one step back brings it again; a small radius says so."""
+    spoilt_scenes.dented()
+    with in_view():
+        bpy.ops.view3d.view_all()
+        bpy.ops.object.mode_set(mode="SCULPT")
+        bpy.ops.ed.undo_push(message="start")
+        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.brush")
+        bpy.context.workspace.tools.from_space_view3d_mode("SCULPT").operator_properties("mesh.fair_brush").radius = 110
+    open_tab()
+    yield 1.0
+    screenshot("brush_before")
+    before = _now()
+    report().free_vertices = 0
+    yield from drag_over([(-200, 40), (-120, 40), (-160, 80), (-160, 0), (-190, 60)], "brush_painting")
+    yield from wait_until(_reported, 30.0)
+    yield 1.0
+    assert report().written, report().reason
+    after = _now()
+    assert np.abs(after - before).max() > 1e-2
+    assert (after[:, 3] == before[:, 3]).all(), "the mask was changed"
+    screenshot("brush_after")
+    yield from _undo()
+
+    def back() -> bool:
+        return np.array_equal(_now(), before)
+
+    yield from wait_until(back, 10.0)
+    with in_view():
+        bpy.ops.object.mode_set(mode="OBJECT")
 
 
 def fills_a_hole() -> Story:

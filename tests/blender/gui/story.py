@@ -45,7 +45,7 @@ from panel import (
     wait_until,
 )
 from screen_chapters import SCREENS
-from sculpt_chapters import face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
+from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
 from verdict_chapters import (
     again_in_other_ways,
     joins_curvature,
@@ -207,6 +207,7 @@ CHAPTERS = (
     fillet_is_dragged,
     masked_in_sculpt_mode,
     face_set_by_a_click,
+    brush_in_sculpt_mode,
     live_follows_a_drag,
     live_follows_a_pin,
     live_moves_the_far_side,
