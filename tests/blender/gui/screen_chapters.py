@@ -182,6 +182,7 @@ def lasso_and_paint_fair() -> Story:
 
 def arrows_pull_the_last_run() -> Story:
     """The middle of a faired region is pulled up, and back by one step; and a fillet is pulled wider."""
+    open_tab()
     scenes.ear()
     with in_view():
         bpy.ops.view3d.view_selected()
@@ -269,7 +270,7 @@ def _pull(begin: Any, end: Any, steps: int = 10) -> Story:
     window = view()[0]
     for x, y in (begin, (begin[0] + 1, begin[1]), begin):  # a gizmo lights up first
         move_mouse(int(x), int(y))
-        yield 0.2
+        yield 0.5
     window.event_simulate(type="LEFTMOUSE", value="PRESS", x=int(begin[0]), y=int(begin[1]))
     for k in range(1, steps + 1):
         yield 0.1
