@@ -104,7 +104,7 @@ def redo_with(**properties: Any) -> None:
     for name, value in properties.items():
         setattr(operator.properties, name, value)
     with in_view():
-        bpy.ops.ed.undo_redo()
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
 
 
 def drag(steps: int, by: tuple[int, int], axis: str = "") -> Story:
