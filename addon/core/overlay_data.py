@@ -27,6 +27,7 @@ class Surface:
     curvature: Floats  # (n,) H in 1/length, negative where it is convex from outside
     gaussian: Floats  # (n,) K in 1/length²
     deviation: Floats  # (n,) from the surface before the last run, in world space
+    boundary: Floats  # (e, 2, 3) edges around the patch
 
     def values(self, mode: str) -> Floats:
         """Return what is drawn in colours (n,): CURVATURE, GAUSSIAN, PRINCIPAL or DEVIATION."""
@@ -77,7 +78,15 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Float
             curvature=fairing.mean_curvature(positions, triangles),
             gaussian=gaussian_curvature(positions, triangles, normals),
             deviation=np.zeros(len(used)) if deviation is None else deviation[used],
+            boundary=world.positions[_edges_around(world.triangles[world.in_patch[world.triangle_faces]])],
         )
+
+
+def _edges_around(triangles: Ints) -> Ints:
+    """Return the edges (e, 2) of one triangle alone."""
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    _, first, counts = np.unique(sides[:, 0] << 32 | sides[:, 1], return_index=True, return_counts=True)
+    return sides[first[counts == 1]]
 
 
 def _grown(triangles: Ints, shown: Mask) -> Mask:

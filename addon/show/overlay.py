@@ -5,6 +5,7 @@ Measured after each change of the mesh (a timer on the main thread), drawn at ea
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -24,7 +25,7 @@ from ..host.status import redraw_views
 from ..mesh import mesh_io, selecting
 from ..mesh.deviation import deviation
 from ..run import compare
-from . import combs, legend
+from . import legend, lines
 from .overlay_shader import make_shader
 
 DELAY = 0.02  # seconds from a change to the next measurement
@@ -57,7 +58,8 @@ class Overlay:
         matrix = np.array(obj.matrix_world, dtype=np.float64)
         wanted = bpy.context.window_manager.fairing_overlay.mode == "DEVIATION"
         try:
-            return make_surface(mesh, matrix, whole, _deviation(obj.name, mesh, matrix) if wanted else None)
+            surface = make_surface(mesh, matrix, whole, _deviation(obj.name, mesh, matrix) if wanted else None)
+            return surface if obj.data.is_editmode else replace(surface, boundary=np.empty((0, 2, 3)))
         except ValueError as cause:  # no surface: a message instead of a wrong picture
             self.message = f"{obj.name}: {cause}"
             return None
@@ -65,7 +67,7 @@ class Overlay:
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the surfaces into the 3D view that is being drawn."""
         if self.combs:
-            combs.draw(context, self.combs, full_colour(context.window_manager.fairing_overlay))
+            lines.draw_combs(context, self.combs, full_colour(context.window_manager.fairing_overlay))
         if not self.surfaces:
             return
         if self._shader is None:
@@ -81,6 +83,9 @@ class Overlay:
             batch.draw(self._shader)
         gpu.state.blend_set("NONE")
         gpu.state.depth_test_set("NONE")
+        for surface in self.surfaces:
+            if len(surface.boundary):
+                lines.draw_boundary(context, surface.boundary)
 
     def clear(self) -> None:
         """Drop everything measured."""

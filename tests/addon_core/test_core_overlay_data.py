@@ -25,6 +25,8 @@ def test_curvature_of_a_selection_is_that_of_the_sphere_up_to_its_border() -> No
     np.testing.assert_allclose(surface.curvature[shown], -0.5, rtol=2e-2)  # convex, radius 2
     np.testing.assert_allclose(surface.normals[shown], surface.positions[shown] / 2.0, atol=1e-2)
     assert surface.largest_curvature == pytest.approx(0.5, rel=2e-2)
+    assert surface.boundary.shape == (4 * 8, 2, 3)
+    np.testing.assert_allclose(np.linalg.norm(surface.boundary, axis=2), 2.0, rtol=1e-6)
 
 
 def test_a_selection_is_measured_with_what_surrounds_it() -> None:

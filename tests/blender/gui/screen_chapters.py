@@ -291,7 +291,7 @@ def peeks_while_a_key_is_held() -> Story:
     fair, window = scenes.positions(), view()[0]
     screenshot("peek_after")
     window.event_simulate(type="B", value="PRESS", x=middle()[0], y=middle()[1], alt=True, shift=True)
-    yield 1.0
+    yield 4.0
     screenshot("peek_before")
     assert np.array_equal(scenes.positions(), scenes.original()), "the key that is held does not show the shape before"
     for type_ in ("B", "LEFT_ALT", "LEFT_SHIFT"):  # Blender sends the release without what was held with it
