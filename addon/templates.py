@@ -45,7 +45,10 @@ class Templates:
             places = [met.start() for met in re.finditer(re.escape(joint), text)]
             for place in places:
                 head, rest = text[:place], text[place + len(joint) :]
-                first, second = self._found(head), self._found(rest) or self._in_parts(rest)
+                first, tail = self._found(head), self._found(joint + rest)  # what is only ever said after something
+                if tail:
+                    return f"{first or head}{tail}"
+                second = self._found(rest) or self._in_parts(rest)
                 if first or second:
                     return f"{first or head}{joint}{second or rest}"
         return ""

@@ -32,7 +32,7 @@ def average_normals(mesh: MeshArrays, at: Ints) -> Floats:
 def custom_normals(mesh: MeshArrays) -> Floats:
     """Return (n, 3): the normalised mean of each vertex's corner normals."""
     if mesh.corner_normals is None:
-        raise ValueError("boundary_normals: the mesh was read without its corner normals")
+        raise ValueError("boundary_normals: expected a mesh that was read with its corner normals")
     return unit(sum_at(mesh.corner_vertices, mesh.corner_normals, len(mesh.positions)))
 
 

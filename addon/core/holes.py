@@ -16,9 +16,6 @@ from .islands import islands_inside
 from .region import MeshArrays, nothing
 from .words import counted
 
-_OUTSIDE = "around the outside of a sheet of faces"
-_ALL_THE_SAME = "to fill one all the same, select it alone"
-
 
 @dataclass(frozen=True)
 class Borders:
@@ -49,7 +46,10 @@ class Borders:
         edges = counted(sum(map(len, self.left_open)), "edge", "edges")
         stay = "stays open" if len(self.left_open) == 1 else "stay open"
         first = min(int(loop.min()) for loop in self.left_open)
-        return (f"{text} {_OUTSIDE} and {stay} ({edges}, one at vertex {first}): {_ALL_THE_SAME}",)
+        return (
+            f"{text} around the outside of a sheet of faces and {stay} ({edges}, one at vertex {first}): "
+            "to fill one all the same, select it alone",
+        )
 
     def _on_longer(self) -> tuple[str, ...]:
         if not self.longer:
@@ -113,12 +113,23 @@ def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders, islands: boo
         outer[list(islands_inside(world, loops, outer))] = False
     if outer.all() and not borders.halves:
         refuse_all(borders.left)
-        each = "The border runs" if len(loops) == 1 else f"All {len(loops)} borders run"
-        raise BorderRefusal(f"{each} {_OUTSIDE}, there is no hole: {_ALL_THE_SAME}", np.concatenate(loops))
+        raise BorderRefusal(_all_outside(len(loops)), np.concatenate(loops))
     pairs = list(zip(loops, outer.tolist(), strict=True))
     left_open = tuple(loop for loop, out in pairs if out)
     left_open = (*borders.left_open, *left_open)
     return replace(borders, loops=[loop for loop, out in pairs if not out], left_open=left_open)
+
+
+def _all_outside(count: int) -> str:
+    if count == 1:
+        return (
+            "The border runs around the outside of a sheet of faces, there is no hole: to fill it all the same, "
+            "select it alone"
+        )
+    return (
+        f"All {count} borders run around the outside of a sheet of faces, there is no hole: to fill one all the same, "
+        "select it alone"
+    )
 
 
 def short_among(mesh: MeshArrays, matrix: Floats, borders: Borders, options: FillOptions) -> Borders:
@@ -146,8 +157,8 @@ def short_among(mesh: MeshArrays, matrix: Floats, borders: Borders, options: Fil
         refuse_all(borders.left)
         text = "All borders are longer than that"
         if borders.loops:
-            shortest = f"{min(map(len, borders.loops))} edges, the shortest is {min(sizes):.4g} long"
-            text += f": the one with the fewest has {shortest}"
+            edges, length = min(map(len, borders.loops)), min(sizes)
+            text = f"{text}: the one with the fewest has {edges} edges, the shortest is {length:.4g} long"
         raise BorderRefusal(text, borders.vertices)
     longer = len(borders.loops) - len(kept) + len(borders.halves) - len(halves)
     return replace(borders, loops=kept, halves=halves, longer=longer)

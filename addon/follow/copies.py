@@ -24,6 +24,7 @@ from ..host.polling import require
 from ..mesh import live_mesh, painted
 from ..mesh.copied import refill
 from ..run.fair_mesh import fair_faces
+from ..translations import translated
 from .inspection import last_options
 
 TIE = "Fair Source"  # the modifier
@@ -89,7 +90,7 @@ class OBJECT_OT_fair_copy(bpy.types.Operator):
         reason = rebuild(copy, source, context.evaluated_depsgraph_get())
         if reason:
             bpy.data.meshes.remove(copy.data)
-            self.report({"ERROR"}, f"{source.name}: {reason}")
+            self.report({"ERROR"}, translated(f"{source.name}: {reason}"))
             return {"CANCELLED"}
         source.select_set(False)
         source.hide_render = True
@@ -116,7 +117,7 @@ class OBJECT_OT_fair_copies_update(bpy.types.Operator):
         for copy, source in copies(context.scene):
             reason = rebuild(copy, source, context.evaluated_depsgraph_get())
             if reason:
-                self.report({"WARNING"}, f"{copy.name}: {reason}")
+                self.report({"WARNING"}, translated(f"{copy.name}: {reason}"))
         return {"FINISHED"}
 
 

@@ -16,6 +16,7 @@ from ..core.signals import live_changed
 from ..host.context import edited_objects
 from ..host.polling import require, require_edit_mode
 from ..mesh import live_mesh, mesh_io, selecting
+from ..translations import translated
 
 
 class FairLive(bpy.types.PropertyGroup):
@@ -85,7 +86,7 @@ class MESH_OT_fair_live_far_side(bpy.types.Operator):
                 context.tool_settings.mesh_select_mode = (False, False, True)
                 selecting.select_faces(obj.data, sides[at % len(sides)])
         if not found:
-            self.report({"INFO"}, "The live region cuts nothing off: there is no far side")
+            self.report({"INFO"}, translated("The live region cuts nothing off: there is no far side"))
             return {"CANCELLED"}
         return {"FINISHED"}
 

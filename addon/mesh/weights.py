@@ -62,7 +62,7 @@ def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options
     if options.factor_mask == "USED":
         mask = values(mesh, SCULPT_MASK, np.float32)
         if mask is None:
-            raise ValueError("factor_mask: nothing is masked. Paint a mask in sculpt mode, or choose Ignored")
+            raise ValueError("Nothing is masked: paint a mask in sculpt mode, or turn Use Mask off")
         parts *= np.clip(mask, 0.0, 1.0)
     return parts
 

@@ -180,7 +180,7 @@ class Watched:
         assert self._run is not None
         self._stop_watching()
         if not self._is_current(context):
-            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
+            self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
             return {"CANCELLED"}
         try:
             outcomes = self._run.result()

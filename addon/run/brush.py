@@ -19,6 +19,7 @@ from ..host.dragging import pixel_size
 from ..host.picking import place_at
 from ..host.polling import require
 from ..mesh import painted
+from ..translations import translated
 from .background import Watched
 from .outside import FairsOutside, Task, check_shown
 from .strokes import Stroke
@@ -61,7 +62,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         try:
             check_shown(obj)
         except ValueError as cause:
-            self.report({"ERROR"}, f"{obj.name}: {cause}")
+            self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))
             return {"CANCELLED"}
         self.dabs.clear()
         self._positions = painted.positions(obj.data)
@@ -103,7 +104,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         """Fair, in the background where that takes a while."""
         self._hide()
         if not len(self.dabs):
-            self.report({"INFO"}, "There is no face under the mouse")
+            self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
         return self._begin_with(context, self._solve_or_start)
 

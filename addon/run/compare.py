@@ -154,5 +154,5 @@ class MESH_OT_fair_compare(bpy.types.Operator):
         except Changed as change:
             self.report({"ERROR"}, translated(str(change)))
             return {"CANCELLED"}
-        self.report({"INFO"}, "Shown: the result" if shows_result else "Shown: the shape before")
+        self.report({"INFO"}, translated("Shown: the result" if shows_result else "Shown: the shape before"))
         return {"FINISHED"}

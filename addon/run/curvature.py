@@ -14,6 +14,7 @@ from ..host.context import active_object
 from ..host.polling import require
 from ..mesh import mesh_io
 from ..mesh.attributes import write_attribute
+from ..translations import translated
 
 NAME = "mean_curvature"
 
@@ -47,6 +48,6 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
                 values = fairing.mean_curvature(world.positions, world.triangles)
             write_attribute(obj.data, NAME, values)
         except ValueError as cause:
-            self.report({"ERROR"}, f"{obj.name}: {cause}")
+            self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))
             return {"CANCELLED"}
         return {"FINISHED"}

@@ -241,7 +241,8 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         width = self._typed.text or f"{self.width:.4g}"
         new = sum(len(each.result.vertices) for each in self._shown[1]) if self._shown else 0
         text = f"Width {width}   Profile {self.profile:+.2f}   {new} vertices   {self._reason}"
-        say(context, text + "   [Click] Accept   [Wheel] Profile   [0-9] Width   [Shift] Precise   [Esc] Cancel")
+        keys = translated("   [Click] Accept   [Wheel] Profile   [0-9] Width   [Shift] Precise   [Esc] Cancel")
+        say(context, translated(text) + keys)
 
     def _accept(self, context: bpy.types.Context) -> set[str]:
         self.cancel(context)
@@ -250,7 +251,7 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
             task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
             for task in self._tasks
         ):
-            self.report({"ERROR"}, "The mesh changed meanwhile; the result was dropped")
+            self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
             return {"CANCELLED"}
         try:
             shown = self._shown
@@ -282,7 +283,8 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
             for warning in outcome.warnings:
                 self.report({"WARNING"}, translated(warning))
         count = sum(len(outcome.result.vertices) for outcome in outcomes)
-        self.report({"INFO"}, f"{count} new vertices in {time.perf_counter() - self._begin:.2f} s")
+        seconds = time.perf_counter() - self._begin
+        self.report({"INFO"}, translated(f"{count} new vertices in {seconds:.2f} s"))
         return {"FINISHED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
@@ -296,5 +298,5 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
             selecting.select_vertices(objects_in_mode(context)[name].data, spots)
         store_refusal(context.window_manager.fairing_report, name, reason)
         last_run.forget()
-        self.report({"ERROR"}, f"{name}: {reason}")
+        self.report({"ERROR"}, translated(f"{name}: {reason}"))
         return {"CANCELLED"}

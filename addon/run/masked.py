@@ -11,6 +11,7 @@ from ..core.arrays import Ints
 from ..host.context import active_object
 from ..host.picking import Picks, face_under_mouse
 from ..mesh import painted
+from ..translations import translated
 from .background import Watched
 from .outside import FairsOutside
 from .redo_panel import draw_options
@@ -76,7 +77,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
         obj = active_object(context)
         face = face_under_mouse(context, event, obj)
         if face is None:
-            self.report({"INFO"}, "There is no face under the mouse")
+            self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
         self.face_set = painted.face_set_at(obj.data, face)
         return self._begin_with(context, self._solve_or_start)

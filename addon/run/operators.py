@@ -119,7 +119,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         shown = context.window_manager.fairing_report
         shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self._way)
         outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
-        self.report({"INFO"}, f"That is no better and was not written ({outcome})")
+        self.report({"INFO"}, translated(f"That is no better and was not written ({outcome})"))
         redraw_sidebars(context)
         return {"CANCELLED"}
 

@@ -9,6 +9,7 @@ import bpy
 from ..host.picking import Picks, rays
 from ..host.polling import require, require_edit_mode
 from ..mesh import painted
+from ..translations import translated
 from . import last_run
 
 
@@ -33,7 +34,7 @@ class MESH_OT_fair_pick_skin(Picks, bpy.types.Operator):
         found = [painted.edited_face_set_at(obj.data, *ray) for ray in rays(context, event, obj)]
         number = found[0] if found else 0
         if not number:
-            self.report({"INFO"}, "There is no face set under the mouse: make one in sculpt mode")
+            self.report({"INFO"}, translated("There is no face set under the mouse: make one in sculpt mode"))
             return {"CANCELLED"}
         return run_with_skin_of(context, number)
 

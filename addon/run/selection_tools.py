@@ -15,6 +15,7 @@ from ..core.words import counted
 from ..host.context import edited_objects
 from ..host.polling import SELECT_FACES, require_edit_mode
 from ..mesh import mesh_io, selecting
+from ..translations import translated
 from . import job, last_run
 
 
@@ -38,14 +39,14 @@ class _Tool:
                 if task.mesh.in_patch.any():
                     total += work(obj, task)
             except REFUSALS as cause:
-                self.report({"ERROR"}, f"{obj.name}: {cause}")  # type: ignore[attr-defined]
+                self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))  # type: ignore[attr-defined]
                 return None
         return total
 
     def _answer(self, count: int | None, done: str, nothing: str) -> set[str]:
         if count is None:
             return {"CANCELLED"}
-        self.report({"INFO"}, done if count else nothing)  # type: ignore[attr-defined]
+        self.report({"INFO"}, translated(done if count else nothing))  # type: ignore[attr-defined]
         return {"FINISHED"} if count else {"CANCELLED"}
 
 

@@ -25,12 +25,12 @@ COLOUR, LIT = (0.95, 0.62, 0.25), (1.0, 0.85, 0.6)
 
 
 def options_of(operator: Any, name: str) -> Any:
-    """Return the properties of the operator with this name, also as the last step of a macro; None of another."""
-    if operator is None:
-        return None
-    if operator.bl_idname == name:
-        return operator.properties
-    return getattr(operator.properties, name, None)
+    """Return the properties of the operator with this name, also as a step of a macro; None of another.
+
+    A macro's own properties of a step are those that it was begun with: a run again asks the step itself.
+    """
+    steps = (operator, *operator.macros) if operator is not None else ()
+    return next((step.properties for step in steps if step.bl_idname == name), None)
 
 
 def _name(operator: Any) -> str:

@@ -13,18 +13,30 @@ import pytest
 from extension import ID, module
 
 SHOWS = re.compile(r"^([A-Z0-9]+_(OT|PT|MT)_\w+)$")  # classes whose label and tooltip Blender shows
+REFUSES = {"ValueError", "BorderRefusal", "Verdict", "Changed"}
+FOR_SCRIPTS = {
+    "cli",
+    "cli_parser",
+    "fair_mesh",
+    "fill_mesh",
+    "fillet_mesh",
+    "denoise_mesh",
+    "checked",
+    "options",
+    "mesh_io",
+}
 SAYS = {"report", "require", "require_edit_mode", "translated", "pick"}
 LANGUAGES = ["de", "fr"]
 # Blender shows nothing of these, or has them in its own language files.
 NOT_SHOWN = {"", "Undo", "Before Fair Masked", "Select Region", "*"}
 
 
-def sources() -> Iterator[ast.Module]:
+def sources() -> Iterator[tuple[Path, ast.Module]]:
     """Yield the add-on's modules, as they are installed."""
     folder = Path(module().__file__).parent
     for path in folder.rglob("*.py"):
         if "presets" not in path.relative_to(folder).parts:
-            yield ast.parse(path.read_text(encoding="utf-8"))
+            yield path, ast.parse(path.read_text(encoding="utf-8"))
 
 
 def constants(node: ast.AST) -> Iterator[str]:
@@ -80,6 +92,16 @@ def sentences() -> set[str]:
     return {text for words in cases for text in (words.one, words.many) if text}
 
 
+def refusals(tree: ast.Module) -> Iterator[str]:
+    """Yield what is refused or judged in words of the add-on's own; what only scripts meet names what it expected."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and getattr(node.func, "id", "") in REFUSES:
+            for argument in node.args:
+                said = template(argument) if isinstance(argument, ast.JoinedStr) else next(constants(argument), "")
+                if " " in said and ": expected " not in said:
+                    yield said
+
+
 def of_operators() -> Iterator[str]:
     """Yield labels and tooltips of all options and choices that are offered."""
     for room in (bpy.ops.mesh, bpy.ops.object):
@@ -105,7 +127,7 @@ def of_settings() -> Iterator[str]:
 
 def shown() -> set[str]:
     found: set[str] = set()
-    for tree in sources():
+    for _, tree in sources():
         for node in ast.walk(tree):
             if isinstance(node, ast.Call):
                 found.update(of_call(node))
@@ -116,6 +138,9 @@ def shown() -> set[str]:
     )
     found.add(module("core.fill_options").HOLES)
     found |= sentences()
+    for path, tree in sources():
+        if path.stem not in FOR_SCRIPTS:
+            found.update(refusals(tree))
     return {text for text in found - NOT_SHOWN if any(letter.isalpha() for letter in text)}
 
 
@@ -127,7 +152,7 @@ def test_a_language_has_every_text(language: str) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_language_has_nothing_that_is_not_said(language: str) -> None:
     said = sentences()
-    for tree in sources():
+    for _, tree in sources():
         for node in ast.walk(tree):
             if isinstance(node, ast.JoinedStr):
                 said.add(template(node))
@@ -157,6 +182,14 @@ def test_no_translation_is_empty_or_has_lost_its_figures(language: str) -> None:
             "The boundary is on the slope of a bump, so that the bump stays: grow the selection over it",
             "Der Rand liegt am",
         ),
+        (
+            "2 borders run around the outside of a sheet of faces and stay open (7 edges, one at vertex 3): to fill "
+            "one all the same, select it alone",
+            "2 Ränder laufen außen um ein Blatt von Flächen und bleiben offen (7 Kanten",
+        ),
+        ("No fair surface was found for a boundary of 8 edges", "Keine glatte Fläche gefunden, bei einem Rand von 8"),
+        ("1 of 13 holes stays open, and is selected. The", "1 von 13 Löchern bleibt offen und ist ausgewählt"),
+        ("No fair surface was found: the search came to a halt", "Keine glatte Fläche gefunden: Die Suche kam"),
         ("Nobody says this of 3 things", "Nobody says this of 3 things"),
     ],
 )
