@@ -263,7 +263,7 @@ def _of_other_equation(patch: RealPatch, rng: np.random.Generator) -> Callable[[
 
 def _mixed(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
     """Several options at once, each in every third call; normals of the surroundings, which "mended" finds itself."""
-    rare = rng.random(8) < 1 / 3
+    rare = rng.random(9) < 1 / 3
     options: dict[str, Any] = {}
     if rare[0]:
         options["inner_fairness"] = str(rng.choice(["conformal", "inverse_distance", "shape_preserving"]))
@@ -283,6 +283,8 @@ def _mixed(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
         options["normals"] = "averaged"
     if rare[7]:
         options |= {"tolerance": 1e-9, "otherwise": "stop"}
+    if rare[8]:
+        options["preview"] = lambda points: None
     return _within(patch, float(rng.choice([0.0, 0.1])), rng, **options)
 
 
