@@ -16,7 +16,7 @@ sys.path.insert(0, str(ROOT / "addon"))
 from core.fair_options import FAIR  # noqa: E402
 from core.fill_options import FILL, FILLET  # noqa: E402
 from core.option_shared import FOLDED, GROUPS  # noqa: E402
-from core.option_table import Option, Table, advice, names_before  # noqa: E402
+from core.option_table import Option, Table  # noqa: E402
 from core.presets import PRESETS, preset  # noqa: E402
 
 PAGE = ROOT / "docs" / "options.md"
@@ -25,6 +25,11 @@ HEAD = """\
 
 Made by `scripts/option_tables.py` from the add-on's own list: don't edit it here. The
 [user guide](user_guide.md#options) has pictures of what they do.
+"""
+BEFORE = """\
+## Names before
+Names of options before these work until 0.2, in scripts, presets and on the command line; a `DeprecationWarning` says
+what to write instead.
 """
 
 
@@ -40,10 +45,7 @@ def page() -> str:
         above = fill(f"As above: {', '.join(again)}.", 120) + "\n\n" if again else ""
         parts.append(f"## {label}\n`{operator}`\n\n{above}{_options(table, told)}")
         told |= {_row(option) for option in table}
-    parts.append(
-        "## Names before\nThey work in scripts, presets and on the command line until 0.2, with a "
-        f"`DeprecationWarning`.\n\n{_before()}"
-    )
+    parts.append(BEFORE)
     return "\n".join(parts)
 
 
@@ -65,10 +67,10 @@ def _written(value: object) -> str:
 def _options(table: Table, told: set[str]) -> str:
     """The rows that no operator above has."""
     table = tuple(option for option in table if _row(option) not in told)
-    rows = ["| label | property | what it does | values | default |", "| --- | --- | --- | --- | --- |"]
+    rows = ["| option | what it does | values | default |", "| --- | --- | --- | --- |"]
     titles = [title for title in dict.fromkeys((*GROUPS, *(o.group for o in table), *FOLDED)) if _in(table, title)]
     for title in sorted(titles, key=lambda each: each in FOLDED):
-        rows.append(f"| **{title}**{' (*Advanced*)' if title in FOLDED else ''} | | | | |")
+        rows.append(f"| **{title}**{' (*Advanced*)' if title in FOLDED else ''} | | | |")
         rows += [_row(option) for option in _in(table, title)]
     return "\n".join(rows) + "\n"
 
@@ -78,7 +80,7 @@ def _in(table: Table, title: str) -> list[Option]:
 
 
 def _row(option: Option) -> str:
-    return f"| *{option.label}* | `{option.name}` | {option.description} | {_values(option)} | {_shown(option)} |"
+    return f"| *{option.label}* `{option.name}` | {option.description} | {_values(option)} | {_shown(option)} |"
 
 
 def _values(option: Option) -> str:
@@ -87,7 +89,7 @@ def _values(option: Option) -> str:
     if isinstance(option.default, bool):
         return ""
     if isinstance(option.default, str):
-        return "name of a vertex group"
+        return "vertex group"
     if option.bounds is None:
         return ""
     least, most = option.bounds
@@ -98,15 +100,6 @@ def _shown(option: Option) -> str:
     if isinstance(option.default, bool):
         return "on" if option.default else "off"
     return f"`{option.default}`" if option.items else str(option.default)
-
-
-def _before() -> str:
-    rows = {
-        f"| `{name}` | {advice(option, before)} |": None
-        for table in (FAIR, FILL, FILLET)
-        for name, (option, before) in names_before(table).items()
-    }
-    return "\n".join(["| name before | now |", "| --- | --- |", *rows]) + "\n"
 
 
 if __name__ == "__main__":
