@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "addon"))
 
 from core.fair_options import FAIR  # noqa: E402
-from core.fill_options import FILL, FILLET  # noqa: E402
+from core.fill_options import DENOISE, FILL, FILLET  # noqa: E402
 from core.option_shared import FOLDED, GROUPS  # noqa: E402
 from core.option_table import Option, Table, advice, names_before  # noqa: E402
 from core.presets import PRESETS, preset  # noqa: E402
@@ -35,6 +35,7 @@ def page() -> str:
         ("mesh.fair_region", "Fair Region", FAIR),
         ("mesh.fair_fill", "Fair Fill", FILL),
         ("mesh.fair_fillet", "Fair Fillet", FILLET),
+        ("mesh.fair_denoise", "Fair Denoise", DENOISE),
     ):
         parts.append(f"## {label}\n`{operator}`\n\n{_options(table)}")
     parts.append(

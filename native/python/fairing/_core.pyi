@@ -144,6 +144,15 @@ def cut_fillet(
     spacing: float,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+def denoised(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints,
+    loose: _Ints,
+    size: float,
+    threads: int,
+    progress: Callable[[float, str], bool | None] | None,
+) -> _Floats: ...
 def drawn_to(points: _Floats, triangles: _Ints, fixed: _Ints, target: _Floats, pull: _Floats) -> _Floats: ...
 def fill_loops(
     vertices: _Floats,
