@@ -138,3 +138,24 @@ def test_triangles_without_area_and_loose_ones_do_no_harm() -> None:
     smooth = fairing.denoise(extra, folded)
     assert np.isfinite(smooth).all()
     assert np.array_equal(smooth[-1], extra[-1])
+
+
+def test_without_a_size_fine_parts_keep_finer_shapes() -> None:
+    """A flat sheet whose edges grow tenfold, with waves of 20 edges everywhere: the finest stay as well, which one size would flatten."""
+    x = np.concatenate([[0.0], np.cumsum(np.geomspace(0.01, 0.1, 120))])
+    phase = 2 * np.pi * np.arange(len(x)) / 20
+    y = np.arange(40) * 0.03
+    triangles = []
+    for i in range(len(x) - 1):
+        for j in range(len(y) - 1):
+            a, b, c, d = i * 40 + j, (i + 1) * 40 + j, (i + 1) * 40 + j + 1, i * 40 + j + 1
+            triangles += [[a, b, c], [a, c, d]]
+    height = 1e-6 * np.repeat(np.cos(phase), 40)
+    points = np.stack([np.repeat(x, 40), np.tile(y, len(x)), height], axis=1)
+    middle = np.zeros(len(points), dtype=bool)
+    middle.reshape(-1, 40)[24:-24, 15:25] = True
+    kept = fairing.denoise(points, triangles)[:, 2]
+    one = fairing.denoise(points, triangles, size=12 * 0.1)[:, 2]
+    fine = middle & (np.repeat(x, 40) < 0.5)
+    assert kept[fine] @ height[fine] > 0.95 * (height[fine] @ height[fine])
+    assert one[fine] @ height[fine] < 0.5 * (height[fine] @ height[fine])

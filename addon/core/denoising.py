@@ -26,7 +26,7 @@ class DenoiseOptions:
     Raises ValueError for a value it does not know, TypeError for one of another kind.
     """
 
-    size: float = 0.0  # the shortest wavelength that stays, in world space; 0: twelve mean edges
+    size: float = 0.0  # the shortest wavelength that stays, in world space; 0: twelve of the edges around
     amount: float = 1.0  # 0 … 1
 
     def __post_init__(self) -> None:

@@ -124,7 +124,7 @@ DENOISE: Table = (
     Option(
         "size",
         "Size",
-        "What is shorter than this goes, what is longer stays, in world space; 0: twelve mean edges",
+        "What is shorter than this goes, what is longer stays, in world space; 0: twelve of the edges around",
         0.0,
         SURFACE,
         bounds=(0.0, 1e9),

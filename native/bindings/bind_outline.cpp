@@ -94,15 +94,15 @@ std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, co
 }
 
 py::array denoised_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
-                         const IntArray& loose, double size, int threads, const py::object& callback) {
+                         const DoubleArray& sizes, int threads, const py::object& callback) {
     PythonRun run(callback);
     const Points points = to_points(vertices);
     const Triangles faces = to_triangles(triangles);
     const Indices held = to_indices(fixed);
-    const Indices bending = to_indices(loose);
+    const VectorX lengths = to_vector(sizes);
     return from_points(run.without_gil([&](const ProgressCallback& progress) {
         const Threads team(threads);
-        return denoised({points, faces, held, bending}, size, Progress(progress));
+        return denoised({points, faces, held}, lengths, Progress(progress));
     }));
 }
 
@@ -146,7 +146,7 @@ void bind_outline(py::module_& module) {
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("denoised", &denoised_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("loose"), py::arg("size"), py::arg("threads"), py::arg("progress"));
+               py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
     module.def("chain_end", &chain_end, py::arg("chain"));
 }

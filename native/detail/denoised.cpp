@@ -10,25 +10,22 @@ namespace fairing {
 
 namespace {
 
-// Two passes leave 1 − (q/(1 + q))² of a wave, q = (2π l/wavelength)⁴: all but 1 % at q = 1/9.
-double pull_of(double size) { return 9.0 * std::pow(2.0 * std::numbers::pi / size, 4); }
+// l⁴. Two passes leave 1 − (q/(1 + q))² of a wave, q = (2π l/wavelength)⁴: all but 1 % at q = 1/9.
+double bending_weight(double size) { return std::pow(size / (2.0 * std::numbers::pi), 4) / 9.0; }
 
 }  // namespace
 
-// With p = l⁻⁴: (K + p A) u = −K x, and what the second pass puts back, −(K + p A)⁻¹ p A u.
-Points denoised(const NoisySurface& surface, double size, const Progress& progress) {
+// (K + A) u = −K x, and what the second pass puts back, −(K + A)⁻¹ A u.
+Points denoised(const NoisySurface& surface, const VectorX& sizes, const Progress& progress) {
     const Points& points = surface.points;
-    Bending bending(points, surface.triangles, surface.fixed, surface.loose);
+    Bending bending(points, surface.triangles, surface.fixed, sizes.unaryExpr(&bending_weight));
     const Indices& free = bending.free();
     if (free.empty()) return points;
-    const double pull = pull_of(size);
-    const VectorX pulls = VectorX::Constant(static_cast<Eigen::Index>(free.size()), pull);
-    if (!bending.factorise(pulls, "denoise", progress))
+    if (!bending.factorise(VectorX::Ones(static_cast<Eigen::Index>(free.size())), "denoise", progress))
         throw SolverError("the roughness could not be taken away: the mesh has triangles without area");
     const Points once = bending.solve(-bending.force(points));
-    const Points left = once * (pull * bending.free_areas()).asDiagonal();
     Points result = points;
-    result(Eigen::all, free) += once - bending.solve(left);
+    result(Eigen::all, free) += once - bending.solve(once * bending.free_areas().asDiagonal());
     return result;
 }
 

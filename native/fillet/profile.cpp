@@ -8,7 +8,7 @@ namespace fairing {
 // With B = x − points, 0 at fixed vertices: (K + A pull) B = A pull (target − points).
 Points drawn_to(const Points& points, const Triangles& triangles, const Indices& fixed, const Points& target,
                 const VectorX& pull) {
-    Bending bending(points, triangles, fixed);
+    Bending bending(points, triangles, fixed, VectorX::Ones(points.cols()));
     const Indices& free = bending.free();
     if (free.empty()) return points;
     const VectorX pulls = pull(free);

@@ -57,23 +57,22 @@ Eigen::SparseMatrix<double> columns_of(const Eigen::SparseMatrix<double>& whole,
 
 }  // namespace
 
-Bending::Bending(const Points& points, const Triangles& triangles, const Indices& fixed, const Indices& loose)
+Bending::Bending(const Points& points, const Triangles& triangles, const Indices& fixed, const VectorX& weights)
     : areas_(areas_of(points, triangles)), whole_(laplacian(points, triangles)) {
     free_ = free_vertices(areas_, fixed);
-    inverse_ = areas_.unaryExpr([](double area) { return area > 0.0 ? 1.0 / area : 0.0; });
-    for (const int v : loose) inverse_[v] = 0.0;
+    rows_ = weights.binaryExpr(areas_, [](double weight, double area) { return area > 0.0 ? weight / area : 0.0; });
     columns_ = columns_of(whole_, free_);
     factor_ = SparseCholesky(points(Eigen::all, free_));
 }
 
 bool Bending::factorise(const VectorX& factors, const char* what, const Progress& progress) {
-    Eigen::SparseMatrix<double> system = columns_.transpose() * inverse_.asDiagonal() * columns_;
+    Eigen::SparseMatrix<double> system = columns_.transpose() * rows_.asDiagonal() * columns_;
     for (Eigen::Index k = 0; k < system.cols(); ++k) system.coeffRef(k, k) += factors[k] * areas_[free_[k]];
     return factor_.factorise(SparseMatrix(system.triangularView<Eigen::Lower>()), what, progress);
 }
 
 Points Bending::force(const Points& x) const {
-    const Eigen::MatrixXd curvature = inverse_.asDiagonal() * (whole_ * x.transpose());
+    const Eigen::MatrixXd curvature = rows_.asDiagonal() * (whole_ * x.transpose());
     return (columns_.transpose() * curvature).transpose();
 }
 

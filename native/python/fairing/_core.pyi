@@ -148,8 +148,7 @@ def denoised(
     vertices: _Floats,
     triangles: _Ints,
     fixed: _Ints,
-    loose: _Ints,
-    size: float,
+    sizes: _Floats,
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> _Floats: ...

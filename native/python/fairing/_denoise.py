@@ -12,7 +12,8 @@ from fairing._measure import edges_with_uses
 from fairing._types import FloatArray, IntArray
 from fairing._watch import Progress
 
-EDGES = 12.0  # mean edges that the shortest wave has that stays: as for what counts as detail
+EDGES = 12.0  # mean edges around that the shortest wave has that stays: as many as for what counts as detail
+SPREAD = 2  # times that a vertex's mean edge is averaged with its neighbours'
 
 
 def denoise(
@@ -38,7 +39,8 @@ def denoise(
     triangles : (m, 3) int
         The whole mesh, or a part and its surroundings; the surface passes smoothly into those that don't move.
     size : float
-        The shortest wavelength that stays, in the unit of the positions. 0: twelve mean edges.
+        The shortest wavelength that stays, in the unit of the positions. 0: twelve of the edges around each vertex, so
+        that fine parts of a mesh keep finer shapes.
     amount : float
         0 … 1: how much of the roughness goes.
     fixed : (k,) int
@@ -74,11 +76,11 @@ def denoise(
     low = points[numbers].min(axis=0)
     unit = float(np.ptp(points[numbers], axis=0).max()) or 1.0
     placed = (points[numbers] - low) / unit
-    length = length / unit or EDGES * _mean_edge(placed, local)
-    stays = np.flatnonzero(~np.isin(numbers, part.free)).astype(np.int32)
-    bends = np.flatnonzero(np.isin(numbers, part.loose)).astype(np.int32)
-    smooth = _core.denoised(placed, local, stays, bends, length, count, _options.callback(progress))
+    sizes = np.full(len(placed), length / unit) if length else EDGES * _edges_around(placed, local)
+    sizes[np.isin(numbers, part.loose)] = 0.0
     moved = np.isin(numbers, part.free)
+    stays = np.flatnonzero(~moved).astype(np.int32)
+    smooth = _core.denoised(placed, local, stays, sizes, count, _options.callback(progress))
     # The move is scaled, not the place: what does not move keeps its bits.
     result[numbers[moved]] += share * unit * (smooth[moved] - placed[moved])
     return result
@@ -108,6 +110,13 @@ def _part(faces: IntArray, fixed: IntArray, edges: IntArray, count: int) -> _Par
     return _Part(np.flatnonzero(moves), loose, around)
 
 
-def _mean_edge(points: FloatArray, triangles: IntArray) -> float:
+def _edges_around(points: FloatArray, triangles: IntArray) -> FloatArray:
+    """(n,) the mean length of the edges around each vertex."""
     edges, _ = edges_with_uses(triangles)
-    return float(np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean())
+    lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
+    both, count = edges.ravel(), len(points)
+    uses = np.bincount(both, minlength=count)
+    around: FloatArray = np.bincount(both, np.repeat(lengths, 2), count) / uses
+    for _ in range(SPREAD):
+        around = (around + np.bincount(both, around[edges[:, ::-1]].ravel(), count)) / (1 + uses)
+    return around
