@@ -21,6 +21,7 @@ from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_s
 from .run.background import MESH_OT_fair_cancel
 from .run.brush import FairDab, MESH_OT_fair_brush
 from .run.curvature import MESH_OT_fair_curvature
+from .run.denoise import MESH_OT_fair_denoise
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
 from .run.masked import MESH_OT_fair_masked
@@ -49,6 +50,7 @@ _CLASSES: tuple[Any, ...] = (
     copies.OBJECT_OT_fair_copies_update,
     MESH_OT_fair_fill,
     MESH_OT_fair_fillet,
+    MESH_OT_fair_denoise,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
     MESH_OT_fair_live_far_side,

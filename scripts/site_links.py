@@ -7,6 +7,8 @@ from typing import Any
 from mkdocs.structure.files import File
 
 PAGES = ("CONTRIBUTING.md", "CHANGELOG.md")
+NAMED = re.compile(r"\[[\w/]+\.md\]\(([\w/.]+\.md)")
+TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
 FROM_DOCS = re.compile(r"\]\(((?:\.\./)*)docs/")
 
 
@@ -18,9 +20,20 @@ def on_files(files: Any, /, *, config: Any) -> Any:
     return files
 
 
-def on_page_markdown(markdown: str, /, *, page: Any, **_: Any) -> str:
-    """Links that leave docs/ for one of these pages stay in the site; of others, which have no address, the words."""
+def on_page_markdown(markdown: str, /, *, page: Any, config: Any, **_: Any) -> str:
+    """Links that leave docs/ for one of these pages stay in the site; of others, which have no address, the words.
+
+    Links that say a file's name say its page's title.
+    """
     up = "../" * (page.file.src_uri.count("/") + 1)
     for name in PAGES:
         markdown = markdown.replace(f"]({up}{name}", f"]({up[3:]}{name}")
-    return re.sub(rf"(?<!!)\[([^\[\]]+)\]\({re.escape(up)}[^()\s]+\)", r"\1", markdown)
+    markdown = re.sub(rf"(?<!!)\[([^\[\]]+)\]\({re.escape(up)}[^()\s]+\)", r"\1", markdown)
+    folder = (Path(config.docs_dir) / page.file.src_uri).parent
+    return NAMED.sub(lambda link: f"[{_title(folder / link[1], link[0])}]({link[1]}", markdown)
+
+
+def _title(path: Path, otherwise: str) -> str:
+    """The heading of a page, for a link whose words are the file's name."""
+    found = TITLE.search(path.read_text(encoding="utf-8")) if path.exists() else None
+    return found[1] if found else otherwise[1:].partition("]")[0]

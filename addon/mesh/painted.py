@@ -38,7 +38,7 @@ def shell(mesh: bpy.types.Mesh) -> tuple[Floats, Ints]:
     mesh.calc_loop_triangles()
     corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
     mesh.loop_triangles.foreach_get("vertices", corners)
-    return normals.reshape(-1, 3).astype(np.float64), corners.reshape(-1, 3)
+    return normals.reshape(-1, 3).astype(np.float64), corners.reshape(-1, 3).astype(np.int64)
 
 
 def protected(mesh: bpy.types.Mesh) -> Floats:

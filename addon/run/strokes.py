@@ -4,8 +4,8 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import CollectionProperty, IntProperty
@@ -17,6 +17,11 @@ STEP = 0.5  # of the radius, from one place to the next
 
 class Stroke:
     """What such an operator needs besides `dab`, which does something at one place, and `let_go`."""
+
+    if TYPE_CHECKING:
+        dab: Callable[[bpy.types.Context, float, float], None]
+        let_go: Callable[[bpy.types.Context], set[str]]
+        cancel: Callable[[bpy.types.Context], None]
 
     radius: IntProperty(name="Radius", description="Of the circle", default=25, min=1, soft_max=300, subtype="PIXEL")
 
@@ -66,7 +71,7 @@ class MESH_OT_fair_stroke(Stroke, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has something to select."""
-        return context.mode == "EDIT_MESH"
+        return bool(context.mode == "EDIT_MESH")
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin where the pointer is."""

@@ -6,7 +6,8 @@ runs it again, as its redo panel does, so that all of it is one step of undo.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
@@ -58,6 +59,10 @@ def _run_again() -> None:
 
 class _Arrow:
     """An arrow whose way from its foot is an option of the last run, in some unit."""
+
+    if TYPE_CHECKING:
+        gizmos: Any
+        place: Callable[[bpy.types.Context], None]
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "WINDOW"

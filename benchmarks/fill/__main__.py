@@ -3,9 +3,9 @@
     python benchmarks/fill [hemisphere | peers | spacing | caps | shapes | limits | curvature | size | bridges |
                             elbows | corners | real | remade | unseen | pictures …]
 
-Prints all tables of docs/fill.md, in one run where none is named; `pictures` writes docs/pictures/fill_holes.webp,
-fill_bridges.webp and fill_meshes.webp. Processor time, one thread. `real` and `pictures` need shared/data beside the
-checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
+Prints all tables of docs/fill.md, in one run where none is named; `pictures` writes sheets of many
+holes, bridges and new meshes to build/fill. Processor time, one thread. `real` and `pictures` need shared/data beside
+the checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
 """
 
 from __future__ import annotations
@@ -216,7 +216,7 @@ def peers() -> Iterator[str]:
 
 def pictures() -> Iterator[str]:
     """Real holes and bridges, before and after, with stripes."""
-    yield from sheet.write_all(ROOT / "docs/pictures")
+    yield from sheet.write_all(ROOT / "build/fill")
 
 
 TABLES: dict[str, Callable[[], Iterator[str]]] = {

@@ -1,7 +1,7 @@
 """Pictures of real patches with several outlines that no harmonic surface joins: before, by that equation, as taken.
 
     python benchmarks/zoo/outlines.py --seed 1                                     # build/zoo/outlines.webp
-    python benchmarks/zoo/outlines.py --seed 31 --out docs/pictures/lofts.webp     # docs/least_variation
+    python benchmarks/zoo/outlines.py --seed 31 --out build/zoo/31.webp
 
 Each row: the patch before, what came of the harmonic equation alone (`otherwise="stop"`), and what is taken, from two
 sides each. Stripes are lines of equal tilt, red is seen from behind. The title names the equation that holds. Needs the

@@ -12,6 +12,9 @@ import demo  # before bpy: it sets Blender's scratch folder
 # isort: split
 import bpy
 import hard
+import lesson_sheets  # before more: it adds the folder of the lessons' scenes
+import more
+import moving
 import numpy as np
 import options
 import rivals
@@ -20,11 +23,12 @@ from rows import Row
 
 import demo_pictures as pictures
 import demo_scenes as scenes
+import quality
 import tools
 
 WIDTH = 1200  # pixels of a sheet at least
 LEAST = 300  # of one picture
-SHEETS: dict[str, list[list[Row]]] = {**rivals.SHEETS, **hard.SHEETS, **options.SHEETS}
+SHEETS: dict[str, list[list[Row]]] = {**rivals.SHEETS, **hard.SHEETS, **options.SHEETS, **more.SHEETS}
 
 
 def begun(row: Row) -> Any:
@@ -98,14 +102,25 @@ def main() -> None:
     package, out = Path(sys.argv[1]), Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
     demo.install(package)
-    for name in sys.argv[3:] or SHEETS:
-        lines = SHEETS[name]
-        pictures.SIZE = max(LEAST, WIDTH // max(sum(len(row.runs) + 1 for row in line) for line in lines))
-        made = [
-            [each for k, row in enumerate(line) for each in tiles(row, out / f"{name}_{number}_{k}")]
-            for number, line in enumerate(lines)
-        ]
-        sheet.sheet(made, out / f"{name}.webp")
+    for name in sys.argv[3:] or [*SHEETS, quality.NAME, *lesson_sheets.LESSONS, *moving.MOVING]:
+        if name in moving.MOVING:
+            moving.write(name, out)
+        else:
+            sheet.sheet(lines_of(name, out), out / f"{name}.webp")
+
+
+def lines_of(name: str, out: Path) -> list[list[sheet.Tile]]:
+    """The pictures of a sheet, line by line."""
+    if name in lesson_sheets.LESSONS:
+        return [lesson_sheets.tiles(name, out)]
+    if name == quality.NAME:
+        return [quality.tiles(out, LEAST)]
+    lines = SHEETS[name]
+    pictures.SIZE = max(LEAST, WIDTH // max(sum(len(row.runs) + 1 for row in line) for line in lines))
+    return [
+        [each for k, row in enumerate(line) for each in tiles(row, out / f"{name}_{number}_{k}")]
+        for number, line in enumerate(lines)
+    ]
 
 
 if __name__ == "__main__":

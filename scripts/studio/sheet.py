@@ -53,7 +53,7 @@ def written(values: Pixels, texts: list[tuple[int, int, str]], scratch: Path) ->
 
 
 def sheet(rows: Sequence[Sequence[Tile]], target: Path) -> None:
-    """Rows of tiles from top to bottom, all pictures of one size; written as WebP."""
+    """Rows of tiles from top to bottom, all pictures of one size; written as target's suffix says: .webp or .png."""
     side = pixels(rows[0][0].pictures[0]).shape[0]
     wide = max(len(row) for row in rows) * (side + GAP) + GAP
     heights = [max(len(tile.pictures) * (side + GAP) + len(tile.lines) * LINE + GAP for tile in row) for row in rows]
@@ -69,5 +69,6 @@ def sheet(rows: Sequence[Sequence[Tile]], target: Path) -> None:
                 at -= side + GAP
             texts += [(left + 2, at - LINE * (k + 1) + GAP + 5, line) for k, line in enumerate(tile.lines)]
         top -= height
-    save(written(values, texts, target.with_suffix(".png")), target, "WEBP")
-    target.with_suffix(".png").unlink()
+    scratch = target.with_name(f"{target.stem}_text.png")
+    save(written(values, texts, scratch), target, target.suffix[1:].upper())
+    scratch.unlink()

@@ -75,7 +75,7 @@ def visible() -> list[Any]:
 
 def test_every_option_is_explained() -> None:
     page = (DOCS / "options.md").read_text()
-    assert [option.name for option in visible() if f"| *{option.name}* |" not in page] == []
+    assert [option.name for option in visible() if f"| *{option.name}* `{option.identifier}` |" not in page] == []
 
 
 def test_every_choice_is_explained() -> None:

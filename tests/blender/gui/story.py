@@ -46,6 +46,7 @@ from panel import (
 )
 from screen_chapters import SCREENS
 from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
+from tutorial_chapters import tutorial_as_written
 from verdict_chapters import (
     again_in_other_ways,
     joins_curvature,
@@ -215,6 +216,7 @@ CHAPTERS = (
     undo_and_removal_end_a_run,
     disabling_ends_a_run,
     another_file_ends_a_run,
+    tutorial_as_written,
     *SCREENS,
 )
 # Each ends Blender, so that it has one of its own; they are played only where they are named.
