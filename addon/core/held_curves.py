@@ -73,16 +73,17 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
     if not mesh.in_patch.any():
         return none(mesh)
     own = mesh.in_patch[mesh.triangle_faces]
-    known = np.isfinite(mesh.positions).all(axis=1)[mesh.triangles].all(axis=1)
+    finite = np.isfinite(mesh.positions)
+    known = np.ones(len(own), dtype=bool) if finite.all() else finite.all(axis=1)[mesh.triangles].all(axis=1)
     start = np.zeros(len(mesh.positions), dtype=bool)
     start[mesh.triangles[own]] = True
     outside = nearby(mesh.triangles[known & ~own], start, ALONG + _COMPARED)
     triangles = np.concatenate([mesh.triangles[own & known], outside])
-    used, numbered = np.unique(triangles, return_inverse=True)
-    numbered = numbered.reshape(-1, 3)
-    inside = len(triangles) - len(outside)
-    edges = np.flatnonzero(np.isin(mesh.edges, used).all(axis=1))
-    ends = np.sort(np.searchsorted(used, mesh.edges[edges]), axis=1)
+    used, number = _numbered(triangles, len(mesh.positions))
+    numbered, inside = number[triangles], len(triangles) - len(outside)
+    first, second = number[mesh.edges].T
+    edges = np.flatnonzero((first >= 0) & (second >= 0))
+    ends = np.column_stack([np.minimum(first, second)[edges], np.maximum(first, second)[edges]])
     hard = none(mesh)
     try:
         found = fairing.edges_through(mesh.positions[used], numbered[:inside], numbered[inside:], neighbours=ends)
@@ -92,6 +93,16 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
         wanted = {tuple(pair) for pair in np.concatenate([found.edges, found.onward]).tolist()}
         hard[edges] = [tuple(pair) in wanted for pair in ends.tolist()]
     return hard
+
+
+def _numbered(triangles: Ints, count: int) -> tuple[Ints, Ints]:
+    """Return the vertices that triangles have, ascending, and which of them each of `count` vertices is; -1: none."""
+    has = np.zeros(count, dtype=bool)
+    has[triangles] = True
+    used = np.flatnonzero(has)
+    number = np.full(count, -1, dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return used, number
 
 
 def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.FairEdges | None]:

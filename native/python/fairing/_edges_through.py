@@ -54,11 +54,11 @@ def edges_through(
     own, around = (_arguments.triangles_within(triangles, len(points)) for triangles in (inside, outside))
     marks = _arguments.integers("marked", [] if marked is None else marked, 2)
     found: set[tuple[int, int]] = set()
-    edges, uses = edges_with_uses(own)
-    inner = edges[uses == 2]
-    onward, _ = _hard(points, (_near(own, edges[uses == 1]), around), inner, marks)
+    near = _near(own, _border(own))
+    onward, _ = _hard(points, (near, around), _inner(near), marks)  # edges at the far side of `near` have one face
     loops = boundary_loops(own) if len(onward) else []
     if _joined(points, around, loops, onward, marks):
+        inner = _inner(own)
         onward, within = _hard(points, (own, around), inner, marks)
         graph = _Graph.of(points, _counted(inner, neighbours, len(points)), within)
         found = {edge for at in _joined(points, around, loops, onward, marks) for edge in graph.way(at)}
@@ -87,8 +87,29 @@ def _joined(
     return joined
 
 
+def _inner(triangles: IntArray) -> IntArray:
+    """Edges with a triangle on both sides."""
+    edges, uses = edges_with_uses(triangles)
+    inner: IntArray = edges[uses == 2]
+    return inner
+
+
+def _border(triangles: IntArray) -> IntArray:
+    """Vertices that no closed fan of triangles is around: going around one, each neighbour is reached and left once.
+
+    Sums of what is reached less what is left tell them apart without a sort of all edges.
+    """
+    faces = triangles.astype(np.float64)
+    after, before = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, 1, axis=1).ravel()
+    vertices, open_fan = triangles.ravel(), False
+    for weight in (after - before, after**2 - before**2):
+        open_fan = open_fan | (np.bincount(vertices, weight) != 0.0)
+    border: IntArray = np.flatnonzero(open_fan)
+    return border
+
+
 def _near(triangles: IntArray, border: IntArray) -> IntArray:
-    """Those that hard edges at the border edges are compared with."""
+    """Those that hard edges at the border's vertices are compared with."""
     reached = np.zeros(int(triangles.max(initial=-1)) + 1, dtype=bool)
     near = np.zeros(len(triangles), dtype=bool)
     reached[border] = True

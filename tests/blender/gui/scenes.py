@@ -13,6 +13,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "scripts"))
 
+
 import demo_scenes
 
 _original: dict[str, Any] = {}

@@ -21,6 +21,7 @@ from ends_chapters import (
     undo_and_removal_end_a_run,
 )
 from fillet_chapters import fillet_is_dragged
+from jobs_chapters import ten_jobs
 from live_chapters import (
     live_begins_in_the_background,
     live_follows_a_drag,
@@ -217,6 +218,7 @@ CHAPTERS = (
     disabling_ends_a_run,
     another_file_ends_a_run,
     tutorial_as_written,
+    ten_jobs,
     *SCREENS,
 )
 # Each ends Blender, so that it has one of its own; they are played only where they are named.
