@@ -12,6 +12,7 @@ import numpy as np
 import scenes
 import spoilt_scenes
 from driver import Story, in_view, look_as_first, middle, move_mouse, press, screenshot, tell, view
+from mathutils import Vector
 from panel import drag, drag_over, module, open_tab, report, run_with, wait_until
 
 KEYS = {" ": "SPACE"}
@@ -70,16 +71,16 @@ def _stroke(places: list[tuple[int, int]]) -> Story:
     yield from _rested()
 
 
-def _around(radius: int) -> list[tuple[int, int]]:
-    """A circle around the middle of the view, in pixels."""
+def _around(x: int, y: int, radius: int) -> list[tuple[int, int]]:
+    """A circle around a place, in pixels from the middle of the view."""
     angles = np.linspace(0.0, 2.0 * np.pi, 13)
-    return [(int(radius * np.cos(a)), int(radius * np.sin(a))) for a in angles]
+    return [(x + int(radius * np.cos(a)), y + int(radius * np.sin(a))) for a in angles]
 
 
 def _look_at(place: tuple[float, float, float], distance: float) -> None:
     """Turn the view so that this direction is in front, at a distance: a matter of taste, not counted."""
     data = view()[1].spaces.active.region_3d
-    data.view_rotation = scenes.Vector(place).to_track_quat("Z", "Y")
+    data.view_rotation = Vector(place).to_track_quat("Z", "Y")
     data.view_distance = distance
 
 
@@ -94,7 +95,7 @@ def ear() -> Story:
         bpy.ops.view3d.view_selected()
         bpy.ops.mesh.select_all(action="DESELECT")
     _tool("lasso")
-    yield from _stroke(_around(300))
+    yield from _stroke(_around(200, -50, 290))
 
 
 def dent() -> Story:
