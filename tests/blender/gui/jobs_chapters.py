@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 import scenes
 import spoilt_scenes
-from driver import Story, in_view, look_as_first, middle, move_mouse, press, screenshot, tell, view
+from driver import Story, in_view, leave_popup, look_as_first, middle, move_mouse, press, screenshot, tell, view
 from mathutils import Vector
 from panel import drag, drag_over, module, open_tab, report, run_with, wait_until
 
@@ -81,7 +81,7 @@ def _look_at(place: tuple[float, float, float], distance: float) -> None:
     """Turn the view so that this direction is in front, at a distance: a matter of taste, not counted."""
     data = view()[1].spaces.active.region_3d
     data.view_rotation = Vector(place).to_track_quat("Z", "Y")
-    data.view_distance = distance
+    data.view_distance, data.view_location = distance, (0.0, 0.0, 0.0)
 
 
 def _mode(mode: str) -> None:
@@ -152,10 +152,9 @@ def fillet() -> Story:
 
 def bridge() -> Story:
     scenes.clear()
-    for angle in (0.0, np.radians(70.0)):
+    for angle, place in ((0.0, (0.0, 0.0, 0.0)), (np.radians(70.0), (0.94, 0.0, 1.34))):
         bpy.ops.mesh.primitive_cylinder_add(vertices=32, end_fill_type="NOTHING", radius=0.4, depth=1.2)
-        bpy.context.object.rotation_euler = (0.0, angle, 0.0)
-        bpy.context.object.location = (1.6 * np.sin(angle), 0.0, 1.6 * np.cos(angle) - 1.6)
+        bpy.context.object.rotation_euler, bpy.context.object.location = (0.0, angle, 0.0), place
     for obj in bpy.data.objects:
         obj.select_set(True)
     bpy.ops.object.join()
@@ -163,10 +162,14 @@ def bridge() -> Story:
     bpy.context.tool_settings.mesh_select_mode = (False, True, False)
     bm = bmesh.from_edit_mesh(bpy.context.object.data)
     world = bpy.context.object.matrix_world
-    rims = [e for e in bm.edges if e.is_boundary]
-    inner = sorted(rims, key=lambda e: np.linalg.norm(np.array(world @ e.verts[0].co) - (0.45, 0.0, 0.3)))[:64]
+    rims = [((0.0, 0.0, 0.6)), (0.376, 0.0, 1.135)]
+
+    def is_inner(edge: Any) -> bool:
+        middles = np.array(world @ ((edge.verts[0].co + edge.verts[1].co) / 2.0))
+        return edge.is_boundary and min(np.linalg.norm(middles - rim) for rim in rims) < 0.45
+
     for edge in bm.edges:  # two clicks with Alt
-        edge.select_set(edge in inner)
+        edge.select_set(is_inner(edge))
     bmesh.update_edit_mesh(bpy.context.object.data)
     bpy.ops.ed.undo_push(message="rims")
     _act(2)
@@ -246,6 +249,7 @@ def ten_jobs() -> Story:
             tell(f"  {job.__name__}: {late}")
         yield 1.0
         screenshot(f"job_{job.__name__}")
+        yield from leave_popup()
         seen: Any = report()
         tell(
             f"{job.__name__}: {_acts[0]} acts, {time.perf_counter() - begin:.0f} s of this window, engine "
