@@ -143,6 +143,7 @@ install_sdist() {
         --require-hashes --only-binary :all: --requirement scripts/locked/sdist.txt
     CXX=$1 quietly "install-$1" alone "$venv/bin/python" -m pip install \
         --no-index --no-deps --no-build-isolation "$packages"/*.tar.gz
+    "$venv/bin/python" -c 'import fairing' # a static library doesn't ask whether all that it calls is there
     if ldd "$venv"/lib/python*/site-packages/fairing/_core.*.so | grep -q OpenMesh; then
         fail "the sdist's module was built with this machine's OpenMesh, not with the one that it brings"
     fi
