@@ -22,11 +22,11 @@ if(FAIRING_OPENMESH_SOURCE)
     message(FATAL_ERROR "FAIRING_OPENMESH_SOURCE=${FAIRING_OPENMESH_SOURCE} holds no src/OpenMesh/Core; "
                         "point it at the top folder of OpenMesh's sources")
   endif()
-  # The mesh kernel alone: no file formats.
-  file(GLOB openmesh_sources
-    "${openmesh_root}/OpenMesh/Core/Mesh/*.cc"
-    "${openmesh_root}/OpenMesh/Core/Utils/*.cc"
-    "${openmesh_root}/OpenMesh/Core/System/*.cc")
+  # The mesh kernel alone: no file formats, nor what they need; PropertyCreator.cc takes as long as all the rest.
+  file(GLOB openmesh_sources "${openmesh_root}/OpenMesh/Core/Mesh/*.cc")
+  list(APPEND openmesh_sources
+    "${openmesh_root}/OpenMesh/Core/Utils/BaseProperty.cc"
+    "${openmesh_root}/OpenMesh/Core/System/omstream.cc")
   add_library(openmesh_static STATIC ${openmesh_sources})
   target_include_directories(openmesh_static SYSTEM PUBLIC "${openmesh_root}")
   target_compile_definitions(openmesh_static PUBLIC OM_STATIC_BUILD)

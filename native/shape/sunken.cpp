@@ -1,5 +1,6 @@
 #include "shape/sunken.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -60,6 +60,7 @@ check_everything() {
     say "The source distribution, by this machine's compiler"
     install_sdist g++
     check_golden
+    use_zip_in_windows
 }
 
 # usage: use_zip PYTHON ZIP: bpy may hang at its end
@@ -118,6 +119,21 @@ install_in_trixie() {
     touch "$folder/root/venv-$version/.complete"
 }
 
+# Runs a command where, as root, neither a network nor this machine's Eigen and OpenMesh are to be seen.
+alone() {
+    if ! unshare --mount --net true 2>/dev/null; then
+        "$@"
+        return
+    fi
+    # shellcheck disable=SC2016 # the inner shell is the one that expands these
+    unshare --mount --net bash -c '
+        mount --make-rprivate /
+        for folder in /usr/include/eigen3 /usr/share/eigen3 /usr/include/OpenMesh; do
+            [[ ! -d $folder ]] || mount -t tmpfs none "$folder"
+        done
+        exec "$@"' alone "$@"
+}
+
 # usage: install_sdist COMPILER: into build/venv-COMPILER, with build tools of known hashes
 install_sdist() {
     local venv=$build/venv-$1
@@ -125,8 +141,9 @@ install_sdist() {
     "$python" -m venv "$venv"
     quietly "pip-$1" "$venv/bin/python" -m pip install --progress-bar off \
         --require-hashes --only-binary :all: --requirement scripts/locked/sdist.txt
-    CXX=$1 quietly "install-$1" "$venv/bin/python" -m pip install \
+    CXX=$1 quietly "install-$1" alone "$venv/bin/python" -m pip install \
         --no-index --no-deps --no-build-isolation "$packages"/*.tar.gz
+    "$venv/bin/python" -c 'import fairing' # a static library doesn't ask whether all that it calls is there
     if ldd "$venv"/lib/python*/site-packages/fairing/_core.*.so | grep -q OpenMesh; then
         fail "the sdist's module was built with this machine's OpenMesh, not with the one that it brings"
     fi

@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-SCRATCH = tempfile.TemporaryDirectory(prefix="fairing-package-")
+SCRATCH = tempfile.TemporaryDirectory(prefix="fairing-package-", ignore_cleanup_errors=True)  # a loaded .pyd stays
 os.environ["BLENDER_USER_RESOURCES"] = SCRATCH.name  # before bpy looks for it
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "blender"))
 

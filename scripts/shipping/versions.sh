@@ -17,6 +17,7 @@ site_needs=(mkdocs-material==9.8.2 'mkdocstrings[python]==1.0.8')
 # A real CPython for Windows that PyPI has: inside the wheels of an engine that ships it with games.
 panda3d_version=1.10.16
 declare -A windows_numpy=([3.11]=1.26.4 [3.13]=2.1.0) # the newest that need nothing wine 8 lacks
+windows_bpy=5.0.1
 cibuildwheel_version=4.3.5
 workflow_checkers=(zizmor==1.32.0 check-jsonschema)
 # whose meshes the module takes, for scripts/test --libraries

@@ -115,10 +115,11 @@ def served(folder: Path) -> Iterator[str]:
 
 def run(lines: str, scratch: Path, *arguments: str, offline: bool = False) -> str:
     """Run the lines in a new Blender; return what is printed after DONE, which the lines print themselves."""
-    environment = {**os.environ, "PYTHONPATH": str(HERE), "TMPDIR": str(scratch)}
+    path = os.pathsep.join([str(HERE), os.environ.get("PYTHONPATH", "")])  # bpy may be found by it
+    environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(scratch)}
     command = [sys.executable, "-c", BEGIN + lines, *arguments]
     if offline:
         command = ["unshare", "--map-root-user", "--net", *command]
-    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=120, check=False)
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=600, check=False)
     assert ended.returncode == 0, ended.stdout + ended.stderr
     return ended.stdout.partition("DONE")[2].strip()

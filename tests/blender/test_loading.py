@@ -8,6 +8,8 @@ from pathlib import Path
 import own_process
 from extension import module
 
+PLATFORM = {"Linux": "linux-x64", "Windows": "windows-x64"}[platform.system()]  # the zip's
+
 DRAW = """
 from extension import ID, module
 from test_panel import Layout
@@ -43,7 +45,7 @@ def engine_name() -> str:
 def test_module_is_missing(tmp_path: Path) -> None:
     """No traceback: a panel, and lines in the console, with platform, Python and wheel."""
     console, drawn, wheel = printed(f'sys.modules["{engine_name()}"] = None', tmp_path)
-    for text in (engine_name(), platform.machine(), platform.python_version(), "linux-x64", wheel):
+    for text in (engine_name(), platform.machine(), platform.python_version(), PLATFORM, wheel):
         assert text in drawn
     assert wheel in console
 

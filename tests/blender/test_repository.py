@@ -66,10 +66,8 @@ print("DONE", enabled(), left())
 
 
 def cannot_isolate() -> bool:
-    return (
-        subprocess.run(["unshare", "--map-root-user", "--net", "true"], capture_output=True, check=False).returncode
-        != 0
-    )
+    command = ["unshare", "--map-root-user", "--net", "true"]
+    return shutil.which("unshare") is None or subprocess.run(command, capture_output=True, check=False).returncode != 0
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +135,8 @@ def test_listing_and_page(folder: Path) -> None:
     (link,) = re.findall(r'href="([^"]*\.zip[^"]*)"', page)
     asked = parse_qs(urlsplit(link).query)
     assert (asked["repository"], asked["platforms"]) == (["./index.json"], entry["platforms"])
-    subprocess.run(["sha256sum", "--check", "--quiet", "SHA256SUMS"], cwd=folder, check=True)
+    sums = dict(line.split()[::-1] for line in (folder / "SHA256SUMS").read_text(encoding="utf-8").splitlines())
+    assert sums[archive.name] == digest and sums.keys() == {archive.name, "index.html", "index.json"}
 
 
 def test_made_again_it_has_the_same_bytes(folder: Path, tmp_path: Path) -> None:
