@@ -9,8 +9,9 @@ else:
 
     from .core.verdict import NotUsable
     from .registration import register, unregister
+    from .run.denoise_mesh import denoise_mesh
     from .run.fair_mesh import fair_mesh
     from .run.fill_mesh import fill_mesh
     from .run.fillet_mesh import fillet_mesh
 
-__all__ = ["NotUsable", "fair_mesh", "fairing", "fill_mesh", "fillet_mesh", "register", "unregister"]
+__all__ = ["NotUsable", "denoise_mesh", "fair_mesh", "fairing", "fill_mesh", "fillet_mesh", "register", "unregister"]

@@ -19,7 +19,9 @@ from .preferences import FairPreferences
 from .run import cli, compare, presets, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.background import MESH_OT_fair_cancel
+from .run.brush import FairDab, MESH_OT_fair_brush
 from .run.curvature import MESH_OT_fair_curvature
+from .run.denoise import MESH_OT_fair_denoise
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
 from .run.masked import MESH_OT_fair_masked
@@ -28,7 +30,8 @@ from .run.peek import MESH_OT_fair_peek
 from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
-from .show import fillet_preview, keymap, marks, menus, overlay, tab, tools, ui
+from .run.strokes import MESH_OT_fair_stroke
+from .show import brush_preview, fillet_preview, gizmos, keymap, marks, menus, overlay, tab, tools, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
 
@@ -41,10 +44,13 @@ _CLASSES: tuple[Any, ...] = (
     FairLive,
     MESH_OT_fair_region,
     MESH_OT_fair_masked,
+    FairDab,
+    MESH_OT_fair_brush,
     copies.OBJECT_OT_fair_copy,
     copies.OBJECT_OT_fair_copies_update,
     MESH_OT_fair_fill,
     MESH_OT_fair_fillet,
+    MESH_OT_fair_denoise,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
     MESH_OT_fair_live_far_side,
@@ -58,7 +64,9 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_reset,
     *presets.CLASSES,
     *menus.MENUS,
+    MESH_OT_fair_stroke,
     *tools.MACROS,
+    *gizmos.GROUPS,
     *TOOLS,
     MESH_OT_fair_again,
     watch.MESH_OT_fair_inspect,
@@ -85,6 +93,7 @@ def register() -> None:
     watch.register()
     overlay.register()
     fillet_preview.register()
+    brush_preview.register()
     live.register()
     copies.register()
     marks.register()
@@ -111,6 +120,7 @@ def unregister() -> None:
     marks.unregister()
     copies.unregister()
     live.unregister()
+    brush_preview.unregister()
     fillet_preview.unregister()
     overlay.unregister()
     watch.unregister()

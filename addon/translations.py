@@ -9,7 +9,7 @@ they are shown: `translated` recognizes them by their templates, which have fiel
 from __future__ import annotations
 
 import json
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import bpy
@@ -41,7 +41,12 @@ def translated(text: str) -> str:
     found: str = bpy.app.translations.pgettext_iface(text)
     if found != text or not bpy.context.preferences.view.use_translate_interface:
         return found
-    return _templates(bpy.app.translations.locale.partition("_")[0]).translated(text)
+    return _sentence(bpy.app.translations.locale.partition("_")[0], text)
+
+
+@lru_cache(maxsize=1024)  # panels ask for the same sentences at every redraw; figures make new ones
+def _sentence(code: str, text: str) -> str:
+    return _templates(code).translated(text)
 
 
 @cache

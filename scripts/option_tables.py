@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "addon"))
 
 from core.fair_options import FAIR  # noqa: E402
-from core.fill_options import FILL, FILLET  # noqa: E402
+from core.fill_options import DENOISE, FILL, FILLET  # noqa: E402
 from core.option_shared import FOLDED, GROUPS  # noqa: E402
 from core.option_table import Option, Table  # noqa: E402
 from core.presets import PRESETS, preset  # noqa: E402
@@ -40,6 +40,7 @@ def page() -> str:
         ("mesh.fair_region", "Fair Region", FAIR),
         ("mesh.fair_fill", "Fair Fill", FILL),
         ("mesh.fair_fillet", "Fair Fillet", FILLET),
+        ("mesh.fair_denoise", "Fair Denoise", DENOISE),
     ):
         again = [f"*{option.label}*" for option in table if _row(option) in told]
         above = fill(f"As above: {', '.join(again)}.", 120) + "\n\n" if again else ""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -97,6 +99,22 @@ def test_several_files_at_once(meshio: Any, scan: Path, tmp_path: Path) -> None:
     assert [report["verdict"] for report in reports] == [UNUSABLE, GOOD, UNUSABLE, UNUSABLE]
     assert reports[3]["code"] == "NO_BOUNDARY" and "no such file" in reports[2]["reason"]
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["scan_filled.off"]
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a console's interrupt can't be sent to one process alone")
+def test_an_interrupt_keeps_what_is_done(scan: Path, tmp_path: Path) -> None:
+    """No further file begins; the report has those that are done, each of them written."""
+    names = [str(scan)] + [str(shutil.copy(scan, tmp_path / f"{number}.ply")) for number in range(399)]
+    words = ["fill", *names, "--longest", "20", "--into", str(tmp_path / "out"), "--jobs", "2"]
+    command = [sys.executable, "-u", "-m", "fairing", *words, "--json", str(tmp_path / "report.json")]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running:
+        assert running.stdout is not None and running.stdout.readline()
+        running.send_signal(signal.SIGINT)
+        _, said = running.communicate()
+    reports = json.loads((tmp_path / "report.json").read_text(encoding="utf-8"))
+    assert (running.returncode, said) == (130, "interrupted\n")
+    assert 0 < len(reports) < len(names)
+    assert all(Path(report["written"]).is_file() for report in reports)
 
 
 def test_from_a_shell(scan: Path) -> None:

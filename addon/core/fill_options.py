@@ -1,4 +1,4 @@
-"""The options of *Fair Fill* and *Fair Fillet*, in the form of fair_options.py. Plain Python, no bpy."""
+"""The options of *Fair Fill*, *Fair Fillet* and *Fair Denoise*, as fair_options.py has them. Plain Python, no bpy."""
 
 from __future__ import annotations
 
@@ -118,4 +118,28 @@ FILLET: Table = (
         kind="VERTEX_GROUP",
     ),
     *limits(),
+)
+
+DENOISE: Table = (
+    Option(
+        "size",
+        "Size",
+        "What is shorter than this goes, what is longer stays, in world space; 0: twelve of the edges around",
+        0.0,
+        SURFACE,
+        bounds=(0.0, 1e9),
+        slider=(0.0, 10.0),
+        digits=4,
+        kind="DISTANCE",
+    ),
+    Option(
+        "amount",
+        "Amount",
+        "How much of the roughness goes",
+        1.0,
+        SURFACE,
+        bounds=(0.0, 1.0),
+        digits=2,
+        kind="FACTOR",
+    ),
 )

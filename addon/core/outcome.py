@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -25,6 +26,22 @@ from .solve import Solved
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, Verdict, because_of, judge
+
+
+class Moves(Protocol):
+    """What is written to a mesh whose vertices stay the same: new positions, in the mesh's own coordinates."""
+
+    @property
+    def vertices(self) -> Ints:
+        """(k,) mesh indices, ascending."""
+
+    @property
+    def positions(self) -> Floats:
+        """(k, 3)."""
+
+    @property
+    def keys(self) -> tuple[MovedKey, ...]:
+        """Shape keys that move as well."""
 
 
 @dataclass(frozen=True)

@@ -48,6 +48,13 @@ def call_off(function: Callable[[], float | None]) -> None:
         bpy.app.timers.unregister(function)
 
 
+def hear_events(context: bpy.types.Context, operator: Any) -> None:
+    """Have Blender hand events to a modal operator, once: a second handler outlives it and swallows what follows."""
+    if not getattr(operator, "hears_events", False):
+        operator.hears_events = True
+        context.window_manager.modal_handler_add(operator)
+
+
 def is_edited(depsgraph: bpy.types.Depsgraph) -> bool:
     """Return whether a mesh changed, its selection included, or an object was moved.
 

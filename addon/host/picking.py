@@ -9,6 +9,7 @@ import bpy
 from bpy_extras import view3d_utils
 
 from ..translations import translated
+from .handlers import hear_events
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,7 +25,7 @@ class Picks:
         """Begin to wait; text: what is to be clicked."""
         context.window.cursor_modal_set("EYEDROPPER")
         context.workspace.status_text_set(f"{translated(text)}    [Esc] {translated('Cancel')}")
-        context.window_manager.modal_handler_add(self)
+        hear_events(context, self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -60,8 +61,14 @@ def rays(context: bpy.types.Context, event: bpy.types.Event, obj: bpy.types.Obje
                 yield _ray(area.spaces.active.region_3d, region, (x, y), obj)
 
 
+def place_at(context: bpy.types.Context, at: tuple[float, float], obj: bpy.types.Object) -> Any:
+    """Return where the object is hit at these pixels of the context's region, in its own coordinates; None: nowhere."""
+    found, place, _, _ = obj.ray_cast(*_ray(context.region_data, context.region, at, obj))
+    return place if found else None
+
+
 def _ray(
-    view: bpy.types.RegionView3D, region: bpy.types.Region, at: tuple[int, int], obj: bpy.types.Object
+    view: bpy.types.RegionView3D, region: bpy.types.Region, at: tuple[float, float], obj: bpy.types.Object
 ) -> tuple[Any, Any]:
     inverse = obj.matrix_world.inverted_safe()
     origin = inverse @ view3d_utils.region_2d_to_origin_3d(region, view, at)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import bmesh
@@ -10,7 +12,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core.arrays import Floats, Ints
-from .attributes import FACE_SET, SCULPT_MASK, faces_within, values
+from .attributes import FACE_SET, SCULPT_MASK, faces_within, values, write_attribute
 from .live_mesh import LAYER
 
 HALF = 0.5  # of the mask, from which on a vertex is masked
@@ -27,6 +29,36 @@ def masked_faces(mesh: bpy.types.Mesh) -> Ints:
     """Return the faces that are masked by half or more at all corners."""
     mask = values(mesh, SCULPT_MASK, np.float32)
     return np.empty(0, dtype=np.int64) if mask is None else faces_within(mesh, mask >= HALF)
+
+
+def shell(mesh: bpy.types.Mesh) -> tuple[Floats, Ints]:
+    """Return the unit normals (n, 3) of the vertices, and the triangles (t, 3) that Blender makes of the faces."""
+    normals = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("normal", normals)
+    mesh.calc_loop_triangles()
+    corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
+    mesh.loop_triangles.foreach_get("vertices", corners)
+    return normals.reshape(-1, 3).astype(np.float64), corners.reshape(-1, 3).astype(np.int64)
+
+
+def protected(mesh: bpy.types.Mesh) -> Floats:
+    """Return how much of each vertex (n,) the mask leaves to brushes."""
+    mask = values(mesh, SCULPT_MASK, np.float32)
+    return np.ones(len(mesh.vertices)) if mask is None else 1.0 - np.clip(mask.astype(np.float64), 0.0, 1.0)
+
+
+@contextmanager
+def masked_by(mesh: bpy.types.Mesh, weights: Floats) -> Iterator[None]:
+    """Give the mesh in object mode this mask (n,) for a while."""
+    before = values(mesh, SCULPT_MASK, np.float32)
+    write_attribute(mesh, SCULPT_MASK, weights)
+    try:
+        yield
+    finally:
+        if before is None:
+            mesh.attributes.remove(mesh.attributes[SCULPT_MASK])
+        else:
+            write_attribute(mesh, SCULPT_MASK, before)
 
 
 def face_set(mesh: bpy.types.Mesh, number: int) -> Ints:

@@ -9,6 +9,7 @@ import bpy
 
 from ..core import runner
 from ..core.engine import Progress
+from ..host.handlers import hear_events
 from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
 from ..translations import translated
 from . import job
@@ -189,7 +190,7 @@ class Watched:
 
     def _start_watching(self, context: bpy.types.Context) -> None:
         self._signs = Signs(context, self._preview)
-        context.window_manager.modal_handler_add(self)
+        hear_events(context, self)
 
     def _stop_watching(self) -> None:
         if self._signs is not None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints
-from ..core.outcome import Fairing
+from ..core.outcome import Moves
 from ..core.remeshing import Remeshed
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
@@ -39,7 +40,7 @@ class _Last:
 _last = _Last()
 
 
-def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
+def remember(tasks: list[Task], outcomes: Sequence[Moves]) -> None:
     """Keep both states of a run that will be written now."""
     _remember(
         [
@@ -49,18 +50,18 @@ def remember(tasks: list[Task], outcomes: list[Fairing]) -> None:
     )
 
 
-def remember_one(object_name: str, before: Floats, outcome: Fairing, normals: Floats | None) -> None:
+def remember_one(object_name: str, before: Floats, outcome: Moves, normals: Floats | None) -> None:
     """Keep both states of a run outside edit mode; before: positions (n, 3) of the whole mesh, normals: free ones."""
     _remember([(object_name, before, outcome, normals)])
 
 
-def _remember(runs: list[tuple[str, Floats, Fairing, Floats | None]]) -> None:
+def _remember(runs: list[tuple[str, Floats, Moves, Floats | None]]) -> None:
     _last.pairs = tuple(_pair(*run) for run in runs)
     if any(isinstance(outcome, Remeshed) or outcome.keys for _, _, outcome, _ in runs):
         forget()  # there are no pairs, or more than these
 
 
-def _pair(object_name: str, before: Floats, outcome: Fairing, normals: Floats | None) -> Pair:
+def _pair(object_name: str, before: Floats, outcome: Moves, normals: Floats | None) -> Pair:
     return Pair(
         object_name=object_name,
         vertex_count=len(before),

@@ -37,6 +37,14 @@ PRECISE = 0.1  # of the mouse's way while Shift is held
 PATIENCE = 2.0  # seconds for a preview: what is hard to find is sought once, when it is accepted
 SLOW = "This width takes longer: click to have it"
 
+
+class _Handle:
+    """Where the last fillet can be pulled wider."""
+
+    flank: tuple[Floats, Floats] | None = None  # as Task.flank
+
+
+handle = _Handle()
 previews: list[Callable[[list[Rounded]], None]] = []  # called with what a run by the mouse would write; [] at its end
 
 
@@ -56,6 +64,18 @@ class Task:
         ends = self.mesh.positions[np.unique(self.mesh.edges[self.seams])].mean(axis=0)
         place: Floats = self.matrix[:3, :3] @ ends + self.matrix[:3, 3]
         return place
+
+    @property
+    def flank(self) -> tuple[Floats, Floats]:
+        """The middle (3,) of the seam's middle edge in world space, and the unit direction away from it in one face."""
+        points = self.mesh.transformed(self.matrix).positions
+        edges = self.mesh.edges[self.seams]
+        edge = edges[np.linalg.norm(points[edges].mean(axis=1) - self.middle, axis=1).argmin()]
+        place, along = points[edge].mean(axis=0), points[edge[1]] - points[edge[0]]
+        triangle = self.mesh.triangles[np.isin(self.mesh.triangles, edge).sum(axis=1) == 2][0]
+        third = points[triangle[~np.isin(triangle, edge)][0]] - place
+        away = third - along * (third @ along) / (along @ along)
+        return place, away / np.linalg.norm(away)
 
 
 def read(context: bpy.types.Context, group: str) -> list[Task]:
@@ -254,6 +274,7 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
                 return self._leave(context, task.object_name, outcome.verdict.spots, outcome.verdict.reason)
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
+        handle.flank = self._tasks[0].flank
         clear(context.window_manager.fairing_report)
         objects = objects_in_mode(context)
         for task, outcome in zip(self._tasks, outcomes, strict=True):

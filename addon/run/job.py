@@ -5,7 +5,7 @@ Nothing is written unless all objects can be done.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import bpy
@@ -15,7 +15,7 @@ from ..core.arrays import Floats, Ints
 from ..core.engine import REFUSALS, Problem, Progress, RepeatedSolve, sub_range
 from ..core.memory import Memory
 from ..core.options import FairOptions
-from ..core.outcome import Fairing
+from ..core.outcome import Fairing, Moves
 from ..core.reflected import Whole, whole_of
 from ..core.region import MeshArrays, free_vertices, to_local
 from ..core.remeshing import Remeshed
@@ -148,7 +148,7 @@ def is_unchanged(obj: bpy.types.Object, mesh: MeshArrays, key: str) -> bool:
     return same_key and mesh_io.is_unchanged(obj.data, mesh)
 
 
-def write(context: bpy.types.Context, tasks: list[Task], outcomes: list[Fairing]) -> list[remeshed.Written | None]:
+def write(context: bpy.types.Context, tasks: list[Task], outcomes: Sequence[Moves]) -> list[remeshed.Written | None]:
     """Move the free vertices of every task's object, or put its new mesh in; return what is new where it is."""
     objects = objects_in_mode(context)
     written: list[remeshed.Written | None] = []

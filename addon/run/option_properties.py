@@ -8,7 +8,7 @@ from typing import Any
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.fair_options import FAIR
-from ..core.fill_options import FILL, FILLET
+from ..core.fill_options import DENOISE, FILL, FILLET
 from ..core.option_table import Before, Option, Table, from_names_before, names_before, warn_of_names_before
 
 _HIDDEN = {"HIDDEN", "SKIP_SAVE"}
@@ -88,6 +88,13 @@ class FillProperties(_Chosen):
 
     table = FILL
     __annotations__ = properties_of(FILL)
+
+
+class DenoiseProperties(_Chosen):
+    """The options of `mesh.fair_denoise`."""
+
+    table = DENOISE
+    __annotations__ = properties_of(DENOISE)
 
 
 class FilletProperties(_Chosen):

@@ -17,6 +17,7 @@ TITLES = {
     "CURVATURE": "Mean Curvature",
     "GAUSSIAN": "Gaussian Curvature",
     "PRINCIPAL": "Largest Curvature",
+    "COMBS": "Curvature of Edges",
     "DEVIATION": "Deviation",
 }
 _STEPS = 32
@@ -42,16 +43,18 @@ def draw(context: Any, mode: str, full: float, largest: float) -> None:
     scale = context.preferences.system.ui_scale
     width, height = (scale * value for value in _SIZE)
     left, bottom = 0.5 * (context.region.width - width), scale * _ABOVE
+    title, *ends = texts(mode, full, largest)
+    blf.size(0, 11.0 * scale)
+    blf.color(0, 1.0, 1.0, 1.0, 1.0)
+    _write(title, left, bottom + 1.5 * height)
+    if mode == "COMBS":  # teeth have one colour
+        return
     edges = np.linspace(0.0, 1.0, _STEPS + 1)
     xs = np.repeat(left + width * edges, 2)
     places = np.column_stack([xs, np.tile([bottom, bottom + height], _STEPS + 1)]).astype(np.float32)
     rgba = np.column_stack([np.repeat(colours(2.0 * edges - 1.0), 2, axis=0), np.ones(len(places))]).astype(np.float32)
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     batch_for_shader(shader, "TRI_STRIP", {"pos": places, "color": rgba}).draw(shader)
-    title, *ends = texts(mode, full, largest)
-    blf.size(0, 11.0 * scale)
-    blf.color(0, 1.0, 1.0, 1.0, 1.0)
-    _write(title, left, bottom + 1.5 * height)
     for text, share in zip(ends, (0.0, 0.5, 1.0), strict=True):
         _write(text, left + share * (width - blf.dimensions(0, text)[0]), bottom - 1.1 * height)
 

@@ -9,6 +9,7 @@ import bpy
 from ..follow.copies import OBJECT_OT_fair_copy
 from ..follow.taking import MESH_OT_fair_live_region
 from ..run.compare import MESH_OT_fair_compare
+from ..run.denoise import MESH_OT_fair_denoise
 from ..run.fill import MESH_OT_fair_fill
 from ..run.fillet import MESH_OT_fair_fillet
 from ..run.masked import MESH_OT_fair_masked
@@ -38,9 +39,10 @@ def draw_vertex_menu(menu: Any, _context: bpy.types.Context) -> None:
 
 
 def draw_clean_up_menu(menu: Any, _context: bpy.types.Context) -> None:
-    """Add to Mesh, Clean Up, which has Fill Holes."""
+    """Add to Mesh, Clean Up, which has Fill Holes; roughness of a scan is cleaned up, too."""
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_fill.bl_idname, text="Fair Fill Holes")
+    menu.layout.operator(MESH_OT_fair_denoise.bl_idname)
 
 
 def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:

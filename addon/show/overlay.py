@@ -14,16 +14,17 @@ from gpu_extras.batch import batch_for_shader
 
 from ..core import signals
 from ..core.arrays import Floats
+from ..core.combs import Comb, comb
 from ..core.options import FairOptions
 from ..core.overlay_data import Surface, make_surface
 from ..core.region import MeshArrays
 from ..host.context import active_object, edited_objects
 from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
 from ..host.status import redraw_views
-from ..mesh import mesh_io
+from ..mesh import mesh_io, selecting
 from ..mesh.deviation import deviation
 from ..run import compare
-from . import legend
+from . import combs, legend
 from .overlay_shader import make_shader
 
 DELAY = 0.02  # seconds from a change to the next measurement
@@ -34,6 +35,7 @@ class Overlay:
 
     def __init__(self) -> None:
         self.surfaces: tuple[Surface, ...] = ()
+        self.combs: tuple[Comb, ...] = ()
         self.message = ""
         self.handle: Any = None
         self.legend: Any = None
@@ -43,8 +45,11 @@ class Overlay:
     def measure(self, context: bpy.types.Context) -> None:
         """Measure what the settings ask for."""
         whole = context.mode != "EDIT_MESH" or context.window_manager.fairing_overlay.scope == "OBJECT"
-        self.message = ""
-        self._batches = []
+        self.clear()
+        if context.window_manager.fairing_overlay.mode == "COMBS":
+            self.combs = _combs(context)
+            self.message = "" if self.combs else "Select edges in edit mode: combs stand along them"
+            return
         self.surfaces = tuple(s for obj in _shown(context) if (s := self._surface(obj, whole)) is not None)
 
     def _surface(self, obj: bpy.types.Object, whole: bool) -> Surface | None:
@@ -59,6 +64,8 @@ class Overlay:
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the surfaces into the 3D view that is being drawn."""
+        if self.combs:
+            combs.draw(context, self.combs, full_colour(context.window_manager.fairing_overlay))
         if not self.surfaces:
             return
         if self._shader is None:
@@ -77,7 +84,14 @@ class Overlay:
 
     def clear(self) -> None:
         """Drop everything measured."""
-        self.surfaces, self._batches, self.message = (), [], ""
+        self.surfaces, self.combs, self._batches, self.message = (), (), [], ""
+
+    @property
+    def largest(self) -> float:
+        """The largest value shown, with its sign."""
+        mode = bpy.context.window_manager.fairing_overlay.mode
+        values = [surface.largest(mode) for surface in self.surfaces] + [each.largest for each in self.combs]
+        return max(values, key=abs)
 
 
 overlay = Overlay()
@@ -114,7 +128,19 @@ def full_colour(settings: Any) -> float:
     """Return the value with full colour, the same for all that is shown: of a legend there is one."""
     if not settings.automatic:
         return float(settings.range)
-    return max(1e-9, *(surface.usual(settings.mode) for surface in overlay.surfaces))
+    usual = [surface.usual(settings.mode) for surface in overlay.surfaces]
+    return max([1e-9, *usual, *(each.largest for each in overlay.combs)])
+
+
+def _combs(context: bpy.types.Context) -> tuple[Comb, ...]:
+    """Return the combs of all objects with selected edges, in world space."""
+    found = []
+    for obj in _shown(context) if context.mode == "EDIT_MESH" else ():
+        matrix = np.array(obj.matrix_world, dtype=np.float64)
+        points, edges = selecting.selected_lines(obj.data)
+        if len(edges):
+            found.append(comb(points @ matrix[:3, :3].T + matrix[:3, 3], edges))
+    return tuple(found)
 
 
 def _deviation(name: str, mesh: MeshArrays, matrix: Floats) -> Floats | None:
@@ -135,9 +161,8 @@ def _draw() -> None:
 
 def _draw_legend() -> None:
     settings = bpy.context.window_manager.fairing_overlay
-    if overlay.surfaces and settings.mode != "ZEBRA":
-        largest = max((surface.largest(settings.mode) for surface in overlay.surfaces), key=abs)
-        legend.draw(bpy.context, settings.mode, full_colour(settings), largest)
+    if (overlay.surfaces or overlay.combs) and settings.mode != "ZEBRA":
+        legend.draw(bpy.context, settings.mode, full_colour(settings), overlay.largest)
 
 
 def settings_changed(context: bpy.types.Context) -> None:

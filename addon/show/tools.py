@@ -1,4 +1,4 @@
-"""Tools of the toolbar: draw around faces and let go, drag on an edge, click a face set.
+"""Tools of the toolbar: draw around faces or paint over them and let go, drag on an edge, click a face set.
 
 In edit mode each is a macro: Blender's own way to select, then ours. One step of undo takes both back.
 """
@@ -8,7 +8,9 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
+from gpu_extras.presets import draw_circle_2d
 
+from ..run.brush import MESH_OT_fair_brush
 from ..run.masked import MESH_OT_fair_masked
 
 # Of Fair Region, in the header of a tool.
@@ -30,7 +32,7 @@ class MESH_OT_fair_paint(bpy.types.Macro):
     bl_idname = "mesh.fair_paint"
     bl_label = "Fair Paint"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-    steps = ("VIEW3D_OT_select_circle", "MESH_OT_fair_region")
+    steps = ("MESH_OT_fair_stroke", "MESH_OT_fair_region")
 
 
 class MESH_OT_fair_fillet_edge(bpy.types.Macro):
@@ -73,19 +75,17 @@ class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
     bl_label = "Fair Paint"
     bl_description = "Paint over the faces to be faired and let go"
     bl_icon = "ops.generic.select_circle"
-    bl_keymap = (
-        (
-            MESH_OT_fair_paint.bl_idname,
-            {"type": "LEFTMOUSE", "value": "PRESS"},
-            {"properties": [("VIEW3D_OT_select_circle", [("wait_for_input", False)])]},
-        ),
-    )
+    bl_keymap = ((MESH_OT_fair_paint.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
         """Draw the radius and the options in the header."""
         properties = tool.operator_properties(MESH_OT_fair_paint.bl_idname)
-        layout.prop(properties.VIEW3D_OT_select_circle, "radius")
+        layout.prop(properties.MESH_OT_fair_stroke, "radius")
         _draw_fair(layout, tool, MESH_OT_fair_paint.bl_idname)
+
+    def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
+        """Draw the circle around the pointer."""
+        _draw_circle(xy, tool.operator_properties(MESH_OT_fair_paint.bl_idname).MESH_OT_fair_stroke.radius)
 
 
 class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
@@ -109,6 +109,27 @@ class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
         properties = tool.operator_properties(MESH_OT_fair_fillet_edge.bl_idname).MESH_OT_fair_fillet
         for name in ("profile", "continuity", "spacing"):
             layout.prop(properties, name)
+
+
+class FairBrushTool(_Tool, bpy.types.WorkSpaceTool):
+    """Paints over faces in sculpt mode."""
+
+    bl_context_mode = "SCULPT"
+    bl_idname = "intrinsic_fairing.brush"
+    bl_label = "Fair Brush"
+    bl_description = "Paint over what is to become fair and let go. Masked vertices stay"
+    bl_icon = "ops.sculpt.mesh_filter"
+    bl_keymap = ((MESH_OT_fair_brush.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
+
+    def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
+        """Draw the radius and the options in the header."""
+        properties = tool.operator_properties(MESH_OT_fair_brush.bl_idname)
+        for name in ("radius", *_IN_HEADER[:-1]):
+            layout.prop(properties, name)
+
+    def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
+        """Draw the circle around the pointer."""
+        _draw_circle(xy, tool.operator_properties(MESH_OT_fair_brush.bl_idname).radius)
 
 
 class _FaceSetTool(_Tool):
@@ -149,9 +170,14 @@ TOOLS: tuple[Any, ...] = (
     FairLassoTool,
     FairPaintTool,
     FairFilletTool,
+    FairBrushTool,
     FairFaceSetSculptTool,
     FairFaceSetObjectTool,
 )
+
+
+def _draw_circle(xy: tuple[int, int], radius: int) -> None:
+    draw_circle_2d(xy, (1.0, 1.0, 1.0, 0.8), radius, segments=32)
 
 
 def _draw_fair(layout: Any, tool: Any, macro: str) -> None:
@@ -166,7 +192,7 @@ def register() -> None:
         for step in macro.steps:
             macro.define(step)
     for tool in TOOLS:
-        bpy.utils.register_tool(tool, separator=tool in (FairLassoTool, FairFaceSetSculptTool, FairFaceSetObjectTool))
+        bpy.utils.register_tool(tool, separator=tool in (FairLassoTool, FairBrushTool, FairFaceSetObjectTool))
 
 
 def unregister() -> None:

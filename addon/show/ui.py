@@ -118,7 +118,8 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
     column = layout.column()
     column.active = settings.show
     column.prop(settings, "mode")
-    column.prop(settings, "scope")
+    if settings.mode != "COMBS":
+        column.prop(settings, "scope")
     if settings.mode == "ZEBRA":
         column.prop(settings, "stripes")
         column.prop(settings, "axis")
@@ -127,7 +128,8 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
         row = column.row()
         row.active = not settings.automatic
         row.prop(settings, "range", text="Tolerance" if settings.mode == "DEVIATION" else "Range")
-    column.prop(settings, "opacity")
+    if settings.mode != "COMBS":
+        column.prop(settings, "opacity")
     if overlay.message:
         draw_text(layout, overlay.message, "ERROR")
 

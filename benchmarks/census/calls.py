@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
 
 import fairing
 import joints
 import problems
 import real_meshes
 import scan_regions
+import solids_at_random
 import tubes
+from engine import FloatArray
 from joints import flat_arm
+from meshing import IntArray
 from real_meshes import RealPatch
 
 Call = tuple[str, Callable[[], Any], Any]  # name, the call, the exact surface where one is known
@@ -21,8 +27,9 @@ LARGEST = {"fill": 700, "remesh": 700, "least variation": 300, "paper": 900}  # 
 USUAL = 1000  # of other kinds
 # Of a hundred problems of all kinds.
 SHARES = {
-    "patches": 28, "scans": 6, "fill": 10, "pins": 7, "detail": 7, "jagged": 7, "remesh": 4, "feather": 3, "G2": 6,
-    "mended": 4, "least variation": 3, "tubes": 7, "weights": 3, "equations": 4, "again": 1,
+    "patches": 20, "scans": 5, "fill": 9, "pins": 6, "detail": 6, "jagged": 6, "remesh": 4, "feather": 3, "G2": 6,
+    "mended": 3, "least variation": 3, "tubes": 6, "weights": 3, "equations": 4, "again": 2, "paper": 3, "fillet": 5,
+    "hard": 6, "mixed": 8, "curves": 4,
 }  # fmt: skip
 
 
@@ -32,9 +39,9 @@ def patches(kind: str, count: int, seed: int) -> Iterator[tuple[RealPatch, np.ra
 
 
 def calls(kind: str, count: int, seed: int) -> Iterator[Call]:
-    """Of a kind: KINDS, "tubes", "scans", or "patches" with the closed forms and options of problems.py."""
-    if kind in ("tubes", "scans"):
-        yield from (_tubes if kind == "tubes" else _scans)(count, seed)
+    """Of a kind: KINDS, MAKERS, or "patches" with the closed forms and options of problems.py."""
+    if kind in MAKERS:
+        yield from MAKERS[kind](count, seed)
         return
     if kind != "patches":
         for patch, rng in patches(kind, count, seed):
@@ -86,6 +93,52 @@ def _scans(count: int, seed: int) -> Iterator[Call]:
             f"{name} {number}", "scan", region.vertices, region.triangles, fixed, normals, {"inner_fairness": weights}
         )
         yield problem.name, _faired(problem), None
+
+
+def _solid(rng: np.random.Generator) -> solids_at_random.Mesh:
+    return (solids_at_random.swept, solids_at_random.blocks)[int(rng.integers(2))](rng)
+
+
+def _fillets(count: int, seed: int) -> Iterator[Call]:
+    """Of all hard edges of random solids; with other widths, profiles and joins."""
+    rng = np.random.default_rng(seed)
+    for number in range(count):
+        vertices, triangles = _solid(rng)
+        edge = float(np.linalg.norm(vertices[triangles[:, 0]] - vertices[triangles[:, 1]], axis=1).mean())
+        width = edge * float(rng.uniform(0.5, 2.5))
+        options: dict[str, Any] = {"width": width, "threads": 1}
+        if number % 4 == 1:
+            options["profile"] = float(rng.uniform(-1.0, 1.0))
+        if number % 4 == 2:
+            options |= {"width_2": width * float(rng.uniform(0.5, 1.5)), "spacing": 0.3 * width}
+        if number % 4 == 3:
+            options["continuity"] = "G2"
+        yield f"fillet {number}", partial(fairing.fillet, vertices, triangles, **options), None
+
+
+def _hard(count: int, seed: int) -> Iterator[Call]:
+    """Holes and regions of random solids, across their edges."""
+    rng = np.random.default_rng(seed)
+    for number in range(count):
+        vertices, triangles = _solid(rng)
+        edges, uses = fairing.edges_with_uses(triangles)
+        inner = np.setdiff1d(np.arange(len(vertices)), edges[uses == 1])
+        radius = float(np.ptp(vertices, axis=0).max() * rng.uniform(0.1, 0.3))
+        near = np.linalg.norm(vertices[triangles].mean(axis=1) - vertices[rng.choice(inner)], axis=1) < radius
+        near &= np.isin(triangles, inner).all(axis=1)
+        part, around = triangles[near], triangles[~near]
+        solve = _hole if number % 2 else _region
+        yield f"{solve.__name__[1:]} {number}", partial(solve, vertices, part, around), None
+
+
+def _hole(vertices: FloatArray, part: IntArray, around: IntArray) -> Any:
+    return fairing.fill(vertices, around, fairing.boundary_loops(part), threads=1)
+
+
+def _region(vertices: FloatArray, part: IntArray, around: IntArray) -> Any:
+    fixed = np.intersect1d(part, around)
+    normals = fairing.surrounding_normals(vertices, around, fixed).normals
+    return fairing.fair(vertices, part, fixed=fixed, fixed_normals=normals, outside=around, threads=1)
 
 
 def _style(rng: np.random.Generator) -> dict[str, int]:
@@ -208,17 +261,78 @@ def _of_other_equation(patch: RealPatch, rng: np.random.Generator) -> Callable[[
     return _fair(patch, equation=name, bulge=float(rng.choice([-1.0, 1.0, 4.0])) if name == "constant" else 0.0)
 
 
+def _mixed(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    """Several options at once, each in every third call; normals of the surroundings, which "mended" finds itself."""
+    rare = rng.random(9) < 1 / 3
+    options: dict[str, Any] = {}
+    if rare[0]:
+        options["inner_fairness"] = str(rng.choice(["conformal", "inverse_distance", "shape_preserving"]))
+    if rare[1]:
+        options["continuity"] = "G2"
+    elif rare[2]:
+        options |= {"equation": "constant", "bulge": float(rng.uniform(-2.0, 2.0))}
+    if rare[3]:
+        options["detail"] = float(rng.uniform(0.2, 1.0))
+    if rare[4]:
+        options["outline"] = "mended"
+    else:
+        options["fixed_normals"] = patch.normals
+    if rare[5]:
+        options["start"] = str(rng.choice(["given", "least_variation", "loft", "smoothed"]))
+    if rare[6]:
+        options["normals"] = "averaged"
+    if rare[7]:
+        options |= {"tolerance": 1e-9, "otherwise": "stop"}
+    if rare[8]:
+        options["preview"] = lambda points: None
+    return _within(patch, float(rng.choice([0.0, 0.1])), rng, **options)
+
+
+def _curved(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | None:
+    """A path from boundary to boundary as a crease or a smooth curve; or with part of the border free."""
+    if rng.random() < 0.3:
+        kept = len(patch.fixed) // 2
+        return lambda: fairing.fair(
+            patch.vertices, patch.triangles, fixed=patch.fixed[:kept], fixed_normals=patch.normals[:kept],
+            open_border="faired", threads=1,
+        )  # fmt: skip
+    edges = fairing.edges_with_uses(patch.triangles)[0]
+    lengths = np.linalg.norm(patch.vertices[edges[:, 0]] - patch.vertices[edges[:, 1]], axis=1)
+    count = len(patch.vertices)
+    graph = coo_array((lengths, (edges[:, 0], edges[:, 1])), shape=(count, count)).tocsr()
+    first, last = rng.choice(patch.fixed, 2, replace=False)
+    before = dijkstra(graph, directed=False, indices=first, return_predecessors=True)[1]
+    path = [int(last)]
+    while before[path[-1]] >= 0:
+        path.append(int(before[path[-1]]))
+    inner = np.setdiff1d(path, patch.fixed)
+    if len(inner) < 2:
+        return None
+    fixed = np.append(patch.fixed, inner)
+    normals = np.vstack([patch.normals, np.tile([0.0, 0.0, 1.0], (len(inner), 1))])
+    curves: dict[str, Any] = {"creases": np.array(path)} if rng.random() < 0.5 else {"smooth_curves": inner}
+    return lambda: fairing.fair(
+        patch.vertices, patch.triangles, fixed=fixed, fixed_normals=normals, threads=1, **curves
+    )
+
+
 def _again(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
-    """While the boundary moves; then from the last answer's vertices."""
+    """While the boundary moves; with another load; then from the last answer's vertices."""
+    continuity = str(rng.choice(["G1", "G2"]))
+    around = fairing.surrounding_normals(patch.whole, patch.outside, patch.vertices_in_mesh[patch.fixed])
+    curvatures = around.curvatures if continuity == "G2" else None
     steps = rng.normal(scale=np.ptp(patch.vertices[patch.fixed], axis=0).max(), size=(3, 3)) * [[0.005], [0.02], [0.1]]
     part = patch.fixed[: len(patch.fixed) // 2]
 
     def solved() -> Any:
-        solver = fairing.Solver(patch.triangles, fixed=patch.fixed, threads=1)
+        solver = fairing.Solver(patch.triangles, fixed=patch.fixed, continuity=continuity, threads=1)
         vertices = patch.vertices.copy()
-        solver.solve(vertices, patch.normals, patch.vertices)
+        solver.solve(vertices, patch.normals, patch.vertices, fixed_curvatures=curvatures)
         for step in steps:
             vertices[part] += step
+            last = solver.solve(vertices, patch.normals, patch.vertices, fixed_curvatures=curvatures)
+        if continuity == "G1":
+            solver.change(equation="constant", bulge=0.3)
             last = solver.solve(vertices, patch.normals, patch.vertices)
         return fairing.fair(
             last.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, threads=1, start="given"
@@ -240,5 +354,8 @@ KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | 
     "weights": _weighted,
     "equations": _of_other_equation,
     "again": _again,
+    "mixed": _mixed,
+    "curves": _curved,
     "paper": lambda patch, _: _fair(patch, method="paper"),
 }
+MAKERS = {"tubes": _tubes, "scans": _scans, "fillet": _fillets, "hard": _hard}

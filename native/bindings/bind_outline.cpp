@@ -8,6 +8,7 @@
 #include "boundary/feather.h"
 #include "boundary/fitted_boundary.h"
 #include "boundary/least_variation_curve.h"
+#include "detail/denoised.h"
 #include "geometry/hard_edges.h"
 
 namespace fairing::bindings {
@@ -92,6 +93,19 @@ std::pair<py::array, py::array> soft_base_arrays(const DoubleArray& vertices, co
     return {from_points(result.base), from_points(result.soft)};
 }
 
+py::array denoised_array(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
+                         const DoubleArray& sizes, int threads, const py::object& callback) {
+    PythonRun run(callback);
+    const Points points = to_points(vertices);
+    const Triangles faces = to_triangles(triangles);
+    const Indices held = to_indices(fixed);
+    const VectorX lengths = to_vector(sizes);
+    return from_points(run.without_gil([&](const ProgressCallback& progress) {
+        const Threads team(threads);
+        return denoised({points, faces, held}, lengths, Progress(progress));
+    }));
+}
+
 py::dict fitted_boundary_arrays(const DoubleArray& vertices, const IntArray& triangles, const IntArray& outline) {
     const FittedBoundary result = fitted_boundary(to_points(vertices), to_triangles(triangles), to_indices(outline));
     py::dict dict = to_dict(result.normals);
@@ -131,6 +145,8 @@ void bind_outline(py::module_& module) {
                py::arg("width"), py::arg("stops"));
     module.def("soft_base", &soft_base_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("base"), py::arg("faired"), py::arg("sizes"), py::arg("threads"), py::arg("progress"));
+    module.def("denoised", &denoised_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
+               py::arg("sizes"), py::arg("threads"), py::arg("progress"));
     module.def("fair_curve", &fair_curve_array, py::arg("places"), py::arg("directions"), py::arg("shares"));
     module.def("chain_end", &chain_end, py::arg("chain"));
 }

@@ -272,19 +272,9 @@ FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& aske
     SolverOptions options = asked;
     if (asked.equation == Equation::automatic)
         options.equation = automatic_equation(outline.loops, outline.points, outline.normals);
-    FirstSurface result = sought(outline, options, progress.range(0.0, 0.6));
+    FirstSurface result = sought(outline, options, progress.range(0.0, 0.8));
     if (has_converged(result) || !may_be_replaced(options) || outline.loops.size() < 2) return result;
-    // What a solve in vain leaves is no start for the surface of least variation, whose own descents may be.
-    SolverOptions other = options;
-    other.equation = Equation::least_variation;
-    FirstSurface least_varying = sought(outline, other, progress.range(0.6, 1.0));
-    if (!has_converged(least_varying)) {
-        FirstSurface loft = with_loft(outline, options, std::move(result), progress.here());
-        if (has_converged(loft)) return loft;
-        // Where none does, a finer mesh may still end where this one did not.
-    }
-    least_varying.solution.provenance = Provenance::least_variation;  // the equation asked for is another
-    return least_varying;
+    return with_loft(outline, options, std::move(result), progress.range(0.8, 1.0));
 }
 
 }  // namespace fairing

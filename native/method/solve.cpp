@@ -58,10 +58,12 @@ Found solve_uniform_weights(const Problem& problem, const Progress& progress) {
     return solution;
 }
 
-// What a strategy that gave up early has left open.
-void measure(const Problem& problem, Solution& solution) {
+// What is left open by a strategy that gave up early, and by a surface at given points.
+void complete(const Problem& problem, Solution& solution) {
+    if (solution.mean_curvature.size() > 0) return;
     const SurfaceState state = measured_surface(problem, solution.points);
     solution.mean_curvature = state.curvature.mean;
+    if (stands_in(solution.provenance)) return;
     solution.residual = largest_residual(problem, state, outer_residual(problem, state));
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
 }
@@ -167,7 +169,7 @@ private:
     }
 
     Solution finished(Solution solution) {
-        if (solution.mean_curvature.size() == 0) measure(problem_, solution);
+        complete(problem_, solution);
         solution.ways = attempts_.log;
         return solution;
     }
@@ -184,7 +186,9 @@ Found answer(const Problem& problem, Found solution, const char* name, const Sto
     if (!solution) return std::nullopt;
     solution->flaw = flaw_of(problem, *solution);
     solution->ways = {{name, watch.seconds()}};
-    return is_answer(*solution) ? std::move(solution) : std::nullopt;
+    if (!is_answer(*solution)) return std::nullopt;
+    complete(problem, *solution);
+    return solution;
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "problem/solution_at.h"
 
 #include "geometry/surface_fit.h"
-#include "problem/surface_state.h"
 
 namespace fairing {
 
@@ -9,7 +8,6 @@ Solution solution_at(const Problem& problem, const Points& points, Provenance pr
     Solution solution;
     solution.points = points;
     solution.termination = Termination::converged;
-    solution.mean_curvature = measured_surface(problem, points).curvature.mean;
     solution.boundary_normals = one_sided_normals(problem.patch, points);
     solution.iterations = 1;
     solution.provenance = provenance;

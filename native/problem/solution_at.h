@@ -6,8 +6,8 @@
 
 namespace fairing {
 
-// The surface at `points` (3 × local vertices) as a converged solution, its mean curvature and its boundary normals
-// measured, and not judged: `flaw` stays absent.
+// The surface at `points` (3 × local vertices) as a converged solution with its boundary normals; not judged (`flaw`
+// stays absent), and its mean curvature is left open.
 Solution solution_at(const Problem& problem, const Points& points, Provenance provenance);
 
 }  // namespace fairing

@@ -18,6 +18,7 @@ site_needs=(mkdocs-material==9.8.2 'mkdocstrings[python]==1.0.8')
 panda3d_version=1.10.16
 declare -A windows_numpy=([3.11]=1.26.4 [3.13]=2.1.0) # the newest that need nothing wine 8 lacks
 cibuildwheel_version=4.3.5
+workflow_checkers=(zizmor==1.32.0 check-jsonschema)
 # whose meshes the module takes, for scripts/test --libraries
 mesh_libraries=(
     trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 open3d==0.20.0 distributed==2026.8.0 numpy==1.26.4

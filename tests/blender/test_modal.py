@@ -114,7 +114,7 @@ def test_clicks_reach_the_buttons_that_cancel(place: Any, category: str, passes:
 
 def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypatch: pytest.MonkeyPatch) -> None:
     """Sculpt mode goes on meanwhile; what comes out is what a script gets, and nothing where the mesh has changed."""
-    masked, background = module("run.masked"), module("run.background")
+    outside, background = module("run.outside"), module("run.background")
     scripted, faces = meshes.domed_grid()
     obj, _ = meshes.domed_grid()
     for each in (scripted, obj):
@@ -127,14 +127,15 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
     bpy.context.view_layer.objects.active = scripted
     assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", True, source="MASK") == {"FINISHED"}
     bpy.context.view_layer.objects.active = obj
-    before, solve = meshes.positions(obj), masked.solve
+    before, solve = meshes.positions(obj), outside.solve
 
     def slow(*arguments: Any) -> Any:
         assert go_on.wait(10.0)
         return solve(*arguments)
 
     def started_masked() -> Any:
-        methods = {**vars(background.Watched), **vars(masked.MESH_OT_fair_masked)}
+        masked = module("run.masked").MESH_OT_fair_masked
+        methods = {**vars(background.Watched), **vars(outside.FairsOutside), **vars(masked)}
         methods = {name: value for name, value in methods.items() if not name.startswith("__") and name != "bl_rna"}
         watching = lambda stand, context: setattr(stand, "_signs", background.Signs(context))  # noqa: E731
         stand = type("Stand", (), {**methods, "_start_watching": watching, "report": lambda *_: None})()
@@ -143,7 +144,7 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
         assert stand.invoke(bpy.context, event("LEFTMOUSE")) == {"RUNNING_MODAL"}
         return stand
 
-    monkeypatch.setattr(masked, "solve", slow)
+    monkeypatch.setattr(outside, "solve", slow)
     monkeypatch.setattr(background, "has_events", lambda _context: True)
     monkeypatch.setattr(background, "MOMENT", 0.01)
     bpy.ops.object.mode_set(mode="SCULPT")

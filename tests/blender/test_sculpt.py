@@ -8,6 +8,7 @@ import bpy
 import meshes
 import numpy as np
 import pytest
+from extension import module
 from test_restoration import spoil, upper_half
 
 
@@ -142,3 +143,56 @@ def test_not_in_edit_mode() -> None:
     obj = meshes.grid()
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_masked.poll()
+
+
+def dab(place: Any, reach: float) -> dict[str, Any]:
+    return {"name": "", "place": tuple(place), "reach": reach}
+
+
+def test_a_brush_fairs_what_it_went_over_with_its_falloff(sculpted: Any) -> None:
+    """As Fair Masked with that mask; the mesh's own mask protects, and is as it was."""
+    pole = np.array([0.0, 0.0, 1.0])
+    scripted, obj = meshes.sphere(48), meshes.sphere(48)
+    for each in (scripted, obj):
+        points = meshes.positions(each)
+        points += 0.3 * np.exp(-20.0 * np.linalg.norm(points - pole, axis=1)[:, None] ** 2) * points
+        meshes.move(each, points)
+    before = meshes.positions(obj)
+    weights = np.zeros(len(before))
+    module("core.brush").paint(weights, before, pole, 1.2)
+    assert 0.0 < np.count_nonzero((weights > 0.0) & (weights < 1.0)) < len(weights)
+    scripted.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", weights.astype(np.float32))
+    bpy.context.view_layer.objects.active = scripted
+    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", True, source="MASK", use_mask=True) == {"FINISHED"}
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode="SCULPT")
+    bpy.ops.ed.undo_push(message="start")
+    assert bpy.ops.mesh.fair_brush("EXEC_DEFAULT", True, dabs=[dab(pole, 1.2)]) == {"FINISHED"}
+    assert bpy.context.mode == "SCULPT"
+    after = meshes.positions(obj)
+    np.testing.assert_allclose(after, meshes.positions(scripted), atol=1e-6)  # dabs are single precision
+    assert (after[weights == 0.0] == before[weights == 0.0]).all()
+    assert ".sculpt_mask" not in obj.data.attributes
+    name = obj.name
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects[name]
+    np.testing.assert_array_equal(meshes.positions(obj), before)
+    mask = (before[:, 0] > 0.2).astype(np.float32)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    obj.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", mask)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    assert bpy.ops.mesh.fair_brush("EXEC_DEFAULT", True, dabs=[dab(pole, 1.2)]) == {"FINISHED"}
+    assert (meshes.positions(obj)[mask == 1.0] == before[mask == 1.0]).all()
+    kept = np.empty_like(mask)
+    obj.data.attributes[".sculpt_mask"].data.foreach_get("value", kept)
+    np.testing.assert_array_equal(kept, mask)
+
+
+def test_a_brush_beside_the_mesh_changes_nothing(sculpted: Any) -> None:
+    obj, _ = half_sphere()
+    before = meshes.positions(obj)
+    bpy.ops.object.mode_set(mode="SCULPT")
+    with pytest.raises(RuntimeError, match="painted over by half"):
+        bpy.ops.mesh.fair_brush("EXEC_DEFAULT", True, dabs=[dab((0.0, 0.0, 5.0), 0.5)])
+    np.testing.assert_array_equal(meshes.positions(obj), before)
+    assert ".sculpt_mask" not in obj.data.attributes

@@ -8,6 +8,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+import bmesh
 import bpy
 import meshes
 import numpy as np
@@ -34,7 +35,7 @@ def in_toolbar(mode: str) -> list[str]:
 
 def test_each_mode_has_its_tools() -> None:
     assert in_toolbar("EDIT_MESH") == ["lasso", "paint", "fillet"]
-    assert in_toolbar("SCULPT") == ["face_set"]
+    assert in_toolbar("SCULPT") == ["brush", "face_set"]
     assert in_toolbar("OBJECT") == ["face_set"]
 
 
@@ -63,8 +64,49 @@ def test_what_they_press_exists() -> None:
 @pytest.mark.parametrize("name", ["lasso", "paint"])
 def test_a_gesture_is_a_selection_and_a_run(name: str) -> None:
     properties = getattr(bpy.ops.mesh, f"fair_{name}").get_rna_type().properties.keys()
-    assert [key for key in properties if "_OT_" in key][1] == "MESH_OT_fair_region"
-    assert "select" in next(key for key in properties if "_OT_" in key)
+    selects = {"lasso": "VIEW3D_OT_select_lasso", "paint": "MESH_OT_fair_stroke"}[name]
+    assert [key for key in properties if "_OT_" in key] == [selects, "MESH_OT_fair_region"]
+
+
+def test_a_stroke_leaves_no_gap() -> None:
+    between = module("run.strokes").between
+    assert list(between((0, 0), (0, 0), 5.0)) == [(0, 0)]
+    places = np.array([(3.0, 1.0), *between((3, 1), (33, -39), 7.0)])
+    assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() <= 7.0
+    np.testing.assert_allclose(places[-1], (33, -39))
+
+
+def test_the_arrow_of_a_bulge_goes_as_far_as_the_surface() -> None:
+    """On a flat disc: the option that the arrow sets lifts the middle as far as the arrow went."""
+    obj = meshes.grid(24)
+    faces = meshes.faces_where(obj, lambda c: c.xy.length < 0.7)
+    meshes.enter(obj, faces)
+    group = module("show.gizmos").VIEW3D_GGT_fair_bulge
+    bulge = 0.2
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, bulge=bulge) == {"FINISHED"}
+    top = module("mesh.mesh_io").edit_positions(obj.data)[:, 2].max()
+    place, normal, radius = module("run.last_run").middle(bpy.context)
+    np.testing.assert_allclose(normal, (0.0, 0.0, 1.0), atol=0.1)
+    np.testing.assert_allclose(place[2], top, rtol=0.1)
+    np.testing.assert_allclose(bulge * module("show.gizmos").LIFT * radius, top, rtol=0.15)
+    assert group.operator == "MESH_OT_fair_region"
+
+
+def test_the_arrow_of_a_width_begins_at_the_seam() -> None:
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(bpy.context.object.data)
+    for edge in bm.edges:
+        edge.select_set(all(v.co.x > 0.0 and v.co.z > 0.0 for v in edge.verts))
+    assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3) == {"FINISHED"}
+    foot, away = module("run.fillet").handle.flank
+    np.testing.assert_allclose(foot, (1.0, 0.0, 1.0), atol=1e-6)
+    assert min(np.linalg.norm(away - d) for d in ((-1, 0, 0), (0, 0, -1))) < 1e-6
+    options_of, operator = module("show.gizmos").options_of, bpy.context.window_manager.operators[-1]
+    assert options_of(operator, "MESH_OT_fair_fillet").width == pytest.approx(0.3)
+    assert options_of(operator, "MESH_OT_fair_region") is None
 
 
 def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -78,7 +120,12 @@ def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch)
     bpy.context.view_layer.objects.active = obj
     picked = int(np.flatnonzero(faces)[0])
     monkeypatch.setattr(masked, "face_under_mouse", lambda *_: picked)
-    parts = (module("run.background").Watched, module("host.picking").Picks, masked.MESH_OT_fair_masked)
+    parts = (
+        module("run.background").Watched,
+        module("host.picking").Picks,
+        module("run.outside").FairsOutside,
+        masked.MESH_OT_fair_masked,
+    )
     methods = {name: value for part in parts for name, value in vars(part).items() if not name.startswith("__")}
     methods.pop("bl_rna", None)
     stand = give_options(type("Stand", (), {**methods, "report": lambda *_: None})())

@@ -4,6 +4,7 @@ from fairing._borders import expected_vertices, outer_borders
 from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
+from fairing._denoise import denoise
 from fairing._edges_through import EdgesThrough, edges_through
 from fairing._fair import fair
 from fairing._fair_edges import FairEdges, fair_edges
@@ -105,6 +106,7 @@ __all__ = [
     "conformal_distortion",
     "conformal_map",
     "cotan_laplacian",
+    "denoise",
     "deviation",
     "edges_through",
     "edges_with_uses",

@@ -144,6 +144,14 @@ def cut_fillet(
     spacing: float,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+def denoised(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints,
+    sizes: _Floats,
+    threads: int,
+    progress: Callable[[float, str], bool | None] | None,
+) -> _Floats: ...
 def drawn_to(points: _Floats, triangles: _Ints, fixed: _Ints, target: _Floats, pull: _Floats) -> _Floats: ...
 def fill_loops(
     vertices: _Floats,

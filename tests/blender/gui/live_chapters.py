@@ -119,8 +119,8 @@ def _rests() -> bool:
 
 
 def settled() -> bool:
-    """Whether no region is carried along any more."""
-    return not _live().stands_in()
+    """Whether every region shows its own surface: none stands in, and none fades into another."""
+    return not _live().stands_in() and not any(session.blend.goes_on for session in _live().sessions.values())
 
 
 def _is_on() -> bool:

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 import bpy
-from driver import Story, click, in_view, middle, move_mouse, press, view
+from driver import Story, click, in_view, middle, move_mouse, press, screenshot, view
 
 ID = "bl_ext.user_default.intrinsic_fairing"
 _options: dict[str, Any] = {}  # that Fair Region is run with
@@ -120,3 +120,26 @@ def drag(steps: int, by: tuple[int, int], axis: str = "") -> Story:
     for step in range(1, steps + 1):
         move_mouse(x + by[0] * step // steps, y + by[1] * step // steps)
         yield 0.0
+
+
+def drag_over(places: list[tuple[int, int]], picture: str = "") -> Story:
+    """Go over these places, in pixels from the middle of the view, with the button held; a picture just before the end.
+
+    Each way between two places takes eight moves.
+    """
+    x, y = middle()
+    window = view()[0]
+    (x0, y0), *rest = [(x + dx, y + dy) for dx, dy in places]
+    move_mouse(x0, y0)
+    yield 0.2
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=x0, y=y0)
+    for x1, y1 in rest:
+        for k in range(1, 9):
+            yield 0.03
+            move_mouse(x0 + (x1 - x0) * k // 8, y0 + (y1 - y0) * k // 8)
+        x0, y0 = x1, y1
+    yield 0.5
+    if picture:
+        screenshot(picture)
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=x0, y=y0)
+    yield 0.1

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+import bmesh
 import bpy
+import numpy as np
 import scenes
 import spoilt_scenes
-from driver import Story, in_view, middle, move_mouse, press, screenshot, view
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from driver import Story, in_view, middle, move_mouse, press, screenshot, tell, view
+from mathutils import Vector
 from panel import (
     ID,
+    drag_over,
+    module,
     open_panels,
     open_redo_panel,
     open_tab,
@@ -20,9 +26,11 @@ from panel import (
     wait_until,
 )
 
+# Once around the middle.
+AROUND = [(90, 0), (64, 64), (0, 90), (-64, 64), (-90, 0), (-64, -64), (0, -90), (64, -64), (90, -10)]
 TOOLS = {
     "EDIT_MESH": ("intrinsic_fairing.lasso", "intrinsic_fairing.paint", "intrinsic_fairing.fillet"),
-    "SCULPT": ("intrinsic_fairing.face_set",),
+    "SCULPT": ("intrinsic_fairing.brush", "intrinsic_fairing.face_set"),
     "OBJECT": ("intrinsic_fairing.face_set",),
 }
 MENUS = {
@@ -109,14 +117,7 @@ def menus_are_seen() -> Story:
         _mode(mode)
         yield 0.3
         for menu in menus:
-            move_mouse(*middle())
-            yield 0.2
-            with in_view():
-                bpy.ops.wm.call_menu(name=menu)
-            yield 0.7
-            screenshot(f"menu_{menu}")
-            press("ESC", *middle())
-            yield 0.3
+            yield from menu_is_seen(menu)
         with in_view():
             bpy.ops.wm.call_menu_pie(name="VIEW3D_MT_fair_pie")
         yield 0.7
@@ -124,6 +125,18 @@ def menus_are_seen() -> Story:
         press("ESC", *middle())
         yield 0.3
     _mode("OBJECT")
+
+
+def menu_is_seen(menu: str) -> Story:
+    """Open it at the pointer and close it again."""
+    move_mouse(*middle())
+    yield 0.2
+    with in_view():
+        bpy.ops.wm.call_menu(name=menu)
+    yield 0.7
+    screenshot(f"menu_{menu}")
+    press("ESC", *middle())
+    yield 0.3
 
 
 def tools_are_seen() -> Story:
@@ -155,7 +168,7 @@ def lasso_and_paint_fair() -> Story:
         yield 0.5
         before = scenes.positions()
         report().free_vertices = 0
-        yield from _stroke()
+        yield from drag_over(AROUND)
         yield from wait_until(_reported, 20.0)
         yield 1.0
         screenshot(f"stroke_{tool}")
@@ -167,20 +180,123 @@ def lasso_and_paint_fair() -> Story:
             bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
 
 
-def _stroke() -> Story:
-    """Go once around the middle with the button held."""
-    x, y = middle()
+def arrows_pull_the_last_run() -> Story:
+    """The middle of a faired region is pulled up, and back by one step; and a fillet is pulled wider."""
+    scenes.ear()
+    with in_view():
+        bpy.ops.view3d.view_selected()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.paint")
+    yield 0.5
+    before = scenes.positions()
+    report().free_vertices = 0
+    yield from drag_over(AROUND)
+    yield from wait_until(_reported, 20.0)
+    yield 1.5
+    screenshot("arrow_bulge")
+    faired = scenes.positions()
+    foot, tip = _ends_of_arrow()
+    yield from _pull(tip, (1.5 * tip[0] - 0.5 * foot[0], 1.5 * tip[1] - 0.5 * foot[1]))
+
+    def follows() -> bool:
+        return abs(scenes.positions() - faired).max() > 1e-3
+
+    yield from wait_until(follows, 10.0)
+    yield 1.0
+    screenshot("arrow_bulge_pulled")
+    moved = [np.flatnonzero((after != before).any(axis=1)) for after in (faired, scenes.positions())]
+    np.testing.assert_array_equal(*moved, "the run again was about other faces than those painted over")
+    tell(f"bulge pulled to {bpy.context.active_operator.properties.MESH_OT_fair_region.bulge:.3f}")
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert (scenes.positions() == before).all(), "one step back is not where it began"
+    yield from _wider_fillet()
+    with in_view():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+
+
+def _wider_fillet() -> Story:
+    scenes.clear()
+    bpy.ops.mesh.primitive_cube_add()
+    scenes.start(np.arange(6) == 0)
+    with in_view():
+        bpy.ops.view3d.view_all()
+        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.fillet")
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(bpy.context.object.data)
+    for edge in bm.edges:
+        edge.select_set(all(v.co.x > 0.0 and v.co.z > 0.0 for v in edge.verts))
+    bpy.ops.ed.undo_push(message="edge")
+    with in_view():
+        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3)
+    yield 1.5
+    screenshot("arrow_width")
+    foot, away = module("run.fillet").handle.flank
+    count = len(scenes.positions())
+    begin, end = _in_window(foot + 0.35 * away, foot + 0.9 * away)
+    yield from _pull(begin, end)
+
+    def wider() -> bool:
+        return bpy.context.active_operator.properties.width > 0.5 and len(scenes.positions()) != 8
+
+    yield from wait_until(wider, 10.0)
+    yield 1.0
+    screenshot("arrow_width_pulled")
+    tell(f"width pulled to {bpy.context.active_operator.properties.width:.3f}; {count} vertices before")
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert len(scenes.positions()) == 8, "one step back is not the cube"
+
+
+def _ends_of_arrow() -> tuple[Any, Any]:
+    """Foot and tip of the arrow that stands in the view, in pixels of the window."""
+    middle_of = module("run.last_run").middle
+    with in_view():
+        place, normal, radius = middle_of(bpy.context)
+    return _in_window(place, place + 0.1 * radius * normal)
+
+
+def _in_window(*places: Any) -> tuple[tuple[int, int], ...]:
+    """Places in world space, in pixels of the window."""
+    _, area, region = view()
+    there = [location_3d_to_region_2d(region, area.spaces.active.region_3d, Vector(place)) for place in places]
+    return tuple((int(p.x) + region.x, int(p.y) + region.y) for p in there)
+
+
+def _pull(begin: Any, end: Any, steps: int = 10) -> Story:
+    """Press there, drag, and let go."""
     window = view()[0]
-    around = [(90, 0), (64, 64), (0, 90), (-64, 64), (-90, 0), (-64, -64), (0, -90), (64, -64), (90, -10)]
-    places = [(x + dx, y + dy) for dx, dy in around]
-    move_mouse(*places[0])
-    yield 0.2
-    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=places[0][0], y=places[0][1])
-    for px, py in places:
+    for x, y in (begin, (begin[0] + 1, begin[1]), begin):  # a gizmo lights up first
+        move_mouse(int(x), int(y))
+        yield 0.2
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=int(begin[0]), y=int(begin[1]))
+    for k in range(1, steps + 1):
         yield 0.1
-        move_mouse(px, py)
-    yield 0.1
-    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=places[-1][0], y=places[-1][1])
+        move_mouse(*(int(b + (e - b) * k / steps) for b, e in zip(begin, end, strict=True)))
+    yield 0.5
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=int(end[0]), y=int(end[1]))
+    yield 0.5
+
+
+def peeks_while_a_key_is_held() -> Story:
+    """The shape before shows from the press of the key that was bound to its release, and the view can be turned."""
+    yield from _faired_ear()
+    bound = module("show.keymap")._entries
+    (entry,) = [item for _, item in bound if item.idname == "mesh.fair_peek"]
+    entry.type, entry.alt, entry.shift = "B", True, True
+    yield 0.5
+    fair, window = scenes.positions(), view()[0]
+    screenshot("peek_after")
+    window.event_simulate(type="B", value="PRESS", x=middle()[0], y=middle()[1], alt=True, shift=True)
+    yield 1.0
+    screenshot("peek_before")
+    assert np.array_equal(scenes.positions(), scenes.original()), "the key that is held does not show the shape before"
+    for type_ in ("B", "LEFT_ALT", "LEFT_SHIFT"):  # Blender sends the release without what was held with it
+        window.event_simulate(type=type_, value="RELEASE", x=middle()[0], y=middle()[1])
+    yield 1.0
+    assert np.array_equal(scenes.positions(), fair), "the key was let go"
+    entry.type = "NONE"
 
 
 def overlays_are_seen() -> Story:
@@ -193,6 +309,16 @@ def overlays_are_seen() -> Story:
         settings.mode = mode
         yield 1.5
         screenshot(f"overlay_{mode.lower()}")
+    scenes.bottle()
+    with in_view():
+        bpy.ops.view3d.view_all()
+    run_operator()
+    yield 3.0
+    points = scenes.positions()
+    scenes.select_vertices(np.abs(np.arctan2(points[:, 1], points[:, 0]) + np.radians(15.0)) < 1e-3)
+    settings.mode = "COMBS"
+    yield 2.0
+    screenshot("overlay_combs")
     settings.property_unset("mode")
     settings.show = False
 
@@ -214,6 +340,8 @@ SCREENS = (
     menus_are_seen,
     tools_are_seen,
     lasso_and_paint_fair,
+    arrows_pull_the_last_run,
+    peeks_while_a_key_is_held,
     overlays_are_seen,
     preferences_are_seen,
 )

@@ -156,6 +156,19 @@ def face_sets() -> int:
     return int(np.count_nonzero(upper))
 
 
+def dented() -> None:
+    """A sphere in object mode with a dent in front."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6)
+    towards = np.array([0.5, -0.7, 0.5]) / np.linalg.norm([0.5, -0.7, 0.5])
+
+    def pushed(points: Any) -> Any:
+        return points * (1.0 - 0.2 * np.exp(-60.0 * (1.0 - points @ towards))[:, None])
+
+    move(pushed)
+    bpy.context.object.data.shade_smooth()
+
+
 def hole() -> int:
     """A sphere with a hole in front, in vertex mode with one vertex of the outline selected."""
     _ball()

@@ -45,7 +45,7 @@ from panel import (
     wait_until,
 )
 from screen_chapters import SCREENS
-from sculpt_chapters import face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
+from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
 from tutorial_chapters import tutorial_as_written
 from verdict_chapters import (
     again_in_other_ways,
@@ -159,11 +159,18 @@ def judge() -> Story:
     yield 1.0
     screenshot("curvature_after")
     bpy.ops.ed.undo()
-    yield 1.5
+    yield from wait_until(_overlay_is_measured, 20.0)
+    yield 1.0
     screenshot("curvature_before")
     settings.show = False
     yield 0.5
     bpy.ops.wm.save_userpref()  # the command line finds the extension enabled
+
+
+def _overlay_is_measured() -> bool:
+    """Whether the overlay shows the mesh as it is: it is measured between two redraws, which take a while here."""
+    (surface,) = module("show.overlay").overlay.surfaces
+    return np.allclose(surface.positions, scenes.positions(), atol=1e-6)
 
 
 def in_german() -> Story:
@@ -201,6 +208,7 @@ CHAPTERS = (
     fillet_is_dragged,
     masked_in_sculpt_mode,
     face_set_by_a_click,
+    brush_in_sculpt_mode,
     live_follows_a_drag,
     live_follows_a_pin,
     live_moves_the_far_side,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import multiprocessing
+import signal
 import sys
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
@@ -31,29 +32,43 @@ def main(words: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
-    reports.sort(key=lambda report: given.files.index(Path(report["file"])))
-    _write_json(reports, given)
+    finally:  # what is done is done, interrupted or not
+        _write_json(reports, given)
     return max(_STATUS[report["verdict"]] for report in reports)
 
 
 def _done(given: Namespace) -> Iterator[Report]:
     """The reports, as files are done."""
-    if given.jobs == 1:
+    if given.jobs > 1:
+        yield from _several_at_once(given)
+    else:
         for number, source in enumerate(given.files):
             bar = _Bar(number, len(given.files), source.name, _shows(given))
             yield done_with(source, target_of(source, given), given, bar)
             bar.end()
-        return
+
+
+def _several_at_once(given: Namespace) -> Iterator[Report]:
+    """The same in processes that go from file to file."""
     if getattr(given, "threads", 1) is None:
         given.threads = 1
+    each = Namespace(**{**vars(given), "files": ()})  # goes to a process with every file: without the list of all
     # Spawned: a forked engine would miss its threads.
-    with ProcessPoolExecutor(given.jobs, multiprocessing.get_context("spawn")) as pool:
-        tasks = [pool.submit(done_with, source, target_of(source, given), given, None) for source in given.files]
-        for number, task in enumerate(as_completed(tasks)):
-            bar = _Bar(number, len(tasks), f"{number + 1} of {len(tasks)}", _shows(given))
-            bar(1.0, "")
-            bar.end()
-            yield task.result()
+    with ProcessPoolExecutor(given.jobs, multiprocessing.get_context("spawn"), _leave_interrupts) as pool:
+        tasks = [pool.submit(done_with, source, target_of(source, given), each, None) for source in given.files]
+        try:
+            for number, task in enumerate(as_completed(tasks)):
+                bar = _Bar(number, len(tasks), f"{number + 1} of {len(tasks)}", _shows(given))
+                bar(1.0, "")
+                bar.end()
+                yield task.result()
+        finally:  # of an interrupt: files that are being worked on get done, no other begins
+            pool.shutdown(cancel_futures=True)
+
+
+def _leave_interrupts() -> None:
+    """A process that is interrupted itself would take the others along."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class _Bar:
@@ -95,6 +110,8 @@ def _print(report: Report, given: Namespace) -> None:
 def _write_json(reports: list[Report], given: Namespace) -> None:
     if given.json is None:
         return
+    place = {str(source): number for number, source in enumerate(given.files)}
+    reports.sort(key=lambda report: place[report["file"]])
     text = json.dumps(reports, indent=2, ensure_ascii=False) + "\n"
     if given.json == "-":
         print(text, end="")

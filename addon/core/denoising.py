@@ -1,0 +1,81 @@
+"""From selected faces to where their vertices lie without roughness. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+import fairing
+
+from .arrays import Floats, Ints
+from .checked import refuse_negative, refuse_other_kinds
+from .engine import Progress
+from .fill_options import DENOISE
+from .moved_keys import MovedKey
+from .option_table import fields_of, read_named
+from .region import MeshArrays, free_vertices, to_local
+
+
+@dataclass(frozen=True)
+class DenoiseOptions:
+    """What the options of `mesh.fair_denoise` (fill_options.py) come to.
+
+    Raises ValueError for a value it does not know, TypeError for one of another kind.
+    """
+
+    size: float = 0.0  # the shortest wavelength that stays, in world space; 0: twelve of the edges around
+    amount: float = 1.0  # 0 … 1
+
+    def __post_init__(self) -> None:
+        refuse_other_kinds(self)
+        refuse_negative(self, "size")
+        if not 0.0 <= self.amount <= 1.0:
+            raise ValueError(f"amount: expected 0 … 1, got {self.amount!r}")
+
+    @classmethod
+    def named(cls, properties: dict[str, Any]) -> DenoiseOptions:
+        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
+        return cls(**read_named(DENOISE, properties, "denoise_mesh"))
+
+    @classmethod
+    def of(cls, properties: Any) -> DenoiseOptions:
+        """Read every option from an object that has them as attributes."""
+        return cls(**fields_of(DENOISE, partial(getattr, properties)))
+
+
+@dataclass(frozen=True)
+class Denoised:
+    """New positions for the vertices that move, in the mesh's own coordinates."""
+
+    vertices: Ints  # (k,) mesh indices, ascending
+    positions: Floats  # (k, 3)
+    largest: float  # distance that one of them moves, in world space
+    keys: tuple[MovedKey, ...] = ()
+
+
+def denoise_arrays(
+    mesh: MeshArrays, matrix: Floats, options: DenoiseOptions, progress: Progress | None = None
+) -> Denoised:
+    """Take the roughness from the patch; its boundary, open borders and edges marked sharp stay.
+
+    Raises what `fairing.denoise` does, with mesh indices, and ValueError where the matrix has no inverse.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
+        world = mesh.transformed(matrix)
+    free = free_vertices(mesh)
+    finite = np.isfinite(world.positions).all(axis=1)
+    beside = free[world.triangles].any(axis=1)
+    triangles = world.triangles[finite[world.triangles].all(axis=1) | beside]
+    known = np.zeros(len(free), dtype=bool)
+    known[triangles] = True
+    sharp = None if mesh.sharp is None else mesh.edges[mesh.sharp & known[mesh.edges].all(axis=1)]
+    smooth = fairing.denoise(
+        world.positions, triangles, size=options.size, amount=options.amount, fixed=np.flatnonzero(~free),
+        edges=sharp, progress=progress,
+    )  # fmt: skip
+    moved = np.flatnonzero(free & (smooth != world.positions).any(axis=1))
+    way = np.linalg.norm(smooth[moved] - world.positions[moved], axis=1)
+    return Denoised(moved, to_local(smooth[moved], matrix), float(way.max(initial=0.0)))

@@ -1,0 +1,79 @@
+#include "operators/bending.h"
+
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "geometry/cotangent.h"
+
+namespace fairing {
+
+namespace {
+
+Eigen::SparseMatrix<double> laplacian(const Points& points, const Triangles& triangles) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<std::size_t>(12 * triangles.cols()));
+    for (const auto t : triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            const int i = t[(k + 1) % 3];
+            const int j = t[(k + 2) % 3];
+            const double weight = 0.5 * cotangent(points.col(i) - points.col(t[k]), points.col(j) - points.col(t[k]));
+            entries.insert(entries.end(), {{i, j, -weight}, {j, i, -weight}, {i, i, weight}, {j, j, weight}});
+        }
+    }
+    Eigen::SparseMatrix<double> result(points.cols(), points.cols());
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
+
+VectorX areas_of(const Points& points, const Triangles& triangles) {
+    VectorX areas = VectorX::Zero(points.cols());
+    for (const auto t : triangles.colwise()) {
+        const Vector3 ab = points.col(t[1]) - points.col(t[0]);
+        const double third = ab.cross(Vector3(points.col(t[2]) - points.col(t[0]))).norm() / 6.0;
+        for (const int v : t) areas[v] += third;
+    }
+    return areas;
+}
+
+Indices free_vertices(const VectorX& areas, const Indices& fixed) {
+    std::vector<char> held(static_cast<std::size_t>(areas.size()), 0);
+    for (const int v : fixed) held[v] = 1;
+    Indices free;
+    for (int v = 0; v < static_cast<int>(areas.size()); ++v) {
+        if (held[v] == 0 && areas[v] > 0.0) free.push_back(v);
+    }
+    return free;
+}
+
+Eigen::SparseMatrix<double> columns_of(const Eigen::SparseMatrix<double>& whole, const Indices& picked) {
+    std::vector<Eigen::Triplet<double>> choice;
+    choice.reserve(picked.size());
+    for (const int v : picked) choice.emplace_back(v, static_cast<int>(choice.size()), 1.0);
+    Eigen::SparseMatrix<double> chosen(whole.cols(), static_cast<Eigen::Index>(picked.size()));
+    chosen.setFromTriplets(choice.begin(), choice.end());
+    return whole * chosen;
+}
+
+}  // namespace
+
+Bending::Bending(const Points& points, const Triangles& triangles, const Indices& fixed, const VectorX& weights)
+    : areas_(areas_of(points, triangles)), whole_(laplacian(points, triangles)) {
+    free_ = free_vertices(areas_, fixed);
+    rows_ = weights.binaryExpr(areas_, [](double weight, double area) { return area > 0.0 ? weight / area : 0.0; });
+    columns_ = columns_of(whole_, free_);
+    factor_ = SparseCholesky(points(Eigen::all, free_));
+}
+
+bool Bending::factorise(const VectorX& factors, const char* what, const Progress& progress) {
+    Eigen::SparseMatrix<double> system = columns_.transpose() * rows_.asDiagonal() * columns_;
+    for (Eigen::Index k = 0; k < system.cols(); ++k) system.coeffRef(k, k) += factors[k] * areas_[free_[k]];
+    return factor_.factorise(SparseMatrix(system.triangularView<Eigen::Lower>()), what, progress);
+}
+
+Points Bending::force(const Points& x) const {
+    const Eigen::MatrixXd curvature = rows_.asDiagonal() * (whole_ * x.transpose());
+    return (columns_.transpose() * curvature).transpose();
+}
+
+}  // namespace fairing

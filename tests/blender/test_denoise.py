@@ -1,0 +1,147 @@
+"""Fair Denoise in Blender: roughness goes, the shape, borders and sharp edges stay, and nothing else moves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import module
+
+
+def rough_ball(noise: float = 0.01, cut: bool = False) -> bpy.types.Object:
+    """A unit ball of 2,562 vertices with noise along the normals; `cut`: without its lower half."""
+    bm = bmesh.new()
+    bmesh.ops.create_icosphere(bm, subdivisions=5, radius=1.0)
+    if cut:
+        bmesh.ops.delete(bm, geom=[v for v in bm.verts if v.co.z < 0.0], context="VERTS")
+    rng = np.random.default_rng(4)
+    for vertex in bm.verts:
+        vertex.co *= 1.0 + noise * float(rng.normal())
+    mesh = bpy.data.meshes.new("Ball")
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new("Ball", mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def run(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
+    """Run it from and to object mode with these faces selected."""
+    meshes.enter(obj, chosen)
+    try:
+        status: set[str] = bpy.ops.mesh.fair_denoise("EXEC_DEFAULT", True, **properties)
+        return status
+    finally:
+        meshes.leave()
+
+
+def every(obj: bpy.types.Object) -> Any:
+    return np.ones(len(obj.data.polygons), dtype=bool)
+
+
+def spread(points: Any) -> float:
+    return float(np.linalg.norm(points, axis=1).std())
+
+
+def test_a_rough_ball_becomes_smooth_and_keeps_its_radius() -> None:
+    obj = rough_ball()
+    before = meshes.positions(obj)
+    assert run(obj, every(obj), size=1.0) == {"FINISHED"}
+    after = meshes.positions(obj)
+    assert spread(after) < 0.3 * spread(before)
+    assert np.linalg.norm(after, axis=1).mean() == pytest.approx(np.linalg.norm(before, axis=1).mean(), abs=1e-4)
+
+
+def test_only_vertices_inside_the_selection_move() -> None:
+    obj = rough_ball()
+    before = meshes.positions(obj)
+    chosen = np.array([polygon.center.z > 0.2 for polygon in obj.data.polygons])
+    inside = np.ones(len(before), dtype=bool)
+    for polygon in obj.data.polygons:
+        if not chosen[polygon.index]:
+            inside[list(polygon.vertices)] = False
+    assert run(obj, chosen) == {"FINISHED"}
+    after = meshes.positions(obj)
+    assert np.array_equal(after[~inside], before[~inside])
+    assert (after[inside] != before[inside]).any(axis=1).mean() > 0.99
+
+
+def test_an_open_border_and_sharp_edges_keep_their_bits() -> None:
+    obj = rough_ball(cut=True)
+    meridian = [edge for edge in obj.data.edges if all(abs(obj.data.vertices[v].co.x) < 0.03 for v in edge.vertices)]
+    for edge in meridian:
+        edge.use_edge_sharp = True
+    held = sorted({v for edge in meridian for v in edge.vertices})
+    uses = np.bincount([key for polygon in obj.data.polygons for key in _edges(obj, polygon)])
+    border = sorted({v for edge, count in zip(obj.data.edges, uses, strict=True) if count == 1 for v in edge.vertices})
+    before = meshes.positions(obj)
+    assert held and border
+    assert run(obj, every(obj)) == {"FINISHED"}
+    after = meshes.positions(obj)
+    assert np.array_equal(after[held], before[held])
+    assert np.array_equal(after[border], before[border])
+    assert not np.array_equal(after, before)
+
+
+def _edges(obj: bpy.types.Object, polygon: Any) -> list[int]:
+    return [obj.data.loops[k].edge_index for k in polygon.loop_indices]
+
+
+def test_size_is_a_length_in_the_world_and_amount_a_share() -> None:
+    """Twice the object with twice the size is the same; half the amount goes half the way."""
+    small, large, half = (rough_ball() for _ in range(3))
+    large.scale = (2.0, 2.0, 2.0)
+    before = meshes.positions(small)
+    run(small, every(small), size=0.5)
+    run(large, every(large), size=1.0)
+    run(half, every(half), size=0.5, amount=0.5)
+    assert meshes.positions(large) == pytest.approx(meshes.positions(small), abs=1e-6)
+    assert meshes.positions(half) == pytest.approx((meshes.positions(small) + before) / 2, abs=1e-6)
+
+
+def test_before_and_after_goes_back_and_forth() -> None:
+    obj = rough_ball()
+    before = meshes.positions(obj)
+    meshes.enter(obj, every(obj))
+    bpy.ops.mesh.fair_denoise("EXEC_DEFAULT", True)
+    assert bpy.ops.mesh.fair_compare("EXEC_DEFAULT", True) == {"FINISHED"}
+    meshes.leave()
+    assert np.array_equal(meshes.positions(obj), before)
+
+
+@pytest.mark.parametrize("wrong", ["nothing selected", "not finite", "locked key"])
+def test_what_can_not_be_done_is_refused_and_leaves_the_mesh(wrong: str) -> None:
+    obj = rough_ball()
+    chosen = every(obj)
+    if wrong == "nothing selected":
+        chosen[:] = False
+    elif wrong == "not finite":
+        obj.data.vertices[7].co.x = float("nan")
+    else:
+        obj.shape_key_add(name="Basis")
+        obj.shape_key_add(name="Smile").lock_shape = True
+        obj.active_shape_key_index = 1
+    before = meshes.positions(obj)
+    if wrong == "nothing selected":
+        assert run(obj, chosen) == {"CANCELLED"}
+    else:
+        with pytest.raises(RuntimeError, match="locked" if wrong == "locked key" else "NaN"):
+            run(obj, chosen)
+    assert np.array_equal(meshes.positions(obj), before, equal_nan=True)
+
+
+def test_scripts_take_a_mesh_and_its_faces() -> None:
+    obj = rough_ball()
+    before = meshes.positions(obj)
+    moved = module("").denoise_mesh(obj.data, size=1.0)
+    after = meshes.positions(obj)
+    assert moved == pytest.approx(np.linalg.norm(after - before, axis=1), abs=1e-6)
+    with pytest.raises(TypeError, match="sise"):
+        module("").denoise_mesh(obj.data, sise=1.0)
+    with pytest.raises(ValueError, match="amount"):
+        module("").denoise_mesh(obj.data, amount=2.0)
