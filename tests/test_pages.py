@@ -55,6 +55,13 @@ def test_lines_of_prose_are_short(page: Path) -> None:
     assert [line for line in prose(page) if len(line) > 120] == []
 
 
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_tables_are_whole(page: Path) -> None:
+    """Each begins with a heading and a rule: a row after an empty line is no row of any."""
+    for table in re.findall(r"(?:^\|.*\n)+", page.read_text(encoding="utf-8"), re.MULTILINE):
+        assert re.match(r"\|.*\n\|[ :|-]+\|\n", table), table
+
+
 @pytest.mark.parametrize(
     ("page", "template"),
     [

@@ -19,7 +19,7 @@ import numpy as np
 import options
 import rivals
 import sheet
-from rows import Row
+from rows import Row, smooth
 
 import demo_pictures as pictures
 import demo_scenes as scenes
@@ -48,8 +48,7 @@ def pictured(row: Row, path: Path, selected: bool) -> list[Path]:
     if selected and row.kind == "faces":
         mesh.polygons.foreach_get("select", chosen)
     if row.striped:
-        mesh.shade_smooth()
-        mesh.set_sharp_from_angle(angle=0.6)
+        smooth()
     textured = bool(mesh.materials)
     if not textured:
         pictures.tint(mesh, chosen)

@@ -51,3 +51,13 @@ def moved(move: Callable[[Points], Points]) -> None:
 def marked(mask: NDArray[np.bool_]) -> Chosen:
     """Faces by their index."""
     return lambda face: bool(mask[face.index])
+
+
+def smooth() -> None:
+    """Shade the active mesh smooth, but for its hard edges; by area, as slivers around a fillet have large angles."""
+    bpy.ops.object.mode_set(mode="OBJECT")
+    mesh = bpy.context.object.data
+    mesh.shade_smooth()
+    mesh.set_sharp_from_angle(angle=0.6)
+    weighted = bpy.context.object.modifiers.new("By area", "WEIGHTED_NORMAL")
+    weighted.keep_sharp, weighted.mode = True, "FACE_AREA"
