@@ -91,3 +91,9 @@ def test_pictures_are_shown_and_are_not_too_large() -> None:
     assert set(pictures) - shown == set()
     assert max(pictures.values()) <= 400_000
     assert sum(pictures.values()) <= 12_000_000
+
+
+@pytest.mark.parametrize("picture", sorted((ROOT / "docs/pictures").glob("*.png")), ids=lambda path: path.name)
+def test_no_picture_has_a_palette(picture: Path) -> None:
+    """Palettes show bands on smooth surfaces. The 26th byte of a PNG is its kind of colour; WebP has 24 bits."""
+    assert picture.read_bytes()[25] != 3
