@@ -1,4 +1,4 @@
-"""mkdocs' hooks: files beside docs/ to which its pages lead become pages of the site."""
+"""mkdocs' hooks: links that leave docs/ or name files, and the docstrings' roles, read well on the site."""
 
 import re
 from pathlib import Path
@@ -9,6 +9,7 @@ from mkdocs.structure.files import File
 PAGES = ("CONTRIBUTING.md", "CHANGELOG.md")
 NAMED = re.compile(r"\[[\w/]+\.md\]\(([\w/.]+\.md)")
 TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
+ROLE = re.compile(r":(?:func|class|meth|data|exc):(?=<code>)")
 FROM_DOCS = re.compile(r"\]\(((?:\.\./)*)docs/")
 
 
@@ -29,11 +30,17 @@ def on_page_markdown(markdown: str, /, *, page: Any, config: Any, **_: Any) -> s
     for name in PAGES:
         markdown = markdown.replace(f"]({up}{name}", f"]({up[3:]}{name}")
     markdown = re.sub(rf"(?<!!)\[([^\[\]]+)\]\({re.escape(up)}[^()\s]+\)", r"\1", markdown)
-    folder = (Path(config.docs_dir) / page.file.src_uri).parent
-    return NAMED.sub(lambda link: f"[{_title(folder / link[1], link[0])}]({link[1]}", markdown)
+    docs = Path(config.docs_dir)
+    folder = (docs / page.file.src_uri).parent
+    return NAMED.sub(lambda link: f"[{_title(docs, folder / link[1])}]({link[1]}", markdown)
 
 
-def _title(path: Path, otherwise: str) -> str:
+def _title(docs: Path, path: Path) -> str:
     """The heading of a page, for a link whose words are the file's name."""
-    found = TITLE.search(path.read_text(encoding="utf-8")) if path.exists() else None
-    return found[1] if found else otherwise[1:].partition("]")[0]
+    found = TITLE.search((docs.parent / path.name if path.name in PAGES else path).read_text(encoding="utf-8"))
+    return found[1] if found else path.name
+
+
+def on_page_content(html: str, /, **_: Any) -> str:
+    """Docstrings name what they refer to by roles, which Markdown doesn't have: the names alone."""
+    return ROLE.sub("", html)

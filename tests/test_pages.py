@@ -55,6 +55,13 @@ def test_lines_of_prose_are_short(page: Path) -> None:
     assert [line for line in prose(page) if len(line) > 120] == []
 
 
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_tables_are_whole(page: Path) -> None:
+    """Each begins with a heading and a rule: a row after an empty line is no row of any."""
+    for table in re.findall(r"(?:^\|.*\n)+", page.read_text(encoding="utf-8"), re.MULTILINE):
+        assert re.match(r"\|.*\n\|[ :|-]+\|\n", table), table
+
+
 @pytest.mark.parametrize(
     ("page", "template"),
     [
@@ -84,3 +91,9 @@ def test_pictures_are_shown_and_are_not_too_large() -> None:
     assert set(pictures) - shown == set()
     assert max(pictures.values()) <= 400_000
     assert sum(pictures.values()) <= 12_000_000
+
+
+@pytest.mark.parametrize("picture", sorted((ROOT / "docs/pictures").glob("*.png")), ids=lambda path: path.name)
+def test_no_picture_has_a_palette(picture: Path) -> None:
+    """Palettes show bands on smooth surfaces. The 26th byte of a PNG is its kind of colour; WebP has 24 bits."""
+    assert picture.read_bytes()[25] != 3

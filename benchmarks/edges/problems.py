@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from solids_at_random import FloatArray, IntArray, Mesh, blocks, plate, raised, swept
 
 import fairing
 import real_meshes
 import solids
+from solids_at_random import FloatArray, IntArray, Mesh, blocks, plate, raised, swept
 
 LARGEST = 400  # triangles of a part
 LEAST = 6

@@ -1,8 +1,8 @@
-"""What holds inside a patch: tables and pictures of docs/curves.md.
+"""What holds inside a patch: tables of docs/curves.md.
 
 Means and worst of meshes and noises of seeds that nothing was tuned on: limits and smoothing were tried on 0 and 1.
 
-python benchmarks/held [creases | fades | pins | pulled | windows | pictures …]
+python benchmarks/held [creases | fades | pins | pulled | windows …]
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
@@ -24,15 +23,10 @@ import fairing
 import shapes
 import test_held_curves
 import test_spread_pins
-import webp
 import windows
 from engine import FloatArray
-from stripes import Layer, View, facing, render
 
-PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
-PIXELS = 420
 SEEDS = range(2, 8)
-GREY = (0.9, 0.9, 0.9)
 
 
 def _averaged(patch: creased.Creased) -> FloatArray:
@@ -131,45 +125,8 @@ def noisy_windows() -> None:
                 print(f"| {'own' if own_edge else 'mean'}, {around}, {kind} | {' | '.join(cells)} |", flush=True)
 
 
-def _shown(patch: creased.Creased, points: FloatArray, view: View) -> FloatArray:
-    """Each side by itself, so that creases stay sharp."""
-    sides = np.array([np.bincount(patch.side[np.setdiff1d(t, patch.curve)]).argmax() for t in patch.triangles])
-    return render(
-        [Layer(points, patch.triangles[sides == k], GREY, striped=True) for k in range(sides.max() + 1)], view
-    )
-
-
-def _save(name: str, rows: list[list[FloatArray]]) -> None:
-    whole = np.vstack([np.hstack(row) for row in rows])
-    picture = Image.fromarray((255 * whole).astype(np.uint8))
-    size = (PIXELS * len(rows[0]), PIXELS * len(rows))
-    webp.save(picture.resize(size, Image.Resampling.LANCZOS), PICTURES / name)
-
-
-def pictures() -> None:
-    """Creases against averaged slopes; a pin in a point and with a radius."""
-    rows = []
-    for patch, eye in ((creased.box_edge(12), (1.0, -0.9, 0.8)), (creased.lid(8), (0.6, -1.0, 1.1))):
-        view = facing(np.array(eye), patch.vertices.mean(axis=0), 1.15, 2 * PIXELS)
-        states = [patch.noisy(0.25), _fair(patch, False).vertices, _fair(patch, True).vertices]
-        rows.append([_shown(patch, points, view) for points in states])
-    _save("curves_creases.webp", rows)
-    patch = shapes.plane(4000)
-    pin = test_spread_pins.near(patch, [(0.0, 0.0)])
-    row = []
-    for radius in (0.0, 0.1):
-        result, _ = test_spread_pins.lifted(patch, pin, [0.25], pin_radius=radius)
-        view = View(
-            np.array([0.0, 1.0, 0.0]), np.array([-0.95, 0.0, 0.3122]), np.array([-0.3122, 0.0, -0.95]),
-            result.vertices.mean(axis=0), 1.05, 2 * PIXELS,
-        )  # fmt: skip
-        row.append(render([Layer(result.vertices, patch.triangles, GREY, striped=True)], view))
-    _save("curves_pins.webp", [row])
-
-
 TABLES: dict[str, Callable[[], None]] = {
     "creases": creases, "fades": fades, "pins": pins, "pulled": pulled_pins, "windows": noisy_windows,
-    "pictures": pictures,
 }  # fmt: skip
 
 

@@ -1,8 +1,6 @@
-"""Joins that continue the curvature against tangent ones: errors, cost and reflection stripes of docs/joins.md.
+"""Joins that continue the curvature against tangent ones: errors and cost of docs/joins.md.
 
-    python benchmarks/joins [exact | fitted | cost | pictures …]
-
-The pictures docs/pictures/joins_*.webp are written; that of Suzanne's ear needs bpy.
+python benchmarks/joins [exact | fitted | cost …]
 """
 
 from __future__ import annotations
@@ -14,23 +12,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "accuracy"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 
 import exact_joins
-import scenes
 
 import fairing
 import shapes
-import webp
-from stripes import Layer, render
-
-GREY = (0.9, 0.9, 0.9)
-PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 
 
 def _timed(patch: shapes.Patch, **options: Any) -> tuple[fairing.FairResult, float]:
@@ -88,24 +78,7 @@ def fitted() -> None:
             print(f"| {name} | {noise} | {cells} | {kept} of 3 |", flush=True)
 
 
-def pictures() -> None:
-    """G1 and G2 side by side."""
-    for scene in (scenes.joint(), scenes.panel(), scenes.ear()):
-        _show(scene)
-
-
-def _show(scene: scenes.Scene) -> None:
-    views = []
-    for continuity in ("G1", "G2"):
-        result = scene.solved(continuity)
-        print(scene.name, result.continuity, result.iterations, [str(warning) for warning in result.warnings])
-        views.append(render([Layer(result.vertices, scene.drawn(), GREY, striped=True)], scene.view))
-    both = Image.fromarray((255 * np.hstack(views)).astype(np.uint8))
-    size = (2 * scenes.PIXELS, scenes.PIXELS)
-    webp.save(both.resize(size, Image.Resampling.LANCZOS), PICTURES / f"joins_{scene.name}.webp")
-
-
-TABLES: dict[str, Callable[[], None]] = {"exact": exact, "fitted": fitted, "cost": cost, "pictures": pictures}
+TABLES: dict[str, Callable[[], None]] = {"exact": exact, "fitted": fitted, "cost": cost}
 
 
 def main() -> None:

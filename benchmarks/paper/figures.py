@@ -17,7 +17,7 @@ from shading import Look, Model, draw
 from sheets import Panel, save_sheet
 from thinned import thinned_tetrathing
 
-PIXELS = 360
+PIXELS = 400
 FLAT = Look("flat", 0.35)
 STRIPES = Look("stripes")
 FINE = Look("flat", 0.15)

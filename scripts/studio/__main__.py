@@ -19,7 +19,8 @@ import numpy as np
 import options
 import rivals
 import sheet
-from rows import Row
+import slopes
+from rows import Row, smooth
 
 import demo_pictures as pictures
 import demo_scenes as scenes
@@ -28,7 +29,7 @@ import tools
 
 WIDTH = 1200  # pixels of a sheet at least
 LEAST = 300  # of one picture
-SHEETS: dict[str, list[list[Row]]] = {**rivals.SHEETS, **hard.SHEETS, **options.SHEETS, **more.SHEETS}
+SHEETS: dict[str, list[list[Row]]] = {**rivals.SHEETS, **hard.SHEETS, **options.SHEETS, **more.SHEETS, **slopes.SHEETS}
 
 
 def begun(row: Row) -> Any:
@@ -48,8 +49,7 @@ def pictured(row: Row, path: Path, selected: bool) -> list[Path]:
     if selected and row.kind == "faces":
         mesh.polygons.foreach_get("select", chosen)
     if row.striped:
-        mesh.shade_smooth()
-        mesh.set_sharp_from_angle(angle=0.6)
+        smooth()
     textured = bool(mesh.materials)
     if not textured:
         pictures.tint(mesh, chosen)
@@ -57,6 +57,7 @@ def pictured(row: Row, path: Path, selected: bool) -> list[Path]:
     pictures.shaded(found[0], "TEXTURE" if textured else "MATERIAL")
     if row.striped:
         found.append(path.with_name(f"{path.stem}_stripes.png"))
+        pictures.STRIPES = row.stripes
         pictures.striped(found[1])
     return found
 

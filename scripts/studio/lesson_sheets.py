@@ -11,6 +11,7 @@ import lesson_play
 import numpy as np
 import sheet
 from lesson_scenes import begin
+from rows import smooth
 
 import demo_pictures as pictures
 
@@ -55,16 +56,6 @@ def draw(edges: list[bpy.types.MeshEdge]) -> None:
             point.co = (*points[vertex].co, 1.0)
     curve.materials.append(bpy.data.materials["Selected"])
     bpy.context.collection.objects.link(bpy.data.objects.new("Selected", curve))
-
-
-def smooth() -> None:
-    """Shade the active mesh smooth, but for its hard edges; by area, as slivers around a fillet have large angles."""
-    bpy.ops.object.mode_set(mode="OBJECT")
-    mesh = bpy.context.object.data
-    mesh.shade_smooth()
-    mesh.set_sharp_from_angle(angle=0.6)
-    weighted = bpy.context.object.modifiers.new("By area", "WEIGHTED_NORMAL")
-    weighted.keep_sharp, weighted.mode = True, "FACE_AREA"
 
 
 def tiles(name: str, out: Path) -> list[sheet.Tile]:

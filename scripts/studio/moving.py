@@ -10,6 +10,7 @@ import numpy as np
 import sheet
 from lesson_play import Move, move
 from PIL import Image
+from rows import smooth
 
 import demo_pictures as pictures
 
@@ -29,7 +30,7 @@ def fillet(out: Path) -> Iterator[Path]:
         lesson_sheets.begun(lesson)
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", width=width)
-        lesson_sheets.smooth()
+        smooth()
         yield frame(out / f"fillet_{k}.png", f"Width {width:.2f}", with_selection=False)
 
 

@@ -12,7 +12,7 @@ import tools
 
 NAME = "guide_quality"
 LOW, MIDDLE, HIGH = np.array([(0.10, 0.30, 0.85), (0.96, 0.96, 0.96), (0.85, 0.12, 0.10)])  # addon/show/legend.py
-FULL = 90  # percentile of the sizes that has the full colour, as in the overlay
+FULL = 1.0  # curvature with the full colour: the overlay's Range
 
 
 def curvature(path: Path) -> None:
@@ -21,7 +21,7 @@ def curvature(path: Path) -> None:
     mesh = bpy.context.object.data
     values = np.empty(len(mesh.vertices), dtype=np.float32)
     mesh.attributes["mean_curvature"].data.foreach_get("value", values)
-    shares = np.clip(values / np.percentile(np.abs(values), FULL), -1.0, 1.0)[:, None]
+    shares = np.clip(values / FULL, -1.0, 1.0)[:, None]
     tones = MIDDLE + np.abs(shares) * (np.where(shares < 0.0, LOW, HIGH) - MIDDLE)
     colours = mesh.color_attributes.new("Curvature", "FLOAT_COLOR", "POINT")
     colours.data.foreach_set("color", np.column_stack([tones**2.2, np.ones(len(tones))]).astype(np.float32).ravel())

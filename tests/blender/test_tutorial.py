@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -60,6 +61,32 @@ def test_the_page_has_the_eight_lessons_that_have_files() -> None:
 def test_words_that_name_nothing_are_refused(words: str) -> None:
     with pytest.raises(ValueError, match=r"no key|no option|an option of"):
         lesson_play.actions(lesson_page.steps(words))
+
+
+class Listed:
+    """A menu that remembers the operators drawn into it."""
+
+    def __init__(self) -> None:
+        self.layout, self.operators = self, list[str]()
+
+    def separator(self) -> None:
+        """Draw nothing."""
+
+    def operator(self, name: str, **_: str) -> SimpleNamespace:
+        """Remember it."""
+        self.operators.append(name)
+        return SimpleNamespace()
+
+
+@pytest.mark.parametrize(
+    "path", sorted({step.name for lesson in LESSONS.values() for step in lesson.steps if " ▸ " in step.name})
+)
+def test_menus_have_what_the_page_names(path: str) -> None:
+    menu, label = path.split(" ▸ ")
+    blenders = {"Face": "VIEW3D_MT_edit_mesh_faces", "Edge": "VIEW3D_MT_edit_mesh_edges"}[menu]
+    listed = Listed()
+    dict(module("show.menus").ENTRIES)[blenders](listed, bpy.context)
+    assert f"mesh.{lesson_play.labels()[label]}" in listed.operators
 
 
 @pytest.mark.parametrize("name", LESSONS)
