@@ -16,7 +16,6 @@
 #include "placement/tears.h"
 #include "problem/surface_state.h"
 #include "shape/limits.h"
-#include "start/several_outlines.h"
 
 namespace fairing {
 
@@ -57,17 +56,6 @@ Indices crossings_inside(const Patch& patch, const Points& points) {
     return crossing;
 }
 
-// A surface between several loops that lies beside them must not cross itself there where the shape before did not:
-// that shape, smoothed, is at hand. Elsewhere crossings at the boundary are those of its own noise.
-Indices crossings_beside(const Problem& problem, const Solution& solution) {
-    const Indices& now = *solution.crossings;
-    if (now.empty()) return {};
-    const bool compares = joins_outlines(problem) && problem.before->cols() == problem.patch.vertex_count();
-    Indices wrong = crossings_inside(problem.patch, solution.points);
-    if (!wrong.empty() || !compares) return wrong;
-    return without(now, crossing_triangles(problem.patch.triangles, *problem.before));
-}
-
 // That count against a solution. Placed vertices were compared with the surface that they lie on.
 Indices flips_of(const Problem& problem, Solution& solution) {
     if (!solution.polished) return {};
@@ -83,7 +71,9 @@ Indices crossings_of(const Problem& problem, Solution& solution) {
     if (solution.crosses && !stands_in(solution.provenance)) return {};
     const Triangles& triangles = problem.patch.triangles;
     if (!solution.crossings) solution.crossings = crossing_triangles(triangles, solution.points);
-    if (solution.provenance == Provenance::low_passed) return crossings_beside(problem, solution);
+    // Beside low-passed loops crossings at the boundary are those of its own noise.
+    if (solution.provenance == Provenance::low_passed && !solution.crossings->empty())
+        return crossings_inside(problem.patch, solution.points);
     if (!keeps_shape(problem, solution)) return *solution.crossings;
     return without(*solution.crossings, crossing_triangles(triangles, *problem.before));
 }

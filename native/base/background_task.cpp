@@ -1,6 +1,5 @@
 #include "base/background_task.h"
 
-#include <chrono>
 #include <utility>
 
 #include "base/background_work.h"
@@ -30,13 +29,12 @@ void BackgroundTask::Work::do_here() noexcept {
 }
 
 void BackgroundTask::Work::wait(bool asks) noexcept {
-    constexpr std::chrono::milliseconds between{50};
     const auto is_done = [this] { return done_.load(); };
     if (is_done()) return;
     if (asks) ask_whether_to_stop();
     if (SpinWait::until(is_done)) return;
     std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, between, is_done)) {
+    while (!ended_.wait_for(lock, between_looks, is_done)) {
         if (!asks) continue;
         lock.unlock();
         ask_whether_to_stop();

@@ -10,6 +10,9 @@
 
 namespace fairing {
 
+// After so long a wait that sleeps looks whether the call is to stop.
+inline constexpr std::chrono::milliseconds between_looks{50};
+
 // A solve enters some thousand loops of a hundredth to a tenth of a millisecond in quick succession, and waking a
 // thread takes as long as such a loop. So an idle thread spins for a while before it sleeps.
 class SpinWait {

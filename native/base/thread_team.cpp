@@ -1,6 +1,5 @@
 #include "base/thread_team.h"
 
-#include <chrono>
 #include <exception>
 #include <system_error>
 #include <utility>
@@ -78,12 +77,11 @@ void ThreadTeam::run(int pieces, const std::function<void(int)>& piece) {
 }
 
 void ThreadTeam::wait_for_helpers() noexcept {
-    constexpr std::chrono::milliseconds between{50};
     const auto is_idle = [this] { return working_ == 0; };
     if (SpinWait::until(is_idle)) return;
     ask_whether_to_stop();
     std::unique_lock lock(mutex_);
-    while (!idle_.wait_for(lock, between, is_idle)) {
+    while (!idle_.wait_for(lock, between_looks, is_idle)) {
         lock.unlock();
         ask_whether_to_stop();
         lock.lock();

@@ -16,8 +16,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double split_above = 4.0 / 3.0;  // of the wanted length
-constexpr double collapse_below = 0.75;
+constexpr double collapse_below = 0.75;    // of the wanted length
 constexpr double longest_after = 1.4;      // edges that a collapse makes
 constexpr double most_per_expected = 2.0;  // vertices; on a surface with folds splits would never end
 
@@ -297,7 +296,6 @@ void EqualEdgeMesh::smooth(int sweeps) {
 
 void EqualEdgeMesh::equalise() {
     constexpr int most_sweeps = 20;
-    constexpr int large = 10'000;
     int settled = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
@@ -305,7 +303,6 @@ void EqualEdgeMesh::equalise() {
         const int before = static_cast<int>(mesh_.n_vertices());
         if (before > most) break;
         int changes = split_long();
-        if (before >= large && changes > before / 4) sort();
         changes += collapse_short();
         flip_edges();
         changes += split_chords();

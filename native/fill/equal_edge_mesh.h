@@ -55,7 +55,6 @@ private:
     [[nodiscard]] int triangle_beside(Edge e) const;
     Vertex split(Edge e);
     int split_long();
-    void sort();
     int collapse_short();
     [[nodiscard]] bool makes_long_edges(Halfedge h, double most) const;
     [[nodiscard]] bool may_collapse(Halfedge h);

@@ -8,6 +8,9 @@
 
 namespace fairing {
 
+// Times the length wanted: longer edges are split. A half of one is as much too short as the whole is too long.
+inline constexpr double split_above = 4.0 / 3.0;
+
 // The edge from a to b with the triangles (a, b, c) and (b, a, d).
 struct Diagonal {
     Vector3 a, b, c, d;

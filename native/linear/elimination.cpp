@@ -7,6 +7,7 @@
 #include <Eigen/OrderingMethods>
 
 #include "base/progress.h"
+#include "linear/limits.h"
 
 namespace fairing {
 
@@ -123,10 +124,9 @@ struct Group {
 // Whether a supernode may take in the one just before it, its last child, at the price of explicit zeros.
 // Large factors have no room for many.
 bool worth_merging(std::int64_t columns, std::int64_t zeros, std::int64_t entries, int order) {
-    constexpr int large = 5000;
     if (columns <= 4) return true;
     const double share = static_cast<double>(zeros) / static_cast<double>(entries);
-    if (columns <= 16) return share < (order < large ? 0.6 : 0.3);
+    if (columns <= 16) return share < (order < large_order ? 0.6 : 0.3);
     if (columns <= 48) return share < 0.12;
     return share < 0.05;
 }

@@ -12,6 +12,10 @@ inline constexpr double longest_step = 0.1;
 inline constexpr int most_halvings = 12;
 inline constexpr double armijo = 1e-4;
 
+// Columns of a factor from which its fill counts: zeros are saved, and nested dissection leaves fewer than minimum
+// degree.
+inline constexpr int large_order = 5000;
+
 // Rows and columns of a dense matrix that are worked on at once: what the cache holds.
 inline constexpr int tile = 192;
 

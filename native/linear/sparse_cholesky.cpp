@@ -9,14 +9,12 @@
 
 #include "base/parallel.h"
 #include "linear/dense_front.h"
+#include "linear/limits.h"
 #include "linear/nested_dissection.h"
 
 namespace fairing {
 
 namespace {
-
-// Below, minimum degree leaves as little fill.
-constexpr Eigen::Index least_dissected = 5000;
 
 // Counts the operations of several threads; the one that made it reports, about every ten million.
 class SharedProgress {
@@ -91,7 +89,7 @@ auto SparseCholesky::panel(Stored* panels, int s) const {
 }
 
 void SparseCholesky::analyse_pattern(const SparseMatrix& lower) {
-    const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= least_dissected;
+    const bool dissect = layout_.cols() == lower.cols() && lower.cols() >= large_order;
     Elimination elimination = analyse(lower, dissect ? nested_dissection(lower, layout_) : minimum_degree(lower));
     layout_.resize(3, 0);
     order_ = std::move(elimination.order);

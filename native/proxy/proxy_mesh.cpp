@@ -20,7 +20,6 @@ namespace {
 constexpr unsigned highest_valence = 9;
 constexpr double cos_of_turned = 0.2;   // normals of a triangle before and after a collapse
 constexpr double collapse_below = 0.7;  // of the local length
-constexpr double split_above = 4.0 / 3.0;
 
 Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
