@@ -12,7 +12,7 @@ import itertools
 import sys
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ import fairing
 import joints
 import measures
 import profiles
+import shapes
 import tubes
 from joints import Arm, flat_arm
 from tubes import FloatArray, Tube
@@ -206,9 +207,35 @@ def functional_rows(seed: int) -> Iterator[Row]:
             yield name, f"radius {r.min():.3f} … {r.max():.3f}", bool(0.8 <= r.min() <= r.max() <= 1.2)
 
 
+PACE_SHAPES = {"cylinder": shapes.cylinder, "catenoid": shapes.catenoid, "r H' = c": shapes.linear_flux}
+PACE_STYLES = {"regular": shapes.Style(jitter=0.0), "irregular": shapes.Style(layout="random", stretch=2.5, jitter=0.0)}
+
+
+def pace_rows(seed: int) -> Iterator[Row]:
+    """At most three times as long as the harmonic surface; one thread, CPU."""
+    for count, (name, make), (kind, style) in itertools.product(
+        (1000, 10_000, 50_000), PACE_SHAPES.items(), PACE_STYLES.items()
+    ):
+        patch = make(count, replace(style, seed=seed))
+        boundary = fairing.Boundary(vertices=patch.fixed, normals=patch.fixed_normals)
+
+        def seconds(
+            equation: str, patch: shapes.Patch = patch, boundary: fairing.Boundary = boundary
+        ) -> tuple[float, bool]:
+            start = time.process_time()
+            options = fairing.Options(equation=equation)
+            result = fairing.fair(shapes.start_from_nothing(patch), patch.triangles, boundary, options, threads=1)
+            return time.process_time() - start, bool(result.converged)
+
+        harmonic, _ = seconds("harmonic")
+        even, converged = seconds("least_variation")
+        ratio = even / harmonic
+        yield f"{name}, {kind}, {count:,}", f"{ratio:.1f} times the harmonic {harmonic:.3f} s", converged and ratio <= 3
+
+
 TABLES = (
     pipe_rows, taper_rows, elbow_rows, bend_rows, joint_rows, agreement_rows, elbow_agreement_rows, start_rows,
-    order_rows, functional_rows,
+    order_rows, functional_rows, pace_rows,
 )  # fmt: skip
 
 

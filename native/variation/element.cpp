@@ -92,6 +92,11 @@ public:
         return result;
     }
 
+    [[nodiscard]] ElementVector gradient(const ElementSums& factors) const {
+        const Jacobian J = jacobian(residual_by_derivative(), own_frames());
+        return 2.0 * factors.variation * (J.transpose() * residual_) + factors.area * area_by_motion();
+    }
+
     [[nodiscard]] ElementVector acceleration(const Element& there, const ElementVector& motions, double share) const {
         const Jacobian J = jacobian(residual_by_derivative(), own_frames());
         return 4.0 / (share * share) * (J.transpose() * (there.residual_ - residual_ - share * (J * motions)));
@@ -280,6 +285,11 @@ ElementSums element_sums(const Sheet& sheet, const Stencil& stencil, const Eleme
 ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
                            const ElementSums& factors) {
     return Element(sheet, stencil, weights).terms(factors);
+}
+
+ElementVector element_gradient(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
+                               const ElementSums& factors) {
+    return Element(sheet, stencil, weights).gradient(factors);
 }
 
 ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil,

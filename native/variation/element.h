@@ -44,6 +44,10 @@ struct ElementTerms {
 ElementTerms element_terms(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
                            const ElementSums& factors);
 
+// Their gradient alone.
+ElementVector element_gradient(const Sheet& sheet, const Stencil& stencil, const ElementWeights& weights,
+                               const ElementSums& factors);
+
 // 2 Jᵀ ∂²R/∂m², for the residuals R, whose squares `variation` adds up, and motions m: by how much the residuals leave
 // their tangent where the motions are taken. `there`: the sheet moved by a small share of them.
 ElementVector element_acceleration(const Sheet& sheet, const Sheet& there, const Stencil& stencil,

@@ -25,11 +25,16 @@ namespace fairing {
 
 namespace {
 
-// Edges of the fine mesh and of the coarse one (Beginning) are as long as a share of the outline's mean edge where the
-// surface turns by more than `turn` radians along them (24 and 18 edges around a tube), up to `range_of_edges` times
-// as long elsewhere, within bounds (units of D); `growth`: proxy/proxy_mesh.h.
-constexpr double growth = 0.3;
-constexpr double turn = 0.26;
+// Edges begin with the outline's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
+// times a `share` of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
+// need not resolve the outline, only how the surface turns: their longest edges are those of loops of `most_around`.
+struct Fineness {
+    double share;
+    double growth;
+    double turn;
+};
+constexpr Fineness outlines_own{1.0, 0.3, 0.26};  // 24 edges around a tube
+constexpr int most_around = 24;
 constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
 constexpr double shortest = 0.05;       // of the longest edges
 constexpr double longest = 0.5;
@@ -37,15 +42,14 @@ constexpr int most_coarse = 1200;     // free vertices
 constexpr int most_fine_steps = 100;  // most of those that converge take 30 at most, a thin U of 180° takes 85
 
 struct Beginning {
-    double share;    // of the outline's mean edge
+    Fineness fineness;
     double damping;  // at first
-    double settled;  // relative change of the merit from one mesh to the next
 };
-constexpr Beginning rough_beginning{1.4, raised_damping, 0.02};
+constexpr Beginning rough_beginning{{1.4, 0.6, 0.35}, raised_damping};
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
-constexpr Beginning near_beginning{1.8, 1e-2, 0.05};
+constexpr Beginning near_beginning{{1.8, 0.6, 0.35}, 1e-2};
 constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
@@ -63,9 +67,14 @@ Points start_of(const Problem& problem, const Progress& progress) {
 }
 
 // The interior needs the outline's resolution only where it bends.
-Sizing sizing_of(const Problem& problem, double share, int most) {
-    const double edge = share * mean_outline_edge(problem);
-    return {growth, std::clamp(range_of_edges * edge, shortest, longest), most, turn, true};
+Sizing sizing_of(double edge, const Fineness& fineness, int most) {
+    const double longest_here = std::clamp(range_of_edges * fineness.share * edge, shortest, longest);
+    return {fineness.growth, longest_here, most, fineness.turn, true};
+}
+
+double coarse_edge(const Problem& problem) {
+    const auto around = static_cast<double>(problem.fixed_points.cols()) / std::max(1, problem.patch.loop_count());
+    return mean_outline_edge(problem) * std::max(1.0, around / most_around);
 }
 
 // On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only. Given up
@@ -77,17 +86,15 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr double enough = 1e-3;  // from one step to the next
     constexpr double enough_for_fine = 0.01;
     constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
-    const Sizing sizing = sizing_of(problem, beginning.share, most_coarse);
+    const Sizing sizing = sizing_of(coarse_edge(problem), beginning.fineness, most_coarse);
     std::optional<SolvedSheet> last;
-    double merit = 0.0;  // of the last mesh
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
         NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
         limits.settled = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
-        if (std::abs(last->result.merit - merit) <= beginning.settled * merit || last->result.merit < tolerance) break;
+        if (last->result.converged) break;
         if (k > 0 && !(last->result.merit <= hopeless * most)) return std::move(*last);
-        merit = last->result.merit;
     }
     mesh.adapt(sizing);
     NewtonLimits limits{tolerance, 30, near_damping};
@@ -103,7 +110,7 @@ struct FineStart {
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
-    mesh.adapt(sizing_of(problem, 1.0, free_limit(problem.patch.free_count)));
+    mesh.adapt(sizing_of(mean_outline_edge(problem), outlines_own, free_limit(problem.patch.free_count)));
     NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;
@@ -303,7 +310,7 @@ std::optional<Solution> solve_less_varying(const Problem& problem, const Variati
 
 double variation_energy(const Problem& problem, const Points& points) {
     const Sheet sheet{points, fitted_normals(problem, points, Measure::scale_free, Progress())};
-    return VariationEnergy(problem, Moving::normals, Measure::scale_free).merit(sheet);
+    return VariationEnergy(problem, Moving::normals, Measure::scale_free).measured(sheet).merit;
 }
 
 }  // namespace fairing

@@ -68,20 +68,20 @@ public:
           progress_(progress),
           factor_(layout_of(energy, sheet)),
           spacing_(mean_edges(energy.patch(), sheet.points)),
+          present_(energy.measured(sheet)),
           damping_(limits.damping) {}
 
     NewtonResult run() {
         NewtonResult result;
         while (result.steps < limits_.most_steps && !result.converged) {
             progress_.report(static_cast<double>(result.steps) / limits_.most_steps, "least variation");
-            energy_.update(sheet_, model_);
+            energy_.update(sheet_, present_, model_);
             if (!step()) break;
             ++result.steps;
             result.converged = has_converged(result.steps);
             if (share_ < limits_.shortest_share || is_hopeless(result.steps)) break;
         }
-        energy_.update(sheet_, model_);
-        result.merit = model_.merit;
+        result.merit = present_.merit;
         result.gradient = largest_gradient();
         return result;
     }
@@ -90,7 +90,7 @@ private:
     // The first step, from another mesh's surface, may leave more than it takes away.
     [[nodiscard]] bool has_converged(int steps) const {
         const double share = steps > 1 ? 1.0 : 0.01;
-        if (steps > 1 && share_ == 1.0 && fall_ < limits_.settled * model_.merit) return true;
+        if (steps > 1 && share_ == 1.0 && fall_ < limits_.settled * (merit_unit + present_.merit)) return true;
         return share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < share * limits_.tolerance &&
                largest_turn_ < limits_.turns;
     }
@@ -122,7 +122,9 @@ private:
 
     void adapt_damping() {
         used_damping_ = damping_;
-        if (share_ == 1.0) damping_ = damping_ > least_damping ? 0.15 * damping_ : 0.0;
+        constexpr double expected = 0.4;  // of the slope: an undamped step falls by half of it, a damped one by more
+        const double kept = fall_ > -expected * slope_ ? 0.02 : 0.15;
+        if (share_ == 1.0) damping_ = damping_ > least_damping ? kept * damping_ : 0.0;
         if (share_ < 0.5) damping_ = std::max(5.0 * damping_, least_damping);
     }
 
@@ -172,7 +174,7 @@ private:
         constexpr double most = 0.75;        // of the step's length
         constexpr double least_rise = 1e-3;  // below, steps are straight enough
         if (largest_rise_ < least_rise) return VectorX::Zero(motions.size());
-        VectorX bent = -factor_.solve_vector(energy_.acceleration_load(sheet_, motions, probe * share_));
+        VectorX bent = -factor_.solve_vector(energy_.acceleration_load(sheet_, present_, motions, probe * share_));
         const double length = share_ * bent.norm();
         if (!std::isfinite(length)) return VectorX::Zero(motions.size());
         return std::min(1.0, most * motions.norm() / (length + roundoff)) * bent;
@@ -185,15 +187,17 @@ private:
         measure(motions);
         const double slope = model_.gradient.dot(motions);
         if (!(slope <= 0.0)) return false;
+        slope_ = slope;
         share_ = std::min({1.0, largest_turn / largest_turn_, largest_rise / largest_rise_});
         const VectorX bent = acceleration(motions);
         for (int k = 0; k <= most_halvings; ++k, share_ *= 0.5) {
             Sheet tried = energy_.moved(sheet_, motions + 0.5 * share_ * bent, share_);
-            const double merit = energy_.merit(tried);
-            if (!(merit <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing)) continue;
+            const SheetMerit there = energy_.measured(tried);
+            if (!(there.merit <= model_.merit + armijo * share_ * slope + noise * model_.merit + nothing)) continue;
             if (folds(energy_.patch(), sheet_, tried)) continue;
             sheet_ = std::move(tried);
-            fall_ = model_.merit - merit;
+            present_ = there;
+            fall_ = model_.merit - there.merit;
             return true;
         }
         return false;
@@ -213,10 +217,11 @@ private:
     }
 
     [[nodiscard]] double largest_gradient() const {
+        const VectorX gradient = energy_.gradient(sheet_, present_);
         double largest = 0.0;
         for (int v = 0; v < energy_.patch().free_count; ++v) {
             if (const int unknown = energy_.unknowns().of(v, 0); unknown != none)
-                largest = std::max(largest, std::abs(model_.gradient[unknown]));
+                largest = std::max(largest, std::abs(gradient[unknown]));
         }
         return largest;
     }
@@ -227,13 +232,15 @@ private:
     const Progress& progress_;
     SparseCholesky factor_;
     VectorX spacing_;
+    SheetMerit present_;  // of the sheet
     QuadraticModel model_;
     double damping_;
     double used_damping_ = 0.0;
     double bending_ = 1.0;  // share of the indefinite part
     int rest_ = 0;          // steps before more of it is tried
     double share_ = 0.0;
-    double fall_ = 0.0;  // of the merit
+    double fall_ = 0.0;   // of the merit
+    double slope_ = 0.0;  // of the merit along the step
     double largest_height_ = 0.0;
     double largest_rise_ = 0.0;  // in edges
     double largest_turn_ = 0.0;

@@ -11,6 +11,9 @@ namespace fairing {
 // Damping that takes the place of none where no step is found without, and of a rough initial surface.
 inline constexpr double raised_damping = 1e-3;
 
+// Of both measures in units of D: an elbow has some ten of it, what looks like a cylinder a thousandth.
+inline constexpr double merit_unit = 1.0;
+
 struct NewtonLimits {
     double tolerance;  // of the largest height of a full step, units of D
     int most_steps;
@@ -18,7 +21,7 @@ struct NewtonLimits {
     double shortest_share = 0.0;   // of a step; the descent ends where only a smaller share can be taken
     double most_merit = HUGE_VAL;  // the descent is given up where the merit is larger after ten steps
     double turns = HUGE_VAL;       // tolerance of the largest turn of a full step, radians
-    double settled = 0.0;          // the descent also ends where a full step lowers the merit by less than this share
+    double settled = 0.0;          // it also ends where a full step lowers merit_unit + merit by less than this share
 };
 
 struct NewtonResult {

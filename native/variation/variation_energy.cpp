@@ -83,25 +83,43 @@ ElementSums VariationEnergy::sums(const Sheet& sheet) const {
     return total;
 }
 
-double VariationEnergy::merit_of(const ElementSums& sums, const Sheet& sheet) const {
-    return sums.variation * (measure_ == Measure::plain ? 1.0 : sums.area) + outline_energy(sheet);
+SheetMerit VariationEnergy::measured(const Sheet& sheet) const {
+    const ElementSums present = sums(sheet);
+    const double factor = measure_ == Measure::plain ? 1.0 : present.area;
+    return {present, factor * present.variation + outline_energy(sheet)};
 }
 
-double VariationEnergy::merit(const Sheet& sheet) const { return merit_of(sums(sheet), sheet); }
+// d(V A) = A dV + V dA
+ElementSums VariationEnergy::factors(const SheetMerit& present) const {
+    if (measure_ == Measure::plain) return {1.0, 0.0};
+    return {present.sums.area, present.sums.variation};
+}
 
-void VariationEnergy::update(const Sheet& sheet, QuadraticModel& model) const {
-    const ElementSums present = sums(sheet);
+void VariationEnergy::update(const Sheet& sheet, const SheetMerit& present, QuadraticModel& model) const {
     if (model.bending.nonZeros() == 0) model.bending = unknowns_.pattern();
     std::fill_n(model.bending.valuePtr(), model.bending.nonZeros(), 0.0);
     model.stretching = VectorX::Zero(model.bending.nonZeros());
     model.gradient = VectorX::Zero(unknowns_.count());
     model.area = VectorX::Zero(unknowns_.count());
-    model.merit = merit_of(present, sheet);
+    model.merit = present.merit;
     // d²(V A) = A d²V + V d²A + dV dA + dA dV, where dV ≈ −(V / A) dA near the minimum.
     const bool plain = measure_ == Measure::plain;
-    model.area_factor = plain ? 0.0 : 2.0 * present.variation / present.area;
-    add_elements(sheet, plain ? ElementSums{1.0, 0.0} : ElementSums{present.area, present.variation}, model);
+    model.area_factor = plain ? 0.0 : 2.0 * present.sums.variation / present.sums.area;
+    add_elements(sheet, factors(present), model);
     add_outline(sheet, model);
+}
+
+VectorX VariationEnergy::gradient(const Sheet& sheet, const SheetMerit& present) const {
+    const int count = static_cast<int>(stencils_.size());
+    std::vector<ElementVector> slopes(stencils_.size());
+    for_ranges(count, fine_grain, [&](int begin, int end) {
+        for (int e = begin; e < end; ++e)
+            slopes[e] = element_gradient(sheet, stencils_[e], element_weights(measure_), factors(present));
+    });
+    VectorX result = VectorX::Zero(unknowns_.count());
+    add_up(slopes, 1.0, result);
+    for_outline(sheet, [&](int unknown, double slope, double) { result[unknown] += slope; });
+    return result;
 }
 
 // Elements are measured on all threads, some thousand at once, and added up in their order.
@@ -147,7 +165,8 @@ double VariationEnergy::outline_energy(const Sheet& sheet) const {
 }
 
 // |n − n̂|² = 2 − 2 ⟨n, n̂⟩ with n turned by (a, b).
-void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) const {
+template <typename Visit>
+void VariationEnergy::for_outline(const Sheet& sheet, const Visit& visit) const {
     for (Eigen::Index k = 0; k < problem_.fixed_points.cols(); ++k) {
         const double weight = normal_weight(problem_, k);
         if (weight == 0.0 || !std::isfinite(weight)) continue;
@@ -156,17 +175,30 @@ void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) con
         const Vector3 normal = sheet.normals.col(v);
         const Frame frame(normal);
         const std::array<double, 2> slope{frame.u.dot(wanted), frame.v.dot(wanted)};
-        for (int m = 0; m < 2; ++m) {
-            const int unknown = unknowns_.of(v, m + 1);
-            model.gradient[unknown] -= 2.0 * weight * slope[m];
-            model.stretching[unknowns_.slot(unknown, unknown, 0)] += 2.0 * weight * std::max(normal.dot(wanted), 0.0);
+        for (int m = 0; m < 2; ++m)
+            visit(unknowns_.of(v, m + 1), -2.0 * weight * slope[m], 2.0 * weight * std::max(normal.dot(wanted), 0.0));
+    }
+}
+
+void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) const {
+    for_outline(sheet, [&](int unknown, double slope, double bend) {
+        model.gradient[unknown] += slope;
+        model.stretching[unknowns_.slot(unknown, unknown, 0)] += bend;
+    });
+}
+
+void VariationEnergy::add_up(const std::vector<ElementVector>& parts, double factor, VectorX& result) const {
+    for (int e = 0; e < static_cast<int>(parts.size()); ++e) {
+        const ElementUnknowns unknown = unknowns_of(e);
+        for (int k = 0; k < 3 * stencil_size; ++k) {
+            if (unknown[k] != none) result[unknown[k]] += factor * parts[e][k];
         }
     }
 }
 
-VectorX VariationEnergy::acceleration_load(const Sheet& sheet, const VectorX& motions, double share) const {
+VectorX VariationEnergy::acceleration_load(const Sheet& sheet, const SheetMerit& present, const VectorX& motions,
+                                           double share) const {
     const Sheet there = moved(sheet, motions, share);
-    const double factor = measure_ == Measure::plain ? 1.0 : sums(sheet).area;
     const int count = static_cast<int>(stencils_.size());
     std::vector<ElementVector> loads(stencils_.size());
     for_ranges(count, fine_grain, [&](int begin, int end) {
@@ -180,12 +212,7 @@ VectorX VariationEnergy::acceleration_load(const Sheet& sheet, const VectorX& mo
         }
     });
     VectorX result = VectorX::Zero(unknowns_.count());
-    for (int e = 0; e < count; ++e) {
-        const ElementUnknowns unknown = unknowns_of(e);
-        for (int k = 0; k < 3 * stencil_size; ++k) {
-            if (unknown[k] != none) result[unknown[k]] += factor * loads[e][k];
-        }
-    }
+    add_up(loads, factors(present).variation, result);
     return result;
 }
 

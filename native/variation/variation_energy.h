@@ -15,6 +15,12 @@ enum class Moving { points_and_normals, normals };
 // on larger surfaces and easier to descend from far away: there V A would shrink the area of a rough initial surface.
 enum class Measure { scale_free, plain };
 
+// What a sheet adds up to.
+struct SheetMerit {
+    ElementSums sums;
+    double merit = 0.0;
+};
+
 // A merit near a sheet, by the unknown motions of its vertices.
 struct QuadraticModel {
     double merit = 0.0;
@@ -31,12 +37,15 @@ public:
     // `problem` must outlive this.
     VariationEnergy(const Problem& problem, Moving moving, Measure measure);
 
-    [[nodiscard]] double merit(const Sheet& sheet) const;
-    // Into a model of the same energy, or an empty one.
-    void update(const Sheet& sheet, QuadraticModel& model) const;
+    [[nodiscard]] SheetMerit measured(const Sheet& sheet) const;
+    // `present`: of the same sheet, here and below. Into a model of the same energy, or an empty one.
+    void update(const Sheet& sheet, const SheetMerit& present, QuadraticModel& model) const;
+    // By the unknown motions.
+    [[nodiscard]] VectorX gradient(const Sheet& sheet, const SheetMerit& present) const;
     // By how much the residuals leave their tangent along motions (element.h), measured over a share of these. The
     // geodesic acceleration compensates it (Transtrum & Sethna 2012).
-    [[nodiscard]] VectorX acceleration_load(const Sheet& sheet, const VectorX& motions, double share) const;
+    [[nodiscard]] VectorX acceleration_load(const Sheet& sheet, const SheetMerit& present, const VectorX& motions,
+                                            double share) const;
     // The sheet with its vertices moved by `share` of the motions (unknowns in their order).
     [[nodiscard]] Sheet moved(const Sheet& sheet, const VectorX& motions, double share) const;
 
@@ -53,9 +62,14 @@ private:
     void find_entries(int element);
     [[nodiscard]] ElementUnknowns unknowns_of(int element) const;
     [[nodiscard]] ElementSums sums(const Sheet& sheet) const;
-    [[nodiscard]] double merit_of(const ElementSums& sums, const Sheet& sheet) const;
     void add_elements(const Sheet& sheet, const ElementSums& factors, QuadraticModel& model) const;
     void add(const ElementTerms& terms, int element, QuadraticModel& model) const;
+    [[nodiscard]] ElementSums factors(const SheetMerit& present) const;
+    // Of all elements, `factor` times.
+    void add_up(const std::vector<ElementVector>& parts, double factor, VectorX& result) const;
+    // visit(unknown, derivative, second derivative) of the outline's normals.
+    template <typename Visit>
+    void for_outline(const Sheet& sheet, const Visit& visit) const;
     void add_outline(const Sheet& sheet, QuadraticModel& model) const;
     [[nodiscard]] double outline_energy(const Sheet& sheet) const;
 
