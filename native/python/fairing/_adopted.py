@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from typing import Any
 
 import numpy.typing as npt
 
 from fairing import _arguments, _core
 from fairing._groups import GROUP_OF, Boundary, Options
+from fairing._parts import by_parts
 
 _OF_BOUNDARY = {
     "fixed": "vertices", "fixed_normals": "normals", "fixed_curvatures": "curvatures", "outside": "outside",
@@ -35,7 +37,7 @@ def adopted(
         if not isinstance(group, type(getattr(Options(), name))):
             raise ValueError(f"options: {name} has to be a fairing.{name.capitalize()}, not {group!r}")
     if not before:
-        return known, chosen
+        return by_parts(known, chosen)
     unknown = [name for name in before if name not in _OF_BOUNDARY and name not in GROUP_OF]
     if unknown:
         raise TypeError(f"{call}() got an unexpected keyword argument {unknown[0]!r}")
@@ -47,7 +49,8 @@ def adopted(
     if "inner_fairness" in before and before["inner_fairness"] is None:  # means something in Layout only
         _arguments.choice("inner_fairness", None, _core.WORDS["inner_fairness"])
     held = {new: before.get(old, getattr(known, new)) for old, new in _OF_BOUNDARY.items()}
-    return Boundary(**held), chosen.changed(**{name: before[name] for name in before if name in GROUP_OF})
+    chosen = chosen.changed(**{name: before[name] for name in before if name in GROUP_OF})
+    return by_parts(replace(known, **held), chosen)
 
 
 def taken(call: str, options: Options | None, before: dict[str, Any], threads: int) -> dict[str, Any]:

@@ -118,7 +118,7 @@ def solved(
     if not joins and boundary.curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
-        as_given = _joining.with_curvatures(as_given, around, boundary.curvatures)
+        as_given = _joining.with_curvatures(as_given, around, boundary.curvatures, boundary.continuity)
 
     def call(held: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(

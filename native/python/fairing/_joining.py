@@ -11,10 +11,14 @@ from fairing import _arguments
 from fairing._boundary_normals import boundary_normals
 from fairing._mending import Boundary, Surroundings
 from fairing._outline import surrounding_normals
+from fairing._parts import where_met
 
 
-def with_curvatures(boundary: Boundary, around: Surroundings, given: Any) -> Boundary:
-    """The boundary with H at ``fixed``, NaN where it is not known: as given, or fitted to the triangles outside."""
+def with_curvatures(boundary: Boundary, around: Surroundings, given: Any, kinds: Any = None) -> Boundary:
+    """The boundary with H at ``fixed``, NaN where it is not known: as given, or fitted to the triangles outside.
+
+    kinds: the words of the continuity at ``fixed`` (k,), where they differ.
+    """
     if given is not None:
         return replace(boundary, curvatures=_arguments.curvatures(given, boundary.fixed))
     if not len(around.rim):
@@ -34,4 +38,4 @@ def with_curvatures(boundary: Boundary, around: Surroundings, given: Any) -> Bou
         normals = np.where(chosen[:, None], beyond.normals, fits.normals)
         against = (normals * given).sum(axis=1) < 0
         curvatures = np.where(against, -curvatures, curvatures)  # H on the side of the normals
-    return replace(boundary, fixed=fixed, curvatures=curvatures)
+    return replace(boundary, fixed=fixed, curvatures=curvatures if kinds is None else where_met(curvatures, kinds))

@@ -59,6 +59,8 @@ def remesh(
     that is less, 4 000 000 at most.
     """
     around, chosen = adopted("remesh", boundary, options, before)
+    if around.continuity is not None:
+        raise ValueError("continuity: 'G2' on parts of the boundary needs `curvatures` here")
     given = flat(chosen, threads, around.curvatures)
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, len(points))

@@ -1,0 +1,117 @@
+"""`Boundary.continuity`: position, tangent plane and curvature met on parts of the boundary."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import shapes
+from domains import Style
+
+Mask = Callable[[Any], Any]
+
+
+def faired(patch: shapes.Patch, kinds: Any, **more: Any) -> fairing.FairResult:
+    """From a membrane, with the exact normals where they count and wrong ones elsewhere."""
+    normals = patch.fixed_normals.copy()
+    normals[np.asarray(kinds) == "G0"] = [0.6, 0.0, 0.8]
+    held = fairing.Boundary(patch.fixed, normals, continuity=kinds, **more)
+    return fairing.fair(shapes.start_from_nothing(patch), patch.triangles, held)
+
+
+CLOSED: dict[str, tuple[Callable[..., shapes.Patch], Mask]] = {
+    "hemisphere, half of its rim": (shapes.cap, lambda p: p[:, 0] < 0),
+    "hemisphere, nearly all of its rim": (shapes.cap, lambda p: p[:, 0] < 0.8),
+    "cylinder's part, a straight side": (
+        lambda n, style: shapes.cylinder(n, style, shape="rectangle"), lambda p: p[:, 0] < p[:, 0].min() + 1e-6,
+    ),
+    "tube, one end": (shapes.cylinder, lambda p: p[:, 2] < p[:, 2].min() + 1e-6),
+    "flat strip, one side": (
+        lambda n, style: shapes.plane(n, style, shape="rectangle"), lambda p: p[:, 2] < p[:, 2].min() + 1e-6,
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+@pytest.mark.parametrize("name", CLOSED)
+def test_position_on_a_part_and_tangent_on_the_rest_keep_spheres_cylinders_and_planes(name: str, seed: int) -> None:
+    """They meet the natural conditions at a free slope, and are met exactly."""
+    make, where = CLOSED[name]
+    patch = make(400, Style(jitter=0.6, seed=seed))
+    kinds = np.where(where(patch.vertices[patch.fixed]), "G0", "G1")
+    assert 0 < (kinds == "G0").sum() < len(kinds)
+    result = faired(patch, kinds)
+    assert result.converged and result.equation == "least_variation"
+    assert patch.error(result.vertices) < 1e-9
+
+
+def test_a_slope_that_is_met_on_a_part_counts_there_and_not_on_the_rest() -> None:
+    """A flat strip, one of whose sides asks for 30°: what the normals on the other side say changes nothing."""
+    patch = shapes.plane(400, shape="rectangle")
+    places = patch.vertices[patch.fixed]
+    across = np.ptp(patch.vertices, axis=0).argmax()
+    low, high = (np.isclose(places[:, across], end(places[:, across])) for end in (np.min, np.max))
+    normals = patch.fixed_normals.copy()
+    tilted = np.cos(np.radians(30)) * normals + np.sin(np.radians(30)) * np.eye(3)[across]
+    normals[low] = tilted[low]
+    kinds = np.where(low, "G1", "G0")
+    start = shapes.start_from_nothing(patch)
+    one = fairing.fair(start, patch.triangles, fairing.Boundary(patch.fixed, normals, continuity=kinds))
+    normals[high] = tilted[high]
+    other = fairing.fair(start, patch.triangles, fairing.Boundary(patch.fixed, normals, continuity=kinds))
+    assert np.array_equal(one.vertices, other.vertices)
+    assert patch.error(one.vertices) > 0.02
+
+
+def test_curvature_is_continued_where_it_is_asked_for() -> None:
+    """On a torus, which the tangent join misses: closer with more of the boundary, and all of it is the plain G2."""
+    patch = shapes.torus(500)
+    curvatures = patch.mean_curvature[patch.fixed]
+    x = patch.vertices[patch.fixed][:, 0]
+    errors = []
+    for share in (0.0, 0.5, 1.0):
+        kinds = np.where(x <= np.quantile(x, share) if share else np.zeros(len(x), dtype=bool), "G2", "G1")
+        if share == 0.0:
+            errors.append(patch.error(faired(patch, kinds).vertices))
+        else:
+            errors.append(patch.error(faired(patch, kinds, curvatures=curvatures).vertices))
+    assert errors[2] < errors[1] < errors[0]
+    plain = fairing.fair(
+        shapes.start_from_nothing(patch), patch.triangles,
+        fairing.Boundary(patch.fixed, patch.fixed_normals, curvatures),
+        fairing.Options(fairing.Surface(continuity="G2")),
+    )  # fmt: skip
+    assert errors[2] == patch.error(plain.vertices)
+
+
+def test_one_kind_everywhere_is_the_option_of_before() -> None:
+    patch = shapes.cap(300, half_angle=50)
+    held = fairing.Boundary(patch.fixed, patch.fixed_normals)
+    start = shapes.start_from_nothing(patch)
+    plain = fairing.fair(start, patch.triangles, held)
+    assert np.array_equal(faired(patch, ["G1"] * len(patch.fixed)).vertices, plain.vertices)
+    soap = faired(patch, ["G0"] * len(patch.fixed))
+    assert soap.equation == "minimal"
+
+
+def test_what_contradicts_is_refused_with_a_word_on_what_is_needed() -> None:
+    patch = shapes.cap(100)
+    count = len(patch.fixed)
+    mixed = ["G0"] * (count - 1) + ["G2"]
+    wrong: list[tuple[Any, str]] = [
+        (["G1"] * (count - 1), "shape"), (["G3"] * count, "G3"), (mixed, "G0.*G2"), ("G1", "shape"),
+    ]  # fmt: skip
+    for kinds, word in wrong:
+        with pytest.raises(ValueError, match=word):
+            fairing.fair(patch.vertices, patch.triangles, fairing.Boundary(patch.fixed, None, continuity=kinds))
+    with pytest.raises(ValueError, match="vertices"):
+        fairing.fair(patch.vertices, patch.triangles, fairing.Boundary(continuity=["G1"] * count))
+    curved = fairing.Boundary(
+        patch.fixed, patch.fixed_normals, continuity=["G1", "G2"] * (count // 2) + ["G1"] * (count % 2)
+    )
+    with pytest.raises(ValueError, match="curvatures"):
+        fairing.remesh(patch.vertices, patch.triangles, curved)
