@@ -223,7 +223,7 @@ def pace_rows(seed: int) -> Iterator[Row]:
             equation: str, patch: shapes.Patch = patch, boundary: fairing.Boundary = boundary
         ) -> tuple[float, bool]:
             start = time.process_time()
-            options = fairing.Options(equation=equation)
+            options = fairing.Options.of(equation=equation)
             result = fairing.fair(shapes.start_from_nothing(patch), patch.triangles, boundary, options, threads=1)
             return time.process_time() - start, bool(result.converged)
 

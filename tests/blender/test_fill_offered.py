@@ -53,7 +53,7 @@ def test_it_is_in_the_menus_where_one_looks_for_it() -> None:
     assert offered("draw_face_menu") == ["mesh.fair_region", "mesh.fair_fill"]
     assert offered("draw_edge_menu") == ["Fair Bridge", "mesh.fair_fill", "mesh.fair_fillet"]
     assert offered("draw_vertex_menu") == ["mesh.fair_fill"]
-    assert offered("draw_clean_up_menu") == ["Fair Fill Holes"]
+    assert offered("draw_clean_up_menu") == ["Fair Fill Holes", "mesh.fair_denoise"]
     for mode, what in (
         ("VERT", ["mesh.fair_fill"]),
         ("EDGE", ["mesh.fair_fill", "mesh.fair_fillet"]),

@@ -33,14 +33,14 @@ class Boundary:
     """(k,) float. Of "G2": mean curvatures H at ``vertices``, in length⁻¹, −1/R on a sphere with outward normals; NaN
     where the curvature is not known. Default: fitted to the triangles outside."""
 
+    outside: npt.ArrayLike | None = None
+    """(o, 3) int. Triangles around the patch, which stay; "mended", "G2", ``detail`` and ``join`` read them. Triangles
+    whose corners are all ``vertices`` count among them."""
+
     continuity: npt.ArrayLike | None = None
     """(k,) str. One of "G0" | "G1" | "G2" for each of ``vertices``, where it differs along the boundary: its position
     is met, its tangent plane too, or its curvature as well. An edge has what both of its ends have. "G0" are
     ``creases``: the surface, one of "least_variation", finds its slope there. Not beside "G2" (docs/joins.md)."""
-
-    outside: npt.ArrayLike | None = None
-    """(o, 3) int. Triangles around the patch, which stay; "mended", "G2", ``detail`` and ``join`` read them. Triangles
-    whose corners are all ``vertices`` count among them."""
 
 
 @dataclass(frozen=True)
