@@ -86,7 +86,8 @@ def _edges_around(triangles: Ints) -> Ints:
     """Return the edges (e, 2) of one triangle alone."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     _, first, counts = np.unique(sides[:, 0] << 32 | sides[:, 1], return_index=True, return_counts=True)
-    return sides[first[counts == 1]]
+    around: Ints = sides[first[counts == 1]]
+    return around
 
 
 def _grown(triangles: Ints, shown: Mask) -> Mask:
