@@ -26,14 +26,10 @@ namespace fairing {
 namespace {
 
 // Edges begin with the outline's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
-// times a `share` of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
+// times a share of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
 // need not resolve the outline, only how the surface turns: their longest edges are those of loops of `most_around`.
-struct Fineness {
-    double share;
-    double growth;
-    double turn;
-};
-constexpr Fineness outlines_own{1.0, 0.3, 0.26};  // 24 edges around a tube
+constexpr double growth = 0.3;
+constexpr double turn = 0.26;  // 24 edges around a tube
 constexpr int most_around = 24;
 constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
 constexpr double shortest = 0.05;       // of the longest edges
@@ -42,14 +38,14 @@ constexpr int most_coarse = 1200;     // free vertices
 constexpr int most_fine_steps = 100;  // most of those that converge take 30 at most, a thin U of 180° takes 85
 
 struct Beginning {
-    Fineness fineness;
+    double share;    // of the outline's mean edge
     double damping;  // at first
 };
-constexpr Beginning rough_beginning{{1.4, 0.6, 0.35}, raised_damping};
+constexpr Beginning rough_beginning{1.4, raised_damping};
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
-constexpr Beginning near_beginning{{1.8, 0.6, 0.35}, 1e-2};
+constexpr Beginning near_beginning{1.8, 1e-2};
 constexpr double near_damping = 1e-6;  // on the next mesh
 
 Workspace make_workspace(const Problem& problem, const Progress& progress) {
@@ -60,7 +56,7 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
 // The slopes of the membrane where they are free, and then, in turn, those of the fill that meets the last ones: over
 // jagged outlines the membrane's alone lead to another minimum.
 Points relaxed(const Problem& given, const Points& membrane, Workspace& work, const Progress& progress) {
-    constexpr int times = 8;  // of 100 jagged caps of a ball, parts of their slopes free, 6 miss the ball; 35 % without
+    constexpr int times = 8;  // of 60 jagged caps of a ball, parts of their slopes free, 5 miss it; without this 25
     const std::vector<char>& pin = given.patch.pin;
     const int free = std::any_of(pin.begin(), pin.end(), [](char is_pin) { return is_pin != 0; }) ? times : 0;
     Points surface = membrane;
@@ -78,9 +74,8 @@ Points start_of(const Problem& problem, const Progress& progress) {
 }
 
 // The interior needs the outline's resolution only where it bends.
-Sizing sizing_of(double edge, const Fineness& fineness, int most) {
-    const double longest_here = std::clamp(range_of_edges * fineness.share * edge, shortest, longest);
-    return {fineness.growth, longest_here, most, fineness.turn, true};
+Sizing sizing_of(double edge, int most) {
+    return {growth, std::clamp(range_of_edges * edge, shortest, longest), most, turn, true};
 }
 
 double coarse_edge(const Problem& problem) {
@@ -97,7 +92,7 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr double enough = 1e-3;  // from one step to the next
     constexpr double enough_for_fine = 0.01;
     constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
-    const Sizing sizing = sizing_of(coarse_edge(problem), beginning.fineness, most_coarse);
+    const Sizing sizing = sizing_of(beginning.share * coarse_edge(problem), most_coarse);
     std::optional<SolvedSheet> last;
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
@@ -121,7 +116,7 @@ struct FineStart {
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
-    mesh.adapt(sizing_of(mean_outline_edge(problem), outlines_own, free_limit(problem.patch.free_count)));
+    mesh.adapt(sizing_of(mean_outline_edge(problem), free_limit(problem.patch.free_count)));
     NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;

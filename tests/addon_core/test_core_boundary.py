@@ -46,7 +46,7 @@ def test_custom_normals_are_the_mean_of_the_corners() -> None:
     normals, reported = normals_of(replace(mesh, corner_normals=tilted), patch, "CUSTOM")
     assert reported == ()
     np.testing.assert_allclose(normals, np.tile([0.6, 0.0, 0.8], (len(patch.fixed), 1)))
-    with pytest.raises(ValueError, match="without its corner normals"):
+    with pytest.raises(ValueError, match="with its corner normals"):
         normals_of(mesh, patch, "CUSTOM")
 
 
