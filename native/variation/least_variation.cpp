@@ -28,8 +28,13 @@ namespace {
 // Edges begin with the outline's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
 // times a share of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
 // need not resolve the outline, only how the surface turns: their longest edges are those of loops of `most_around`.
-constexpr double growth = 0.3;
-constexpr double turn = 0.26;  // 24 edges around a tube
+// On rougher coarse meshes, and coarser ones (coarse_edge), free slopes settle elsewhere.
+struct Fineness {
+    double growth;
+    double turn;
+};
+constexpr Fineness as_fine{0.3, 0.26};  // 24 edges around a tube
+constexpr Fineness as_rough{0.6, 0.35};
 constexpr int most_around = 24;
 constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
 constexpr double shortest = 0.05;       // of the longest edges
@@ -53,32 +58,26 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
 }
 
-// The slopes of the membrane where they are free, and then, in turn, those of the fill that meets the last ones: over
-// jagged outlines the membrane's alone lead to another minimum.
-Points relaxed(const Problem& given, const Points& membrane, Workspace& work, const Progress& progress) {
-    constexpr int times = 8;  // of 60 jagged caps of a ball, parts of their slopes free, 5 miss it; without this 25
-    const std::vector<char>& pin = given.patch.pin;
-    const int free = std::any_of(pin.begin(), pin.end(), [](char is_pin) { return is_pin != 0; }) ? times : 0;
-    Points surface = membrane;
-    for (int k = 0; k < free; ++k) surface = best_fill(with_slopes_of(given, surface), work, progress.here());
-    return surface;
+bool has_free_slopes(const Patch& patch) {
+    return std::any_of(patch.pin.begin(), patch.pin.end(), [](char is_pin) { return is_pin != 0; });
 }
 
 // A bulge that meets the outline's tangent planes, its collapsed tubes opened: arms that meet need it.
 Points start_of(const Problem& problem, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());
-    const Problem uniform = with_slopes_of(given, relaxed(given, membrane(given, work), work, progress));
+    const Problem uniform = with_slopes_of(given, membrane(given, work));
     const Points fill = best_fill(uniform, work, progress.here());
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
 
 // The interior needs the outline's resolution only where it bends.
-Sizing sizing_of(double edge, int most) {
-    return {growth, std::clamp(range_of_edges * edge, shortest, longest), most, turn, true};
+Sizing sizing_of(double edge, const Fineness& fineness, int most) {
+    return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn, true};
 }
 
 double coarse_edge(const Problem& problem) {
+    if (has_free_slopes(problem.patch)) return mean_outline_edge(problem);
     const auto around = static_cast<double>(problem.fixed_points.cols()) / std::max(1, problem.patch.loop_count());
     return mean_outline_edge(problem) * std::max(1.0, around / most_around);
 }
@@ -92,7 +91,8 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr double enough = 1e-3;  // from one step to the next
     constexpr double enough_for_fine = 0.01;
     constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
-    const Sizing sizing = sizing_of(beginning.share * coarse_edge(problem), most_coarse);
+    const Sizing sizing = sizing_of(beginning.share * coarse_edge(problem),
+                                    has_free_slopes(problem.patch) ? as_fine : as_rough, most_coarse);
     std::optional<SolvedSheet> last;
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
@@ -116,7 +116,7 @@ struct FineStart {
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
-    mesh.adapt(sizing_of(mean_outline_edge(problem), free_limit(problem.patch.free_count)));
+    mesh.adapt(sizing_of(mean_outline_edge(problem), as_fine, free_limit(problem.patch.free_count)));
     NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;
