@@ -16,7 +16,7 @@ from ..host.context import edited_objects
 from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
 from ..mesh import mesh_io
 from ..preferences import background_from
-from ..run.background import Watched, at_once
+from ..run.background import Watched, Work
 from ..run.job import Refused, objects_in_mode
 from ..translations import translated
 from .inspection import last_options
@@ -71,14 +71,6 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
         """Edit mode has a selection; while a run is under way, the mesh is its own."""
         return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Take the selection of every object in edit mode that has one, and turn Live on; return when done."""
-        return self._begin_with(context, self._solve_at_once)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Do so in the background where the first surface takes long enough to be noticed."""
-        return self._begin_with(context, self._solve_or_start)
-
     def _read(self, context: bpy.types.Context) -> bool:
         self._options = last_options(context)
         self._candidates = read(context, self._options)
@@ -86,10 +78,10 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
             self.report({"ERROR"}, translated(NO_FACE))
         return bool(self._candidates)
 
-    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
-        return self._apply(context, at_once(context, partial(solve, self._candidates)))
+    def _work(self) -> Work:
+        return partial(solve, self._candidates)
 
-    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+    def _start_work(self, context: bpy.types.Context) -> set[str]:
         size = sum(len(session.region.free) for session in self._candidates.values())
         return self._start(context, partial(solve, self._candidates), size >= background_from(context))
 

@@ -111,14 +111,17 @@ def stop_all() -> None:
 
 
 class Watched:
-    """What an operator needs besides `_read`, `_apply`, `_refuse` and `_is_current` to begin and watch a run.
+    """What an operator needs besides the six below to begin and watch a run.
 
-    `_read` takes what the run is to work on; False, after a word on it, where there is nothing to do.
+    `_read` takes what the run is to work on; False, after a word on it, where there is nothing to do. `_work` then
+    solves on arrays, and `_start_work` has it watched by `_start`.
     """
 
     if TYPE_CHECKING:
         report: Callable[[set[str], str], None]
         _read: Callable[[bpy.types.Context], bool]
+        _work: Callable[[], Work]
+        _start_work: Callable[[bpy.types.Context], set[str]]
         _apply: Callable[[bpy.types.Context, Any], set[str]]
         _refuse: Callable[[bpy.types.Context, job.Refused], set[str]]
         _is_current: Callable[[bpy.types.Context], bool]
@@ -126,6 +129,14 @@ class Watched:
     _run: runner.Run[Any] | None = None
     _signs: Signs | None = None
     _preview: Preview | None = None  # what is shown meanwhile
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Do every object in edit mode, or none of them where one is refused; return when done."""
+        return self._begin_with(context, lambda here: self._apply(here, at_once(here, self._work())))
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Do them in the background where that takes long enough to be noticed."""
+        return self._begin_with(context, self._start_work)
 
     def _begin_with(self, context: bpy.types.Context, go_on: Callable[[bpy.types.Context], set[str]]) -> set[str]:
         """Read, and go on at once or in the background."""

@@ -1,20 +1,17 @@
 """The operator that takes the roughness from selected faces: at once where that is quick, else in the background."""
 
-import time
 from functools import partial
 
 import bpy
-import numpy as np
 
 from ..core.denoising import Denoised, DenoiseOptions, denoise_arrays
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.options import FairOptions
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
-from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, job, last_run
-from .background import Watched, at_once
+from .background import Watched, Work
 from .option_properties import DenoiseProperties
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
@@ -41,7 +38,6 @@ class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):
 
     _tasks: list[job.Task]
     _options: DenoiseOptions
-    _begin: float
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -52,16 +48,7 @@ class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):
         """Lay the options out."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Smooth every object in edit mode, or none of them where one is refused; return when done."""
-        return self._begin_with(context, self._solve_at_once)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Smooth in the background where that takes long enough to be noticed."""
-        return self._begin_with(context, self._solve_or_start)
-
     def _read(self, context: bpy.types.Context) -> bool:
-        self._begin = time.perf_counter()
         self._options = DenoiseOptions.of(self)
         selected = job.read(context, FairOptions())
         self._tasks = [task for task in selected if task.free_count]
@@ -72,10 +59,10 @@ class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):
             self.report({"INFO"}, translated(reason))
         return bool(self._tasks)
 
-    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
-        return self._apply(context, at_once(context, partial(solve, self._tasks, self._options)))
+    def _work(self) -> Work:
+        return partial(solve, self._tasks, self._options)
 
-    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+    def _start_work(self, context: bpy.types.Context) -> set[str]:
         large = job.size(self._tasks) >= background_from(context)
         return self._start(context, partial(solve, self._tasks, self._options), large)
 
@@ -89,14 +76,11 @@ class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):
         job.write(context, self._tasks, outcomes)
         count = sum(len(outcome.vertices) for outcome in outcomes)
         largest = max(outcome.largest for outcome in outcomes)
-        self.report({"INFO"}, f"{count} vertices moved, by {largest:.3g} at most")
+        self.report({"INFO"}, translated(f"{count} vertices moved, by {largest:.3g} at most"))
         return {"FINISHED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
-        elements = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
-        if elements.size:
-            context.tool_settings.mesh_select_mode = (True, False, False)
-            selecting.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
+        job.show_vertices(context, refusal.object_name, refusal.elements)
         store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.forget()
         self.report({"ERROR"}, translated(str(refusal)))

@@ -19,12 +19,12 @@ from ..core.region import MeshArrays
 from ..core.report import summary
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
-from ..mesh import filled, mesh_io, selecting
+from ..mesh import filled, mesh_io
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
-from .background import Watched, at_once
-from .job import Refused, is_unchanged, objects_in_mode
+from .background import Watched, Work
+from .job import Refused, is_unchanged, objects_in_mode, show_vertices
 from .option_properties import FillProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
@@ -115,14 +115,6 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         """Lay the options out in groups."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Fill in every object in edit mode, or in none of them where one is refused; return when done."""
-        return self._begin_with(context, self._solve_at_once)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Fill in the background where that takes long enough to be noticed."""
-        return self._begin_with(context, self._solve_or_start)
-
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin = time.perf_counter()
         self.take_names_before()
@@ -134,10 +126,10 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
             self.report({"ERROR"}, translated(NO_BORDER))
         return bool(self._tasks)
 
-    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
-        return self._apply(context, at_once(context, partial(solve, self._tasks, self._options)))
+    def _work(self) -> Work:
+        return partial(solve, self._tasks, self._options)
 
-    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+    def _start_work(self, context: bpy.types.Context) -> set[str]:
         expected = sum(task.expected_vertices(self._options) for task in self._tasks)
         large = expected >= background_from(context)
         return self._start(context, partial(solve, self._tasks, self._options), large)
@@ -171,24 +163,19 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         objects = objects_in_mode(context)
         added = [filled.add_to_edit_mesh(objects[name], of_one) for name, of_one in named if of_one.pieces]
         for name, of_one in named:
-            self._show(context, name, of_one.left_vertices)
+            show_vertices(context, name, of_one.left_vertices)
         return added
 
     def _leave(self, context: bpy.types.Context, spots: Ints, reason: str) -> set[str]:
         """Leave every mesh as it is, and show the boundary where the surface is no good."""
         if len(self._tasks) == 1:
-            self._show(context, self._tasks[0].object_name, spots)
+            show_vertices(context, self._tasks[0].object_name, spots)
         self.report({"ERROR"}, translated(reason))
         return {"CANCELLED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        self._show(context, refusal.object_name, np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64))
+        show_vertices(context, refusal.object_name, refusal.elements)
         store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.forget()
         self.report({"ERROR"}, translated(str(refusal)))
         return {"CANCELLED"}
-
-    def _show(self, context: bpy.types.Context, name: str, vertices: Ints) -> None:
-        if len(vertices):
-            context.tool_settings.mesh_select_mode = (True, False, False)
-            selecting.select_vertices(objects_in_mode(context)[name].data, vertices)

@@ -27,7 +27,7 @@ from ..mesh import mesh_io, remeshed, selecting
 from ..translations import translated
 from . import compare, last_run
 from .background import TICK, Work, at_once, has_events
-from .job import Refused, is_unchanged, objects_in_mode
+from .job import Refused, is_unchanged, objects_in_mode, show_vertices
 from .option_properties import FilletProperties
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
@@ -288,14 +288,11 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         return {"FINISHED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        spots = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
-        return self._leave(context, refusal.object_name, spots, refusal.reason)
+        return self._leave(context, refusal.object_name, refusal.elements, refusal.reason)
 
     def _leave(self, context: bpy.types.Context, name: str, spots: Ints, reason: str) -> set[str]:
         """Leave every mesh as it is, and show where it can't be done."""
-        if len(spots):
-            context.tool_settings.mesh_select_mode = (True, False, False)
-            selecting.select_vertices(objects_in_mode(context)[name].data, spots)
+        show_vertices(context, name, spots)
         store_refusal(context.window_manager.fairing_report, name, reason)
         last_run.forget()
         self.report({"ERROR"}, translated(f"{name}: {reason}"))

@@ -21,7 +21,7 @@ from ..core.region import MeshArrays, free_vertices, to_local
 from ..core.remeshing import Remeshed
 from ..core.solve import Kept, Solved
 from ..host.context import edited_objects
-from ..mesh import all_keys, mesh_io, remeshed
+from ..mesh import all_keys, mesh_io, remeshed, selecting
 from .fair_keys import fair_all_keys
 from .labels import reason_of
 
@@ -37,6 +37,11 @@ class Refused(Exception):
         super().__init__(f"{name}: {self.reason}")
         self.object_name = name
         self.cause = cause
+
+    @property
+    def elements(self) -> Ints:
+        """The vertices that the cause names; none where it names none."""
+        return np.asarray(getattr(self.cause, "elements", ()), dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -129,6 +134,13 @@ def _preview(task: Task, options: FairOptions, give: Give | None) -> Callable[[P
 def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
     """Return the objects in edit mode by name; undo replaces objects, so that only names last."""
     return {obj.name: obj for obj in edited_objects(context)}
+
+
+def show_vertices(context: bpy.types.Context, name: str, vertices: Ints) -> None:
+    """Select these vertices of an object in edit mode, and nothing else there; without any leave all as it is."""
+    if len(vertices):
+        context.tool_settings.mesh_select_mode = (True, False, False)
+        selecting.select_vertices(objects_in_mode(context)[name].data, vertices)
 
 
 def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:

@@ -7,18 +7,16 @@ import time
 from functools import partial
 
 import bpy
-import numpy as np
 
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import GRADE_NAMES, Report, make_report, summary
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..host.status import redraw_sidebars
-from ..mesh import selecting
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, job, labels, last_run
-from .background import Watched, at_once
+from .background import Watched, Work
 from .option_properties import FairProperties
 from .preview import Preview
 from .redo_panel import draw_options
@@ -49,14 +47,6 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         """Lay the options out in groups."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Fair every object in edit mode, or none of them where one is refused; return when done."""
-        return self._begin_with(context, self._solve_at_once)
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Fair in the background where that takes long enough to be noticed: by the size, or as it turns out."""
-        return self._begin_with(context, self._solve_or_start)
-
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin, self._way = time.perf_counter(), last_run.way_to_try()
         self.take_names_before()
@@ -75,15 +65,15 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         )
         return bool(self._tasks)
 
-    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+    def _start_work(self, context: bpy.types.Context) -> set[str]:
         # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
         large = job.size(self._tasks) >= background_from(context)
         preview = Preview(self._tasks)
         work = partial(job.solve, self._tasks, self._options, ahead=large, give=preview.give)
         return self._start(context, work, large, preview)
 
-    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
-        return self._apply(context, at_once(context, partial(job.solve, self._tasks, self._options)))
+    def _work(self) -> Work:
+        return partial(job.solve, self._tasks, self._options)
 
     def _is_current(self, context: bpy.types.Context) -> bool:
         return job.is_current(context, self._tasks)
@@ -124,10 +114,7 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
         return {"CANCELLED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
-        elements = np.asarray(getattr(refusal.cause, "elements", ()), dtype=np.int64)
-        if elements.size:
-            context.tool_settings.mesh_select_mode = (True, False, False)
-            selecting.select_vertices(job.objects_in_mode(context)[refusal.object_name].data, elements)
+        job.show_vertices(context, refusal.object_name, refusal.elements)
         store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
         last_run.refused(self._tasks)
         self.report({"ERROR"}, translated(str(refusal)))

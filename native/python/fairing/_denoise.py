@@ -76,7 +76,8 @@ def denoise(
     low = points[numbers].min(axis=0)
     unit = float(np.ptp(points[numbers], axis=0).max()) or 1.0
     placed = (points[numbers] - low) / unit
-    sizes = np.full(len(placed), length / unit) if length else EDGES * _edges_around(placed, local)
+    around = _edges_around(placed, np.searchsorted(numbers, part.edges))
+    sizes = np.full(len(placed), length / unit) if length else EDGES * around
     sizes[np.isin(numbers, part.loose)] = 0.0
     moved = np.isin(numbers, part.free)
     stays = np.flatnonzero(~moved).astype(np.int32)
@@ -88,11 +89,12 @@ def denoise(
 
 @dataclass(frozen=True)
 class _Part:
-    """Vertices that move, those over which the surface may bend, and the triangles that either depends on."""
+    """Vertices that move, those over which the surface may bend, and what either depends on."""
 
     free: IntArray
     loose: IntArray
     triangles: IntArray
+    edges: npt.NDArray[np.int64]  # (e, 2) of the triangles
 
 
 def _part(faces: IntArray, fixed: IntArray, edges: IntArray, count: int) -> _Part:
@@ -107,12 +109,11 @@ def _part(faces: IntArray, fixed: IntArray, edges: IntArray, count: int) -> _Par
     border = sides[(uses == 1) & near[sides].any(axis=1)]
     loose = np.unique(np.concatenate([border.ravel(), edges.ravel()]))
     moves[loose] = False
-    return _Part(np.flatnonzero(moves), loose, around)
+    return _Part(np.flatnonzero(moves), loose, around, sides)
 
 
-def _edges_around(points: FloatArray, triangles: IntArray) -> FloatArray:
+def _edges_around(points: FloatArray, edges: npt.NDArray[np.intp]) -> FloatArray:
     """(n,) the mean length of the edges around each vertex."""
-    edges, _ = edges_with_uses(triangles)
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     both, count = edges.ravel(), len(points)
     uses = np.bincount(both, minlength=count)
