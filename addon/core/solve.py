@@ -22,7 +22,7 @@ from .local_pins import lone_pins, pulled
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
-from .region import MeshArrays, make_patch, nothing
+from .region import MeshArrays, Patch, make_patch, nothing
 from .sentences import sentences
 from .winding import winding_note, with_one_winding
 
@@ -112,8 +112,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         parts = wound_alike(world, outside), wound_alike(world, sample_triangles(world))
         vertices, around, sample = numbered(patch, *parts)
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
-        precision = precision_note(mesh)
-        odd = outline_notes(world, inward) + ((precision,) if precision else ())
+        odd = outline_notes(world, inward) + _odd_in_words(mesh, patch, options)
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(
@@ -121,6 +120,13 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         np.searchsorted(patch.vertices, curve), places, inward,
     )  # fmt: skip
     return problem, known.notes + winding_note(turned) + odd + mesh.notes
+
+
+def _odd_in_words(mesh: MeshArrays, patch: Patch, options: FairOptions) -> tuple[str, ...]:
+    """Return notes on positions that are too coarse, and on a group that frees no slope."""
+    idle = mesh.free_slopes is not None and not len(patch.free_slopes)
+    group = f"The position group {options.position_group!r} has no vertex on the selection's boundary: it frees nothing"
+    return tuple(note for note in (precision_note(mesh), group if idle else "") if note)
 
 
 def _solve_again(
