@@ -156,7 +156,7 @@ FAIR: Table = (
         "",
         PARTS,
         kind="VERTEX_GROUP",
-        shown=lambda o: o.continuity == "G1" or bool(o.position_group),
+        shown=lambda o: not (o.multigrid or o.smooth_boundary) or bool(o.position_group),
     ),
     Option(
         "use_mask",
