@@ -28,6 +28,7 @@ namespace {
 // Edges begin with the outline's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
 // times a share of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
 // need not resolve the outline, only how the surface turns: their longest edges are those of loops of `most_around`.
+// On rougher coarse meshes, and coarser ones (coarse_edge), free slopes settle elsewhere.
 struct Fineness {
     double growth;
     double turn;
@@ -57,6 +58,10 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
             make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress)};
 }
 
+bool has_free_slopes(const Patch& patch) {
+    return std::any_of(patch.pin.begin(), patch.pin.end(), [](char is_pin) { return is_pin != 0; });
+}
+
 // A bulge that meets the outline's tangent planes, its collapsed tubes opened: arms that meet need it.
 Points start_of(const Problem& problem, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
@@ -72,6 +77,7 @@ Sizing sizing_of(double edge, const Fineness& fineness, int most) {
 }
 
 double coarse_edge(const Problem& problem) {
+    if (has_free_slopes(problem.patch)) return mean_outline_edge(problem);
     const auto around = static_cast<double>(problem.fixed_points.cols()) / std::max(1, problem.patch.loop_count());
     return mean_outline_edge(problem) * std::max(1.0, around / most_around);
 }
@@ -85,7 +91,8 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     constexpr double enough = 1e-3;  // from one step to the next
     constexpr double enough_for_fine = 0.01;
     constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
-    const Sizing sizing = sizing_of(beginning.share * coarse_edge(problem), as_rough, most_coarse);
+    const Sizing sizing = sizing_of(beginning.share * coarse_edge(problem),
+                                    has_free_slopes(problem.patch) ? as_fine : as_rough, most_coarse);
     std::optional<SolvedSheet> last;
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
