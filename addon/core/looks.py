@@ -198,6 +198,8 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
 
 def _sunken(evidence: Evidence, options: FairOptions) -> Found:
     lost = evidence.lost
+    if len(evidence.problem.patch.free_slopes):  # a bend there is asked for, so that what is around says less
+        return NOTHING
     # Detail is skin; what it is put on sinks all the same.
     if not len(lost.deepest) or not judges_join(options) or _is_meant_to_swell(replace(options, detail=0.0)):
         return NOTHING
