@@ -24,7 +24,7 @@ from .finish import Asked, Say, finish, refuse
 from .preview import Preview
 from .report_properties import clear, store_first
 
-PROMPT = 0.08  # seconds from the begin of reading in which an answer needs no first surface
+PROMPT = 0.06  # seconds from the begin of reading in which an answer needs no first surface
 BLINK = 0.02  # seconds that a change waits for the search before it to stop
 AWAITED = "Looking for a fair surface: a smooth one is shown meanwhile"
 KEPT = "A smooth surface was kept: the mesh changed before the fair one was found"
