@@ -177,14 +177,15 @@ def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
 
 def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, moving: Ints) -> Ints:
     """Return the mesh vertices outside at hard edges that a smoothed boundary or a band has rounded."""
-    moved = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
+    outside = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
     moves = np.zeros(len(mesh.positions), dtype=bool)
-    moves[moved] = True
-    around = nearby(mesh.triangles[~mesh.in_patch[mesh.triangle_faces]], moves)
+    moves[outside] = True
+    around = nearby(mesh.triangles, moves)  # one row before the boundary shows no hard edge by itself
     before = places(mesh, matrix)
     points = before.copy()
     points[problem.vertices] = after
-    return fairing.rounded_edges(before, points, around, moved).astype(np.int64)
+    rounded = fairing.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
+    return np.intersect1d(rounded, outside)
 
 
 def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:
