@@ -185,7 +185,8 @@ def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, 
     points = before.copy()
     points[problem.vertices] = after
     rounded = fairing.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
-    return np.intersect1d(rounded, outside)
+    beyond: Ints = np.intersect1d(rounded, outside)
+    return beyond
 
 
 def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:
