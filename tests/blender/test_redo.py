@@ -146,10 +146,10 @@ def test_scripts_wait_in_a_window_too(panel: Panel) -> None:
     assert not panel.follows
 
 
-class MESH_OT_fairing_test_macro(bpy.types.Macro):
+class MESH_OT_macro_of_a_test(bpy.types.Macro):
     """As the tools of the toolbar are."""
 
-    bl_idname = "mesh.fairing_test_macro"
+    bl_idname = "mesh.macro_of_a_test"
     bl_label = "Macro"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
@@ -157,10 +157,10 @@ class MESH_OT_fairing_test_macro(bpy.types.Macro):
 def test_a_run_that_is_a_step_of_a_macro_is_followed_too(panel: Panel) -> None:
     panel.go_on.set()
     # Registered for good: Blender keeps what was run, and asks its type.
-    bpy.utils.register_class(MESH_OT_fairing_test_macro)
-    MESH_OT_fairing_test_macro.define("MESH_OT_fair_region")
+    bpy.utils.register_class(MESH_OT_macro_of_a_test)
+    MESH_OT_macro_of_a_test.define("MESH_OT_fair_region")
     bpy.ops.ed.undo()
-    assert bpy.ops.mesh.fairing_test_macro("EXEC_DEFAULT", True) == {"FINISHED"}
+    assert bpy.ops.mesh.macro_of_a_test("EXEC_DEFAULT", True) == {"FINISHED"}
     assert not panel.follows  # it is a script that calls
     panel.go_on.clear()
     panel.change(shape="LEAST_VARIATION")
