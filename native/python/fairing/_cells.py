@@ -14,6 +14,7 @@ _LEAST_TURN = 0.5 * np.pi
 """By how much a cell's outline turns to the left within the surface, at least. By Gauss and Bonnet it is 2π − ∫K: 2π
 if it is flat, π in each quarter of a sphere, and 0 around a half sphere, at the end of a tube or at the rim of a hull,
 where the wires go around an opening; −2π around the outside of a sheet."""
+_MOST_OUTSIDE = -np.pi  # the outline of a sheet turns by less: on its other side is no opening that could be closed
 _STRAIGHT = np.radians(150.0)  # corners from which on other wires end at the outline, rather than that it turns there
 
 
@@ -25,6 +26,8 @@ class Cells:
     normals: FloatArray
     """One for each loop."""
     left_open: tuple[IntArray, ...]
+    rims: IntArray
+    """(r, 2) edges around openings that are closed."""
 
     @property
     def edges(self) -> tuple[IntArray, IntArray]:
@@ -39,20 +42,23 @@ def cells_of(edges: IntArray, points: FloatArray, closed: bool) -> Cells:
     networks, lone = parts(edges, points)
     loops, normals = list(lone), [_area(points[loop]) for loop in lone]
     left: list[IntArray] = []
+    rims = [np.empty((0, 2), dtype=np.int32)]
     for network in networks:
         found = [_Face(network, darts) for darts in _faces(network)]
         _refuse_one_sided(network, found)
-        inside = [face for face in found if closed or face.is_cell(points)]
-        outside = [face for face in found if face not in inside]
+        inside = [face for face in found if face.is_cell(points)]
+        lids = [face for face in found if closed and face not in inside and face.turn(points) > _MOST_OUTSIDE]
+        outside = [face for face in found if face not in inside and face not in lids]
         _refuse_loose(network, outside)
+        rims += [np.column_stack([face.loop, np.roll(face.loop, -1)]) for face in lids]
         turned = sum(face.volume(points) for face in inside) < 0.0
-        for face in inside:
+        for face in inside + lids:
             loop = face.loop[::-1].copy() if turned else face.loop
             _refuse_pinched(loop)
             loops.append(loop)
             normals.append(-face.normal if turned else face.normal)
         left += [face.loop for face in outside]
-    return Cells(tuple(loops), np.array(normals).reshape(-1, 3), tuple(left))
+    return Cells(tuple(loops), np.array(normals).reshape(-1, 3), tuple(left), np.concatenate(rims))
 
 
 def _faces(network: Network) -> list[list[int]]:
@@ -93,9 +99,12 @@ class _Face:
     def is_cell(self, points: FloatArray) -> bool:
         """Whether a surface is wanted there: around an opening most wires end, or it lies outside."""
         corners = self._corners()
+        return 2 * int((corners < _STRAIGHT).sum()) > len(corners) and self.turn(points) > _LEAST_TURN
+
+    def turn(self, points: FloatArray) -> float:
+        """By how much the outline turns to the left within the surface, corners included."""
         along = [self._turn_along(self.network.path(dart), points) for dart in self.darts]
-        turn = sum(along) + float((np.pi - corners).sum())
-        return 2 * int((corners < _STRAIGHT).sum()) > len(corners) and turn > _LEAST_TURN
+        return float(sum(along) + (np.pi - self._corners()).sum())
 
     def _corners(self) -> FloatArray:
         """(k,) angles within the face at the end of each dart, above 0."""

@@ -56,7 +56,7 @@ def surface_from_curves(
     creases : (c, 2) int
         Some of these edges: over them the surface may bend.
     closed : bool
-        Whether openings, and the outside of a sheet, are cells, too.
+        Whether openings get a soap film, with a crease around. The outside of a sheet stays open.
     spacing, inner, max_vertices
         As for :func:`fairing.fill`, the wires in place of the boundary.
     progress, threads
@@ -99,7 +99,7 @@ class _Held:
     @classmethod
     def of(cls, cells: Cells, sharp: IntArray) -> _Held:
         edges, uses = cells.edges
-        ends = np.concatenate([edges[uses == 1].ravel(), sharp.ravel()])
+        ends = np.concatenate([edges[uses == 1].ravel(), sharp.ravel(), cells.rims.ravel()])
         creases = np.intersect1d(ends, edges).astype(np.int32)
         return cls(creases, np.setdiff1d(edges, creases).astype(np.int32))
 
