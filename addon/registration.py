@@ -24,6 +24,7 @@ from .run.curvature import MESH_OT_fair_curvature
 from .run.denoise import MESH_OT_fair_denoise
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
+from .run.from_curves import MESH_OT_fair_from_curves
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.peek import MESH_OT_fair_peek
@@ -51,6 +52,7 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_fill,
     MESH_OT_fair_fillet,
     MESH_OT_fair_denoise,
+    MESH_OT_fair_from_curves,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
     MESH_OT_fair_live_far_side,
