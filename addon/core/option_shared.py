@@ -37,8 +37,11 @@ CONTINUITY = Option(
 )
 
 
-def of_new_mesh(shown: Callable[[Any], bool]) -> Table:
-    """Return what is asked for new edges."""
+PAIRED = "Pairs of triangles become quads as far as possible, none across a border of materials or face sets"
+
+
+def of_new_mesh(shown: Callable[[Any], bool], quads: str = PAIRED) -> Table:
+    """Return what is asked for new edges; quads: what these are."""
     return (
         Option(
             "spacing",
@@ -55,7 +58,7 @@ def of_new_mesh(shown: Callable[[Any], bool]) -> Table:
         Option(
             "quads",
             "Quads",
-            "Pairs of triangles become quads as far as possible, none across a border of materials or face sets",
+            quads,
             False,
             VERTICES,
             shown=shown,

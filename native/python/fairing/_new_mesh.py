@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from fairing._quads import PairedQuads
 from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 
 Origin = tuple[IntArray, FloatArray]
@@ -70,6 +71,8 @@ class FillResult(NewMeshResult):
     """Of each curve: whether the hard edges that it continues were ``marked``."""
     bands: tuple[tuple[IntArray, ...], ...] = ()
     """Bevels and rolled edges that run on through the holes: the vertices along the rows of each, from side to side."""
+    quads: PairedQuads | None = None
+    """Of ``faces="quads"``: which of ``triangles`` are halves of a quad, and which are left."""
 
 
 @dataclass(frozen=True, eq=False)

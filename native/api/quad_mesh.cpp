@@ -1,0 +1,76 @@
+#include "api/quad_mesh.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "api/old_surface.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int most_for_each = 6;   // patterns for each set of corners,
+constexpr int most_laid_out = 12;  // and of all of them
+constexpr Effort enough_to_choose{40, 4};
+constexpr Effort all_effort{200, 20};
+constexpr double weight_of_size = 0.15;
+constexpr double same_demerit = 1e-3;  // so that roundoff doesn't choose between patterns that mirror each other
+
+double demerit(const QuadShapes& shapes) {
+    return shapes.angle_error + weight_of_size * shapes.size_error + shapes.unfit + 10.0 * shapes.concave;
+}
+
+std::optional<CandidatePattern> best_pattern(const QuadLayout& layout, const Progress& progress) {
+    std::vector<CandidatePattern> candidates = candidate_patterns(layout.boundary(), most_for_each);
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const CandidatePattern& a, const CandidatePattern& b) { return a.misfit < b.misfit; });
+    if (candidates.size() > most_laid_out) candidates.resize(most_laid_out);
+    std::optional<CandidatePattern> best;
+    double least = 0.0;
+    for (CandidatePattern& each : candidates) {
+        progress.report(double(&each - candidates.data()) / double(candidates.size()), "quads");
+        const double now = demerit(layout.laid_out(each.pattern, enough_to_choose).shapes);
+        if (best && now >= (1.0 - same_demerit) * least) continue;
+        least = now;
+        best = std::move(each);
+    }
+    return best;
+}
+
+}  // namespace
+
+QuadMesh quad_mesh(const MeshInput& input, const ProgressCallback& callback) {
+    const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    const CheckedMesh mesh = check_mesh(input);
+    const std::vector<Patch> patches = patches_with_vertices(mesh);
+    QuadMesh result;
+    if (patches.size() != 1 || patches.front().loop_count() != 1) return result;
+    const OldSurface old(input, mesh, patches.front());
+    const TargetSurface surface(old.patch, old.points, old.normals);
+    const QuadLayout layout(old.patch, old.points, surface);
+    std::optional<CandidatePattern> best = best_pattern(layout, progress.range(0.0, 0.8));
+    if (!best) return result;
+    const LaidOut laid = layout.laid_out(best->pattern, all_effort);
+    result.shapes = laid.shapes;
+    if (laid.shapes.concave > 0.0) return result;
+    for (const int v : layout.loop()) result.boundary.push_back(old.patch.to_input[v]);
+    result.poles = best->poles;
+    result.least_poles = best->least_poles;
+    const auto count = static_cast<Eigen::Index>(laid.where.size());
+    result.vertices = old.unit.from_unit(laid.points.rightCols(count));
+    result.normals.resize(3, count);
+    result.weights.resize(3, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const SurfacePoint& where = laid.where[static_cast<std::size_t>(k)];
+        result.triangle.push_back(old.patch.input_triangle[where.triangle]);
+        result.weights.col(k) = where.weights;
+        result.normals.col(k) = surface.normal(where);
+    }
+    result.pattern = std::move(best->pattern);
+    progress.report(1.0, "done");
+    return result;
+}
+
+}  // namespace fairing

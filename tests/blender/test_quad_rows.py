@@ -1,0 +1,114 @@
+"""Fair Fill with Quads: rows go on through the hole, one step of undo takes them back, a refusal changes nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+
+
+def pipe(columns: int = 32, rows: int = 20) -> bpy.types.Object:
+    """An open cylinder of quads around the z-axis, without those of a window 8 wide and 6 high."""
+    turn, height = np.meshgrid(2 * np.pi * np.arange(columns) / columns, np.linspace(-1.5, 1.5, rows + 1))
+    points = np.stack([np.cos(turn), np.sin(turn), height], axis=-1).reshape(-1, 3)
+    faces = [
+        [columns * j + i, columns * j + (i + 1) % columns, columns * (j + 1) + (i + 1) % columns, columns * (j + 1) + i]
+        for j in range(rows)
+        for i in range(columns)
+        if not (8 <= i < 16 and 7 <= j < 13)
+    ]
+    return meshes.add(points, faces, "Pipe")
+
+
+def select_border(obj: bpy.types.Object, chosen: Callable[[Any], bool]) -> None:
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for vertex in bm.verts:
+        vertex.select = vertex.is_boundary and chosen(vertex.co)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+def test_an_edge_loop_runs_through() -> None:
+    """Select Loop on one edge of the fill reaches both ends of the pipe, and its ring goes all around."""
+    obj = pipe()
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    new = [face for face in bm.faces if face.select]
+    assert [len(face.verts) for face in new] == [4] * 48
+    assert max(abs(vertex.co.xy.length - 1) for face in new for vertex in face.verts) < 5e-3
+    inside = [edge for face in new for edge in face.edges if all(other.select for other in edge.link_faces)]
+    upright = [e for e in inside if len({round(v.co.z, 2) for v in e.verts}) == 2]
+    for edge in (upright[0], upright[-1]):
+        assert _loop_length(edge) == 20
+        assert _ring_length(edge) == 32
+    meshes.leave()
+
+
+def _loop_length(edge: Any) -> int:
+    """Edges straight on in both directions, over vertices of four edges."""
+    count = 1
+    for vertex in edge.verts:
+        here, at = edge, vertex
+        while len(at.link_edges) == 4:
+            beside = {other for face in here.link_faces for other in face.edges}
+            (here,) = (other for other in at.link_edges if other not in beside)
+            at = here.other_vert(at)
+            count += 1
+    return count
+
+
+def _ring_length(edge: Any) -> int:
+    """Edges opposite to each other, face by face, until the first one comes again."""
+    count, here, face = 1, edge, edge.link_faces[0]
+    while True:
+        here = next(other for other in face.edges if not set(other.verts) & set(here.verts))
+        if here == edge:
+            return count
+        face = next(other for other in here.link_faces if other != face)
+        count += 1
+
+
+def test_one_step_of_undo_takes_them_back() -> None:
+    obj = pipe()
+    bpy.context.preferences.edit.use_global_undo = True
+    before = meshes.contents(obj)
+    name = obj.name
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    bpy.ops.ed.undo_push(message="selected")
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, quads=True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    meshes.leave()
+    after = meshes.contents(bpy.data.objects[name])
+    assert {key: before[key] for key in ("sizes", "POINT position")} == {
+        key: after[key] for key in ("sizes", "POINT position")
+    }
+
+
+def test_a_refusal_leaves_every_bit() -> None:
+    obj = pipe()
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    meshes.leave()
+    before = meshes.contents(obj)
+    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    try:
+        assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True, max_vertices=3) == {"CANCELLED"}
+    except RuntimeError as error:
+        assert "Vertex Limit" in str(error)
+    meshes.leave()
+    assert meshes.contents(obj) == before
+
+
+def test_joined_loops_say_that_they_have_no_rows() -> None:
+    obj = meshes.remove(pipe(), lambda centre: abs(centre.z) < 0.5)
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True, bridge=True) == {"FINISHED"}
+    meshes.leave()
+    assert "several boundary loops are joined" in bpy.context.window_manager.fairing_report.warnings
