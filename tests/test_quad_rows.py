@@ -198,18 +198,60 @@ def test_no_concave_quad_is_handed_out() -> None:
     assert angles.sum(axis=1).min() > 330
 
 
+def tubes(counts: list[int], gap: float) -> tuple[FloatArray, IntArray, list[IntArray]]:
+    """Pieces of tubes of radius 1 in a row around the z-axis, with gaps; the loops that face each other."""
+    points, faces, loops, begin, height = [], [], [], 0, 0.0
+    for k, count in enumerate(counts):
+        turn = 2 * np.pi * np.arange(count) / count + 0.1 * k
+        for row in range(4):
+            points.append(np.column_stack([np.cos(turn), np.sin(turn), np.full(count, height + 0.2 * row)]))
+        a = begin + np.arange(3 * count).reshape(3, count)
+        b = np.roll(a, -1, axis=1)
+        faces += [
+            np.stack([a, b, b + count], -1).reshape(-1, 3),
+            np.stack([a, b + count, a + count], -1).reshape(-1, 3),
+        ]
+        loops += [begin + np.arange(count), begin + 3 * count + np.arange(count)]
+        begin, height = begin + 4 * count, height + 0.6 + gap
+    return np.concatenate(points), np.concatenate(faces), loops[1:-1]
+
+
+@pytest.mark.parametrize(("counts", "poles"), [((24, 24), []), ((24, 20), [3, 5]), ((25, 24), [5]), ((8, 8), [])])
+def test_rows_run_along_a_bridge(counts: tuple[int, int], poles: list[int]) -> None:
+    """Between loops of one count none but regular vertices, else one pair of poles, on the cylinder itself."""
+    points, around, loops = tubes(list(counts), 1.5)
+    result = fairing.fill(points, around, loops, bridge=True, faces="quads")
+    assert result.quads is not None
+    faces = faces_of(result)
+    sides = Counter((a, b) for face in faces for a, b in zip(face, face[1:] + face[:1], strict=True))
+    assert max(sides.values()) == 1
+    ends = [(loop.tolist(), np.roll(loop, -1).tolist()) for loop in result.loops]
+    assert {(a, b) for a, b in sides if (b, a) not in sides} == {
+        pair for a, b in ends for pair in zip(a, b, strict=True)
+    }
+    around_each = Counter(vertex for face in faces for vertex in face)
+    new = {vertex: count for vertex, count in around_each.items() if vertex >= len(points)}
+    assert sorted(count for count in new.values() if count != 4) == poles
+    assert len(result.quads.triangles) == sum(counts) % 2
+    angles = corner_angles(np.concatenate([points, result.vertices]), result.quads.quads)
+    assert 50 < angles.min() <= angles.max() < 130
+    assert abs(np.linalg.norm(result.vertices[:, :2], axis=1) - 1).max() < 0.1 / min(counts)
+
+
 def test_what_stands_in_is_said() -> None:
-    """Several loops in one surface leave pairs of triangles."""
-    angle, height = np.meshgrid(2 * np.pi * np.arange(16) / 16, np.linspace(-1, 1, 9))
-    points = np.stack([np.cos(angle), np.sin(angle), height], axis=-1).reshape(-1, 3)
-    a = np.arange(8 * 16).reshape(8, 16)
-    b = np.roll(a, -1, axis=1)
-    tube = np.concatenate([np.stack([a, b, b + 16], -1), np.stack([a, b + 16, a + 16], -1)], axis=1)
-    ends = tube[[0, 1, 2, 6, 7]].reshape(-1, 3)
-    loops = [np.arange(48, 64), np.arange(96, 112)[::-1]]
-    result = fairing.fill(points, ends, loops, bridge=True, faces="quads")
-    assert "NO_QUAD_ROWS" in [warning.code for warning in result.warnings]
-    assert result.quads is not None and len(result.quads.quads) > 2 * len(result.quads.triangles)
+    """More than two loops in one surface leave pairs of triangles."""
+    turn = 2 * np.pi * np.arange(12) / 12
+    rim = np.column_stack([np.full(12, 2.0), 0.6 * np.cos(turn), 0.6 * np.sin(turn)])
+    thirds = 2 * np.pi * np.arange(3) / 3
+    spun = [np.array([[np.cos(t), np.sin(t), 0], [-np.sin(t), np.cos(t), 0], [0, 0, 1]]) for t in thirds]
+    points = np.concatenate([rim @ each for each in spun])
+    normals = np.concatenate([(rim - [2.0, 0, 0]) @ each for each in spun])
+    loops = np.arange(36).reshape(3, 12)
+    result = fairing.fill(points, np.empty((0, 3), int), list(loops), normals=normals, bridge=True, faces="quads")
+    (warning,) = [each for each in result.warnings if each.code == "NO_QUAD_ROWS"]
+    assert "several" in warning.figures
+    assert result.quads is not None
+    assert len(result.quads.quads) > 2 * len(result.quads.triangles)
 
 
 def test_triangles_stay_as_they_were() -> None:

@@ -129,7 +129,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     ),
     "NO_QUAD_ROWS": (
         Words("The quads are in no rows: hard edges run through the hole", when="curves"),
-        Words("The quads are in no rows: several boundary loops are joined", when="several"),
+        Words("The quads are in no rows: more than two boundary loops are joined", when="several"),
         Words("The quads are in no rows: no pattern of them fits the corners of the boundary"),
     ),
     "OUT_OF_PROPORTION": (

@@ -21,8 +21,9 @@ double demerit(const QuadShapes& shapes) {
     return shapes.angle_error + weight_of_size * shapes.size_error + shapes.unfit + 10.0 * shapes.concave;
 }
 
-std::optional<CandidatePattern> best_pattern(const QuadLayout& layout, const Progress& progress) {
-    std::vector<CandidatePattern> candidates = candidate_patterns(layout.boundary(), most_for_each);
+std::optional<CandidatePattern> best_pattern(const FlatMap& map, const QuadLayout& layout, const Progress& progress) {
+    std::vector<CandidatePattern> candidates =
+        map.is_tube() ? tube_patterns(map.tube(), most_laid_out) : candidate_patterns(map.hole(), most_for_each);
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const CandidatePattern& a, const CandidatePattern& b) { return a.misfit < b.misfit; });
     if (candidates.size() > most_laid_out) candidates.resize(most_laid_out);
@@ -46,16 +47,19 @@ QuadMesh quad_mesh(const MeshInput& input, const ProgressCallback& callback) {
     const CheckedMesh mesh = check_mesh(input);
     const std::vector<Patch> patches = patches_with_vertices(mesh);
     QuadMesh result;
-    if (patches.size() != 1 || patches.front().loop_count() != 1) return result;
+    if (patches.size() != 1 || patches.front().loop_count() > 2) return result;
     const OldSurface old(input, mesh, patches.front());
     const TargetSurface surface(old.patch, old.points, old.normals);
-    const QuadLayout layout(old.patch, old.points, surface);
-    std::optional<CandidatePattern> best = best_pattern(layout, progress.range(0.0, 0.8));
+    const FlatMap map(old.patch, old.points);
+    const QuadLayout layout(map, old.patch, old.points, surface);
+    std::optional<CandidatePattern> best = best_pattern(map, layout, progress.range(0.0, 0.8));
     if (!best) return result;
     const LaidOut laid = layout.laid_out(best->pattern, all_effort);
     result.shapes = laid.shapes;
     if (laid.shapes.concave > 0.0) return result;
-    for (const int v : layout.loop()) result.boundary.push_back(old.patch.to_input[v]);
+    for (const Indices& loop : map.loops()) {
+        for (const int v : loop) result.boundary.push_back(old.patch.to_input[v]);
+    }
     result.poles = best->poles;
     result.least_poles = best->least_poles;
     const auto count = static_cast<Eigen::Index>(laid.where.size());

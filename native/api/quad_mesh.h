@@ -7,7 +7,7 @@
 namespace fairing {
 
 struct QuadMesh {
-    Indices boundary;     // of the old mesh, the surface on its left: the first numbers of the pattern
+    Indices boundary;     // of the old mesh, the surface on its left, loop after loop: the pattern's first numbers
     QuadPattern pattern;  // without faces where none fits
     Points vertices;      // the new ones, on curved triangles over the old ones,
     Points normals;       // of the surface there, unit,
@@ -18,8 +18,8 @@ struct QuadMesh {
     int least_poles = 0;  // that the boundary's corners ask for
 };
 
-// The pattern of the best shapes over the only component of a mesh with one boundary loop. Throws what check_mesh
-// throws, NO_FREE_VERTICES, SolverError and Cancelled.
+// The pattern of the best shapes over the only component of a mesh, with one boundary loop or two. Throws what
+// check_mesh throws, NO_FREE_VERTICES, SolverError and Cancelled.
 QuadMesh quad_mesh(const MeshInput& input, const ProgressCallback& progress);
 
 }  // namespace fairing

@@ -81,7 +81,7 @@ std::optional<double> Front::cost_of_turning(int at, int quarters) const {
     for (const auto& quad : pattern_.quads)
         there += static_cast<int>(std::count(quad.begin(), quad.end(), vertices_[at]));
     const double angle = angles_[vertices_[at]] / (there - quarters);
-    if (there - quarters < 1 || angle > most_soft || angle < least_soft) return std::nullopt;
+    if (there - quarters < 1 || !(angle <= most_soft && angle >= least_soft)) return std::nullopt;
     return error(there - quarters) - error(there);
 }
 

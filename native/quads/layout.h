@@ -1,8 +1,7 @@
 // Patterns of quads laid out on a surface that is known.
 #pragma once
 
-#include "geometry/target_surface.h"
-#include "quads/candidates.h"
+#include "quads/flat_map.h"
 
 namespace fairing {
 
@@ -29,39 +28,25 @@ struct LaidOut {
     QuadShapes shapes;
 };
 
-// The surface over one boundary loop, flattened to a disc once for all patterns.
 class QuadLayout {
 public:
-    // The arguments must outlive it. Throws SolverError where the surface can't be flattened. Precondition: the patch
-    // has one boundary loop, which passes no vertex twice.
-    QuadLayout(const Patch& patch, const Points& points, const TargetSurface& surface);
+    // The arguments must outlive it.
+    QuadLayout(const FlatMap& map, const Patch& patch, const Points& points, const TargetSurface& surface);
 
-    // Local vertices, the patch on their left; a pattern's boundary is meant in this order.
-    [[nodiscard]] const Indices& loop() const { return loop_; }
-    [[nodiscard]] HoleBoundary boundary() const;
-    // Begins where the pattern's map to the disc with uniform weights (Tutte 1963) and the surface's meet: no quad is
-    // turned over there. From there each vertex goes to the mean of the places that the nearest squares and rectangles
-    // give it, and back onto the surface.
+    // Begins where the pattern's map and the surface's meet: no quad is turned over there. From there each vertex goes
+    // to the mean of the places that the nearest squares and rectangles give it, and back onto the surface.
     [[nodiscard]] LaidOut laid_out(const QuadPattern& pattern, const Effort& effort) const;
 
 private:
-    using Flat = Eigen::Matrix2Xd;
-    [[nodiscard]] Flat round_boundary() const;
-    [[nodiscard]] Flat pattern_on_disc(const QuadPattern& pattern) const;
     void put(LaidOut& laid, int vertex, const SurfacePoint& where) const;
     void mend(LaidOut& laid, const QuadPattern& pattern, int passes) const;
-    [[nodiscard]] SurfacePoint located(const Eigen::Vector2d& place) const;
-    void sort_triangles();
-    [[nodiscard]] std::array<int, 2> bin_of(const Eigen::Vector2d& place) const;
 
+    const FlatMap& map_;
     const Patch& patch_;
     const Points& points_;
     const TargetSurface& surface_;
-    Indices loop_;
-    Flat disc_;       // of the patch's vertices
+    Indices rim_;     // the boundary's local vertices, loop after loop
     Points normals_;  // of the patch's triangles
-    int bins_ = 1;    // along each side of the disc's square
-    std::vector<Indices> in_bin_;
 };
 
 }  // namespace fairing

@@ -78,11 +78,8 @@ double corner_angle(const Vector3& last, const Vector3& here, const Vector3& nex
 
 double angle_error(double angle) { return (angle - 90.0) / 45.0; }
 
-QuadShapes shapes_of(const QuadPattern& pattern, const Points& points, const Points& normals) {
+QuadShapes shapes_of(const QuadPattern& pattern, const Points& points, const Points& normals, double length) {
     QuadShapes result;
-    const int rim = pattern.boundary_count;
-    double length = 0.0;
-    for (int k = 0; k < rim; ++k) length += (points.col((k + 1) % rim) - points.col(k)).norm() / rim;
     for (const auto& quad : pattern.quads) {
         const Vector3 n = normal_at(quad, normals);
         double widest = 0.0;

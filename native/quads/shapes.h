@@ -22,8 +22,9 @@ double corner_angle(const Vector3& last, const Vector3& here, const Vector3& nex
 // From a right angle, in units of 45°.
 double angle_error(double angle);
 
-// Of all quads and triangles of a pattern at these places; `normals` of the surface there tell what is turned over.
-QuadShapes shapes_of(const QuadPattern& pattern, const Points& points, const Points& normals);
+// Of all quads of a pattern at these places; `normals` of the surface there tell what is turned over. `length`: that of
+// a good edge.
+QuadShapes shapes_of(const QuadPattern& pattern, const Points& points, const Points& normals, double length);
 
 // Where vertices go so that quads become squares, or rectangles at least: the mean of the places that the nearest ones
 // around give them (Bouaziz et al. 2012, shape constraints). Each step goes on by some of the last one.

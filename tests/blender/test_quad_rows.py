@@ -106,9 +106,29 @@ def test_a_refusal_leaves_every_bit() -> None:
     assert meshes.contents(obj) == before
 
 
-def test_joined_loops_say_that_they_have_no_rows() -> None:
+def test_a_bridge_goes_on_from_both_sides() -> None:
+    """The rows of a pipe whose middle is gone, and an edge loop from one end to the other."""
     obj = meshes.remove(pipe(), lambda centre: abs(centre.z) < 0.5)
     select_border(obj, lambda place: abs(place.z) < 1.2)
     assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True, bridge=True) == {"FINISHED"}
+    new = [face for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
+    assert {len(face.verts) for face in new} == {4}
+    assert len(new) % 32 == 0
+    upright = [e for e in new[0].edges if abs(e.verts[0].co.z - e.verts[1].co.z) > 0.05]
+    assert _loop_length(upright[0]) == 14 + len(new) // 32
     meshes.leave()
-    assert "several boundary loops are joined" in bpy.context.window_manager.fairing_report.warnings
+
+
+def test_hard_edges_that_run_through_are_named() -> None:
+    """A box of quads without a window over one edge: the edge runs on, and the report says that rows don't."""
+    bpy.ops.mesh.primitive_cube_add()
+    obj = bpy.context.object
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.subdivide(number_cuts=7)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    near = lambda centre: centre.x + centre.y > 1.2 and abs(centre.z) < 0.5  # noqa: E731
+    meshes.remove(obj, near)
+    select_border(obj, lambda _: True)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
+    meshes.leave()
+    assert "hard edges run through the hole" in bpy.context.window_manager.fairing_report.warnings

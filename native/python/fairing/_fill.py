@@ -78,10 +78,10 @@ def fill(
         "even": all are ``spacing`` long; as the boundary's mean edge for 0. Default: "outline" for a spacing of 0, else
         "even".
     faces : "triangles" | "quads"
-        "quads": ``result.quads`` has them. Over a hole they are rows that meet the boundary at right angles and run
-        from side to side, and one triangle where the boundary has an odd number of edges. Their edges are as long as
-        the boundary's, whatever ``spacing`` says. Pairs of triangles stand in where there are no rows: NO_QUAD_ROWS
-        tells (docs/quads.md).
+        "quads": ``result.quads`` has them. Over a hole or a tube they are rows that meet the boundary at right
+        angles and run from side to side, and one triangle where the boundary has an odd number of edges. Their edges
+        are as long as the boundary's, whatever ``spacing`` says. Pairs of triangles stand in where there are no rows:
+        NO_QUAD_ROWS tells (docs/quads.md).
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
     longest_length : float

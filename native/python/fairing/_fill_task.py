@@ -191,7 +191,7 @@ class Task:
         solved = Patch(report.vertices, fine.triangles, outline.vertices, slopes)
         rows = rows_over(solved, split.count, watch.part(0.9, 1.0)) if self.in_rows else None
         if self.in_rows and rows is None:
-            values["warnings"] += (no_rows(outline.vertices, "several" if bridge else "shape"),)
+            values["warnings"] += (no_rows(outline.vertices, "several" if len(outline.loops) > 2 else "shape"),)
         if rows is not None:
             values.update(_on_rows(rows, (report, solved), around, trying, split.count))
         elif coarser:

@@ -81,7 +81,7 @@ def no_rows(loop: IntArray, why: str) -> Diagnostic:
     """Why the quads over a boundary are pairs of triangles."""
     texts = {
         "curves": "curves run through the hole",
-        "several": "several boundary loops are joined",
+        "several": "more than two boundary loops are joined",
         "shape": "no pattern fits its corners",
     }
     text = f"the quads over the boundary of {len(loop)} edges are pairs of triangles, in no rows: {texts[why]}"
