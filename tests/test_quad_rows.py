@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import fairing
 import holes
+import shapes
 from fairing import _core
 from holes import FloatArray, IntArray
 
@@ -252,6 +253,44 @@ def test_what_stands_in_is_said() -> None:
     assert "several" in warning.figures
     assert result.quads is not None
     assert len(result.quads.quads) > 2 * len(result.quads.triangles)
+
+
+def test_a_patch_is_meshed_anew_in_rows() -> None:
+    """A crumpled cap of a sphere: rows over the sphere, each new vertex with its place on the old patch."""
+    cap = shapes.cap(1500, shapes.Style(jitter=0.8, seed=4), half_angle=70)
+    boundary = fairing.Boundary(cap.fixed, cap.fixed_normals)
+    start = shapes.start_from_nothing(cap)
+    result = fairing.remesh(start, cap.triangles, boundary, faces="quads")
+    assert result.quads is not None
+    assert not [warning for warning in result.warnings if warning.code == "NO_QUAD_ROWS"]
+    (loop,) = fairing.boundary_loops(cap.triangles)
+    around = check_disc(faces_of(result), loop.tolist())
+    poles = [count for vertex, count in around.items() if vertex >= len(cap.vertices) and count != 4]
+    assert poles == [3] * (4 - len(result.quads.triangles))
+    assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-4
+    faired = fairing.fair(start, cap.triangles, boundary, fairing.Options.of(inner_fairness="conformal")).vertices
+    origin = np.einsum("kc,kcd->kd", result.origin[1], faired[cap.triangles[result.origin[0]]])
+    assert np.linalg.norm(origin - result.vertices, axis=1).max() < 5e-3
+    assert (result.old == -1).all()
+
+
+def test_pins_and_kept_edges_leave_no_rows() -> None:
+    """They would be lost in a pattern: pairs of triangles stand in, and the edges stay."""
+    cap = shapes.cap(600, shapes.Style(jitter=0.3, seed=4), half_angle=60)
+    pin = int(np.setdiff1d(np.arange(len(cap.vertices)), cap.fixed)[100])
+    pinned = fairing.Boundary(np.append(cap.fixed, pin), np.concatenate([cap.fixed_normals, cap.vertices[[pin]]]))
+    result = fairing.remesh(cap.vertices, cap.triangles, pinned, faces="quads")
+    assert "NO_QUAD_ROWS" in [warning.code for warning in result.warnings]
+    assert pin in result.triangles
+    edge = next(pair for pair in cap.triangles[:, :2] if not np.isin(pair, cap.fixed).any())
+    boundary = fairing.Boundary(cap.fixed, cap.fixed_normals)
+    result = fairing.remesh(cap.vertices, cap.triangles, boundary, kept=[edge], faces="quads")
+    (warning,) = [each for each in result.warnings if each.code == "NO_QUAD_ROWS"]
+    assert "curves" in warning.figures
+    again = len(cap.vertices) + np.flatnonzero(np.isin(result.old, edge))
+    assert result.quads is not None
+    sides = {frozenset(pair) for face in faces_of(result) for pair in zip(face, face[1:] + face[:1], strict=True)}
+    assert frozenset(again.tolist()) in sides
 
 
 def test_triangles_stay_as_they_were() -> None:

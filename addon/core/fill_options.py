@@ -33,11 +33,7 @@ FILL: Table = (
         values=HARD_EDGES,
         before=(Before("hard_edges", HARD_EDGES),),
     ),
-    *of_new_mesh(
-        always,
-        "Faces are quads in rows that meet the boundary at right angles and continue its loops, with edges as long as "
-        "the boundary's. Where no pattern fits, pairs of triangles become quads as far as possible",
-    ),
+    *of_new_mesh(always),
     Option(
         "islands",
         "Join Islands",

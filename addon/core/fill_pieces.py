@@ -113,7 +113,7 @@ class Piece:
         if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
         if self.rows and self.result.quads is not None:
-            return faces_in_rows(self.triangles, self.result.quads, lines)
+            return faces_in_rows(self.triangles, self.result.quads.pairs.astype(np.int64), lines)
         return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
     @property

@@ -37,11 +37,8 @@ CONTINUITY = Option(
 )
 
 
-PAIRED = "Pairs of triangles become quads as far as possible, none across a border of materials or face sets"
-
-
-def of_new_mesh(shown: Callable[[Any], bool], quads: str = PAIRED) -> Table:
-    """Return what is asked for new edges; quads: what these are."""
+def of_new_mesh(shown: Callable[[Any], bool]) -> Table:
+    """Return what is asked for new edges."""
     return (
         Option(
             "spacing",
@@ -58,7 +55,9 @@ def of_new_mesh(shown: Callable[[Any], bool], quads: str = PAIRED) -> Table:
         Option(
             "quads",
             "Quads",
-            quads,
+            "Faces are quads in rows that meet the boundary at right angles and continue its loops, with edges as long "
+            "as the boundary's. Where no pattern fits, pairs of triangles become quads as far as possible, none across "
+            "a border of materials or face sets",
             False,
             VERTICES,
             shown=shown,

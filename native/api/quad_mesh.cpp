@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "api/old_surface.h"
@@ -39,6 +40,17 @@ std::optional<CandidatePattern> best_pattern(const FlatMap& map, const QuadLayou
     return best;
 }
 
+// Whether each fixed vertex is passed once by one of the loops: none is a pin, or on a curve inside.
+bool is_held_by_loops(const Patch& patch) {
+    std::size_t passes = 0;
+    std::set<int> passed;
+    for (const Indices& loop : patch.loops()) {
+        passes += loop.size();
+        passed.insert(loop.begin(), loop.end());
+    }
+    return passes == passed.size() && static_cast<int>(passes) == patch.vertex_count() - patch.free_count;
+}
+
 }  // namespace
 
 QuadMesh quad_mesh(const MeshInput& input, const ProgressCallback& callback) {
@@ -48,6 +60,7 @@ QuadMesh quad_mesh(const MeshInput& input, const ProgressCallback& callback) {
     const std::vector<Patch> patches = patches_with_vertices(mesh);
     QuadMesh result;
     if (patches.size() != 1 || patches.front().loop_count() > 2) return result;
+    if (!is_held_by_loops(patches.front())) return result;
     const OldSurface old(input, mesh, patches.front());
     const TargetSurface surface(old.patch, old.points, old.normals);
     const FlatMap map(old.patch, old.points);

@@ -8,7 +8,7 @@ namespace fairing {
 
 struct QuadMesh {
     Indices boundary;     // of the old mesh, the surface on its left, loop after loop: the pattern's first numbers
-    QuadPattern pattern;  // without faces where none fits
+    QuadPattern pattern;  // without faces where none fits, or fixed vertices lie within
     Points vertices;      // the new ones, on curved triangles over the old ones,
     Points normals;       // of the surface there, unit,
     Indices triangle;     // the old triangle under each,

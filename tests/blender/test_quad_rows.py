@@ -131,4 +131,25 @@ def test_hard_edges_that_run_through_are_named() -> None:
     select_border(obj, lambda _: True)
     assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
     meshes.leave()
-    assert "hard edges run through the hole" in bpy.context.window_manager.fairing_report.warnings
+    assert "edges that stay run through them" in bpy.context.window_manager.fairing_report.warnings
+
+
+def test_a_region_is_meshed_anew_in_rows() -> None:
+    """Its rows go on from those around, and its corners carry what the old ones did."""
+    obj = pipe()
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
+    meshes.leave()
+    layer = obj.data.uv_layers.new(name="Map")
+    for corner in obj.data.loops:
+        layer.uv[corner.index].vector = (obj.data.vertices[corner.vertex_index].co.z, 0.5)
+    count = len(obj.data.polygons)
+    chosen = [abs(polygon.center.z) < 0.5 and polygon.center.x > 0.3 for polygon in obj.data.polygons]
+    meshes.enter(obj, np.array(chosen))
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", remesh=True, quads=True) == {"FINISHED"}
+    meshes.leave()
+    assert [len(polygon.vertices) for polygon in obj.data.polygons] == [4] * count
+    for corner in obj.data.loops:
+        u = obj.data.uv_layers["Map"].uv[corner.index].vector[0]
+        assert abs(u - obj.data.vertices[corner.vertex_index].co.z) < 0.01
+    assert "no rows" not in bpy.context.window_manager.fairing_report.warnings

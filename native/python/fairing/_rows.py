@@ -37,7 +37,9 @@ def rows_over(solved: Patch, old_count: int, progress: Progress | None) -> Rows 
     number = np.concatenate([made["boundary"], old_count + np.arange(len(made["vertices"]))]).astype(np.int32)
     quads = _turned(points, number[made["quads"]])
     count = len(quads)
-    halves = np.concatenate([quads[:, [0, 1, 3]], quads[:, [2, 3, 1]], number[made["triangles"]]])
+    stay = _core.components(solved.triangles, solved.fixed, len(solved.vertices)) < 0
+    rest = solved.triangles[stay]
+    halves = np.concatenate([quads[:, [0, 1, 3]], quads[:, [2, 3, 1]], number[made["triangles"]], rest])
     pairs = np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
     patch = Patch(points, read_only(halves), solved.fixed, solved.normals)
     return Rows(patch, (made["triangle"], made["weights"]), pairs)
@@ -80,7 +82,7 @@ def quads_of(triangles: IntArray, pairs: IntArray) -> PairedQuads:
 def no_rows(loop: IntArray, why: str) -> Diagnostic:
     """Why the quads over a boundary are pairs of triangles."""
     texts = {
-        "curves": "curves run through the hole",
+        "curves": "edges that stay run through it",
         "several": "more than two boundary loops are joined",
         "shape": "no pattern fits its corners",
     }
