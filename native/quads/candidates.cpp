@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "quads/closings.h"
@@ -13,6 +14,7 @@ namespace fairing {
 namespace {
 
 constexpr int most_poles = 7;
+constexpr int most_sides = 8;       // of a boundary along whose sides rows are tried one by one
 constexpr int kept_each = 3;        // closings of each front and each order of poles
 constexpr double most_quads = 3.0;  // as many as there is room for, and one more row
 
@@ -103,11 +105,14 @@ private:
     void make_fronts() {
         const double most = most_quads * cells_ + plain_.size();
         fronts_.push_back(plain_);
-        for (int at = 0; at < plain_.size(); ++at) {
+        const auto corners = std::count(plain_.faces().begin(), plain_.faces().end(), 1);
+        for (int at = 0; at < plain_.size() && corners <= most_sides; ++at) {
             if (plain_.faces()[at] == 1) add_rows(at, most);
         }
         Front front = plain_;
-        while ((front.add_ring() || front.add_short_row()) && front.quad_count() <= most) fronts_.push_back(front);
+        for (int ring = 1; (front.add_ring() || front.add_short_row()) && front.quad_count() <= most; ++ring) {
+            if (ring <= 8 || ring % 2 == 0) fronts_.push_back(front);
+        }
     }
 
     void add_rows(int at, double most) {
@@ -126,14 +131,44 @@ private:
     std::vector<Candidate> candidates_;
 };
 
-// How many quads an angle takes, those within `straight` degrees of 180 two.
-Indices faces_for(const VectorX& angles, double straight) {
+// How many quads an angle takes.
+Indices nearest_faces(const VectorX& angles) {
     Indices faces;
-    for (const double angle : angles) {
-        const bool is_straight = std::abs(angle - 180.0) <= straight;
-        faces.push_back(is_straight ? 2 : std::clamp(static_cast<int>(std::lround(angle / 90.0)), 1, 4));
+    for (const double angle : angles) faces.push_back(std::clamp(static_cast<int>(std::lround(angle / 90.0)), 1, 4));
+    return faces;
+}
+
+int quarters_of(const Indices& faces) {
+    int sum = 0;
+    for (const int count : faces) sum += 2 - count;
+    return sum;
+}
+
+// The same with more corners or fewer, those that cost least, so that the boundary turns by so many quarters.
+Indices turned_faces(const VectorX& angles, Indices faces, int quarters) {
+    for (int missing = quarters - quarters_of(faces); missing != 0;) {
+        const int step = missing > 0 ? -1 : 1;
+        int best = none;
+        double least = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < static_cast<int>(faces.size()); ++k) {
+            if (faces[k] + step < 1 || faces[k] + step > 4) continue;
+            const double cost = angles_error(angles[k], faces[k] + step) - angles_error(angles[k], faces[k]);
+            if (cost < least) {
+                least = cost;
+                best = k;
+            }
+        }
+        if (best == none) return {};
+        faces[best] += step;
+        missing += step;
     }
     return faces;
+}
+
+double mean_error(const VectorX& angles, const Indices& faces) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < faces.size(); ++k) sum += angles_error(angles[static_cast<Eigen::Index>(k)], faces[k]);
+    return sum / static_cast<double>(faces.size());
 }
 
 }  // namespace
@@ -143,13 +178,20 @@ std::vector<CandidatePattern> patterns_with_corners(const HoleBoundary& boundary
 }
 
 std::vector<CandidatePattern> candidate_patterns(const HoleBoundary& boundary, int count) {
-    std::vector<Indices> tried;
+    const Indices nearest = nearest_faces(boundary.angles);
+    std::vector<Indices> tried{Indices(nearest.size(), 2), nearest};
+    for (const int quarters : {4, 3, 5, 2, 6, 1}) {
+        Indices faces = turned_faces(boundary.angles, nearest, quarters);
+        if (!faces.empty() && std::find(tried.begin(), tried.end(), faces) == tried.end())
+            tried.push_back(std::move(faces));
+    }
     std::vector<CandidatePattern> result;
-    for (const double straight : {45.0, 60.0, 75.0, 180.0}) {
-        Indices faces = faces_for(boundary.angles, straight);
-        if (std::find(tried.begin(), tried.end(), faces) != tried.end()) continue;
-        for (CandidatePattern& each : patterns_with_corners(boundary, faces, count)) result.push_back(std::move(each));
-        tried.push_back(std::move(faces));
+    for (const Indices& faces : tried) {
+        const double error = weight_of_angles * mean_error(boundary.angles, faces);
+        for (CandidatePattern& each : patterns_with_corners(boundary, faces, count)) {
+            each.misfit += error;
+            result.push_back(std::move(each));
+        }
     }
     return result;
 }

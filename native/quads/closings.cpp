@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <map>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -13,7 +13,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double same_misfit = 1e-6;  // misfits nearer to each other are equal, so that roundoff doesn't choose
+constexpr double most_tries = 20'000.0;  // of the last pole but one, for one order of poles
+constexpr double same_misfit = 1e-6;     // misfits nearer to each other are equal, so that roundoff doesn't choose
 
 int quarters_of(PoleKind kind) { return kind == PoleKind::five ? -1 : 1; }
 
@@ -61,11 +62,12 @@ private:
         return sum.turned(turned_[which]);
     }
 
-    // How many places are tried for one of the poles before the last two.
+    // Every so many places are tried for one of the poles before the last two, so that the tries of all are bounded.
     [[nodiscard]] std::size_t stride(std::size_t which) const {
-        constexpr std::size_t tries[] = {60, 40, 16, 12, 8};
-        const std::size_t open = std::min<std::size_t>(kinds_.size() - 3, 4);
-        return std::max<std::size_t>(1, (places_[which].size() + tries[open] - 1) / tries[open]);
+        const double open = static_cast<double>(kinds_.size()) - 2.0;
+        const double tries = std::max(6.0, std::pow(std::tgamma(open + 1.0) * most_tries / front_.size(), 1.0 / open));
+        return std::max<std::size_t>(
+            1, static_cast<std::size_t>(std::ceil(static_cast<double>(places_[which].size()) / tries)));
     }
 
     void choose(std::size_t which, const Lattice& sum, int after) {
@@ -97,7 +99,7 @@ private:
     Indices turned_;  // of each pole: quarters of those before it
     Lattice wanted_;
     std::vector<Indices> places_;
-    std::map<std::int64_t, Indices> by_term_;
+    std::unordered_map<std::int64_t, Indices> by_term_;
     Indices chosen_;
     std::vector<Closing> best_;
 };
@@ -173,9 +175,9 @@ void Search::keep(int last) {
     const std::optional<Closed> walk = closed(front_.faces(), closing.poles);
     if (!walk || !(walk->end == Lattice{})) return;
     closing.misfit = misfit(walk->own);
+    const double share = weight_of_angles / front_.boundary_count();
     for (const Pole& pole : closing.poles) {
-        if (!pole.triangle)
-            closing.misfit += front_.cost_of_turning(pole.at, pole.quarters).value_or(0.0) / front_.size();
+        if (!pole.triangle) closing.misfit += share * front_.cost_of_turning(pole.at, pole.quarters).value_or(0.0);
     }
     closing.misfit = std::round(closing.misfit / same_misfit) * same_misfit;
     if (best_.size() == count_ && closing.misfit >= best_.back().misfit) return;

@@ -73,16 +73,13 @@ std::optional<double> Front::cost_of_turning(int at, int quarters) const {
     if (is_new(at)) return 0.0;
     if (angles_.size() == 0) return std::nullopt;
     // Those that the boundary's vertex has in all: some may be there already.
-    const auto error = [&](int faces) {
-        const double each = (angles_[vertices_[at]] / faces - 90.0) / 45.0;
-        return faces * each * each;
-    };
     int there = faces_[at];
     for (const auto& quad : pattern_.quads)
         there += static_cast<int>(std::count(quad.begin(), quad.end(), vertices_[at]));
     const double angle = angles_[vertices_[at]] / (there - quarters);
     if (there - quarters < 1 || !(angle <= most_soft && angle >= least_soft)) return std::nullopt;
-    return error(there - quarters) - error(there);
+    const double own = angles_[vertices_[at]];
+    return angles_error(own, there - quarters) - angles_error(own, there);
 }
 
 std::vector<Lattice> Front::walk() const {

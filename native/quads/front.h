@@ -37,6 +37,14 @@ struct Pole {
     bool triangle = false;
 };
 
+// Of a boundary's angle, in degrees, that so many quads share: the sum of the squares of their errors, in units of 45°.
+inline double angles_error(double angle, int faces) {
+    const double each = (angle / faces - 90.0) / 45.0;
+    return faces * each * each;
+}
+
+inline constexpr double weight_of_angles = 0.2;  // of their mean over the boundary, beside a pattern's misfit
+
 // A closed walk around the open part, that part on its left. `faces`: how many quads each vertex still gets there, 1 at
 // a convex corner, 2 where it is straight, 3 at a concave corner. A part of a plane grid turns by Σ (2 − faces) = 4
 // quarters, and a walk along unit edges comes back to its begin.
@@ -49,6 +57,7 @@ public:
     [[nodiscard]] int size() const { return static_cast<int>(vertices_.size()); }
     [[nodiscard]] const Indices& faces() const { return faces_; }
     [[nodiscard]] const std::vector<Eigen::Vector2d>& places() const { return places_; }
+    [[nodiscard]] int boundary_count() const { return pattern_.boundary_count; }
     [[nodiscard]] int quad_count() const { return static_cast<int>(pattern_.quads.size()); }
     [[nodiscard]] bool is_new(int at) const { return vertices_[at] >= pattern_.boundary_count; }
     [[nodiscard]] int quarters() const;

@@ -69,7 +69,7 @@ void QuadLayout::mend(LaidOut& laid, const QuadPattern& pattern, int passes) con
         return sum;
     };
     double step = 0.3;  // of the mean distance of the neighbours
-    for (int pass = 0; pass < passes; ++pass, step *= 0.8) {
+    for (int pass = 0; pass < passes; ++pass, step = pass % 12 == 11 ? 0.3 : 0.75 * step) {
         std::set<int> moving;
         for (const auto& quad : pattern.quads) {
             bool unfit = false;
