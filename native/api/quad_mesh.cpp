@@ -1,6 +1,7 @@
 #include "api/quad_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <utility>
@@ -12,7 +13,8 @@ namespace fairing {
 namespace {
 
 constexpr int most_for_each = 6;   // patterns for each set of corners,
-constexpr int most_laid_out = 12;  // and of all of them
+constexpr int most_laid_out = 12;  // of all of them,
+constexpr int most_tried = 4;      // and with all effort, until one has convex quads alone
 constexpr Effort enough_to_choose{40, 4};
 constexpr Effort all_effort{200, 60};
 constexpr double weight_of_size = 0.15;
@@ -22,22 +24,21 @@ double demerit(const QuadShapes& shapes) {
     return shapes.angle_error + weight_of_size * shapes.size_error + shapes.unfit + 10.0 * shapes.concave;
 }
 
-std::optional<CandidatePattern> best_pattern(const FlatMap& map, const QuadLayout& layout, const Progress& progress) {
+// Those that are best laid out with little effort, best first.
+std::vector<CandidatePattern> best_patterns(const FlatMap& map, const QuadLayout& layout, const Progress& progress) {
     std::vector<CandidatePattern> candidates =
         map.is_tube() ? tube_patterns(map.tube(), most_laid_out) : candidate_patterns(map.hole(), most_for_each);
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const CandidatePattern& a, const CandidatePattern& b) { return a.misfit < b.misfit; });
+    const auto by_misfit = [](const CandidatePattern& a, const CandidatePattern& b) { return a.misfit < b.misfit; };
+    std::stable_sort(candidates.begin(), candidates.end(), by_misfit);
     if (candidates.size() > most_laid_out) candidates.resize(most_laid_out);
-    std::optional<CandidatePattern> best;
-    double least = 0.0;
     for (CandidatePattern& each : candidates) {
         progress.report(double(&each - candidates.data()) / double(candidates.size()), "quads");
-        const double now = demerit(layout.laid_out(each.pattern, enough_to_choose).shapes);
-        if (best && now >= (1.0 - same_demerit) * least) continue;
-        least = now;
-        best = std::move(each);
+        const double found = demerit(layout.laid_out(each.pattern, enough_to_choose).shapes);
+        each.misfit = std::exp2(std::round(std::log2(found) / same_demerit) * same_demerit);
     }
-    return best;
+    std::stable_sort(candidates.begin(), candidates.end(), by_misfit);
+    if (candidates.size() > most_tried) candidates.resize(most_tried);
+    return candidates;
 }
 
 // Whether each fixed vertex is passed once by one of the loops: none is a pin, or on a curve inside.
@@ -65,11 +66,15 @@ QuadMesh quad_mesh(const MeshInput& input, const ProgressCallback& callback) {
     const TargetSurface surface(old.patch, old.points, old.normals);
     const FlatMap map(old.patch, old.points);
     const QuadLayout layout(map, old.patch, old.points, surface);
-    std::optional<CandidatePattern> best = best_pattern(map, layout, progress.range(0.0, 0.8));
+    std::vector<CandidatePattern> candidates = best_patterns(map, layout, progress.range(0.0, 0.7));
+    std::optional<CandidatePattern> best;
+    LaidOut laid;
+    for (std::size_t k = 0; k < candidates.size() && !best; ++k) {
+        laid = layout.laid_out(candidates[k].pattern, all_effort);
+        if (laid.shapes.concave == 0.0) best = std::move(candidates[k]);
+    }
     if (!best) return result;
-    const LaidOut laid = layout.laid_out(best->pattern, all_effort);
     result.shapes = laid.shapes;
-    if (laid.shapes.concave > 0.0) return result;
     for (const Indices& loop : map.loops()) {
         for (const int v : loop) result.boundary.push_back(old.patch.to_input[v]);
     }
