@@ -16,7 +16,7 @@ from .follow.live_operators import (
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, presets, redo_panel
+from .run import cli, compare, presets, redo, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.background import MESH_OT_fair_cancel
 from .run.brush import FairDab, MESH_OT_fair_brush
@@ -24,6 +24,7 @@ from .run.curvature import MESH_OT_fair_curvature
 from .run.denoise import MESH_OT_fair_denoise
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
+from .run.from_curves import MESH_OT_fair_from_curves
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.peek import MESH_OT_fair_peek
@@ -51,6 +52,7 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_fill,
     MESH_OT_fair_fillet,
     MESH_OT_fair_denoise,
+    MESH_OT_fair_from_curves,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
     MESH_OT_fair_live_far_side,
@@ -101,6 +103,7 @@ def register() -> None:
     keymap.register()
     tools.register()
     undone.register()
+    redo.register()
     file_owned.register()
     translations.register()
     bpy.utils.register_preset_path(_folder)
@@ -113,6 +116,7 @@ def unregister() -> None:
     bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
     file_owned.unregister()
+    redo.unregister()
     undone.unregister()
     tools.unregister()
     keymap.unregister()

@@ -11,6 +11,7 @@ import pytest
 import fairing
 import shapes
 from domains import Style
+from rough_sphere import rough_sphere
 
 Mask = Callable[[Any], Any]
 
@@ -47,6 +48,18 @@ def test_position_on_a_part_and_tangent_on_the_rest_keep_spheres_cylinders_and_p
     result = faired(patch, kinds)
     assert result.converged and result.equation == "least_variation"
     assert patch.error(result.vertices) < 1e-9
+
+
+@pytest.mark.parametrize("share", [0.3, 0.5, 0.7])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_ball_comes_back_over_a_jagged_boundary(seed: int, share: float) -> None:
+    """What the slopes given ask for is carried on to the others at the start: a disc's slopes lead elsewhere."""
+    ball = rough_sphere(900, noise=0.0, seed=seed, swelling=0.0)
+    places = ball.exact[ball.outline]
+    kinds = np.where(places[:, 0] < np.quantile(places[:, 0], share), "G0", "G1")
+    result = fairing.fair(ball.exact, ball.inside, fairing.Boundary(ball.outline, places, continuity=kinds))
+    assert result.converged and result.equation == "least_variation"
+    assert np.abs(ball.heights(result.vertices, ball.free)).max() < 1e-6
 
 
 def test_a_slope_that_is_met_on_a_part_counts_there_and_not_on_the_rest() -> None:

@@ -56,6 +56,24 @@ def test_lines_of_prose_are_short(page: Path) -> None:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
+def test_what_lists_hold_is_indented_by_four(page: Path) -> None:
+    """The site takes lists and pictures that are indented by less for no part of the list."""
+    assert [line for line in prose(page) if re.match(r" {1,3}(- |\d+\. |!\[)", line)] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_lists_begin_after_an_empty_line_or_a_heading(page: Path) -> None:
+    """The site takes them for a part of the paragraph above otherwise."""
+    above, bad = "", []
+    for line in prose(page):
+        item = re.match(r" *(- |1\. )", line)
+        if item and above and not re.match(r" *(- |\d+\. |#|<!--)|  +\S", above):
+            bad.append(line)
+        above = line
+    assert bad == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
 def test_tables_are_whole(page: Path) -> None:
     """Each begins with a heading and a rule: a row after an empty line is no row of any."""
     for table in re.findall(r"(?:^\|.*\n)+", page.read_text(encoding="utf-8"), re.MULTILINE):

@@ -112,7 +112,7 @@ def go_on(progress: Progress | None) -> None:
 def _held_inside(patch: Patch, options: FairOptions) -> dict[str, Any]:
     """Return what holds inside the patch with a slope that the surface finds."""
     return {
-        "creases": patch.creases,
+        "creases": patch.slopes_found,
         "smooth_curves": patch.smooth_curves,
         "open_border": "faired" if options.fairs_border else "held",
     }
@@ -137,7 +137,7 @@ def bad_outline(problem: Problem) -> Ints:
     """Return the mesh vertices of the boundary whose surroundings say little about the surface; creases are meant."""
     rim = np.intersect1d(problem.patch.outline, problem.outside)
     found = fairing.bad_outline(problem.points, problem.outside, rim)
-    bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.creases)]
+    bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.slopes_found)]
     return bad
 
 

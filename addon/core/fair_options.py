@@ -149,6 +149,16 @@ FAIR: Table = (
         before=(Before("factor_group"),),
     ),
     Option(
+        "position_group",
+        "Position Group",
+        "Where the selection's boundary is in this vertex group the surface keeps its position alone and finds its "
+        "slope, as a soap film does; elsewhere it continues the surroundings smoothly",
+        "",
+        PARTS,
+        kind="VERTEX_GROUP",
+        shown=lambda o: not (o.multigrid or o.smooth_boundary) or bool(o.position_group),
+    ),
+    Option(
         "use_mask",
         "Use Mask",
         "The mask of sculpt mode scales the Factor of each vertex, outside the selection too: masked vertices have "

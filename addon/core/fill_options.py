@@ -1,4 +1,4 @@
-"""The options of *Fair Fill*, *Fair Fillet* and *Fair Denoise*, as fair_options.py has them. Plain Python, no bpy."""
+"""The options of Fair Fill, Fair Fillet, Fair Denoise and Fair From Curves, as fair_options.py has them. No bpy."""
 
 from __future__ import annotations
 
@@ -142,4 +142,15 @@ DENOISE: Table = (
         digits=2,
         kind="FACTOR",
     ),
+)
+
+CURVES: Table = (
+    Option(
+        "fill_openings",
+        "Fill Openings",
+        "What the curves only go around gets a surface, too: a bottle's mouth, the rim of a boat",
+        False,
+        SURFACE,
+    ),
+    *(option for option in of_new_mesh(always) if option.name != "subdivide_boundary"),
 )

@@ -76,6 +76,7 @@ class FairOptions:
     factor_mask: str = "IGNORED"  # USED: the sculpt mask scales it
     boundary_normals: str = "AUTOMATIC"  # INSIDE along hard edges of the boundary, SURROUNDING elsewhere
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
+    position_group: str = ""  # name of a vertex group, along which the boundary's position alone is kept
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
     tolerance: float = 1e-6  # of the patch's diameter
@@ -154,6 +155,12 @@ class FairOptions:
         return self.continuity == "G2" and self.equation in OF_CURVATURE and self.method == "GLOBAL"
 
     @property
+    def frees_slopes(self) -> bool:
+        """Whether the surface finds its slope along the position group: no equation has it beside given curvatures."""
+        may = self.equation != "MINIMAL" and self.method == "GLOBAL" and self.outline == "GIVEN"
+        return bool(self.position_group) and may and not self.joins_curvature
+
+    @property
     def slope_at_pinned_edges(self) -> str:
         """What AUTOMATIC stands for; the published method knows averages alone."""
         if self.method != "GLOBAL":
@@ -188,6 +195,11 @@ class FairOptions:
         """Whether lone pins lift the surface around them only."""
         may = bool(self.pin_group) and self.pin_radius > 0.0 and self.mesh == "KEEP" and not self.moves_band
         return self.pin_pull == "LOCAL" and may
+
+    @property
+    def lifts_by_pins(self) -> bool:
+        """Whether what lone pins lift is compared with the surface without them."""
+        return bool(self.pin_group) and self.mesh == "KEEP" and not self.takes_base
 
     @property
     def fairs_border(self) -> bool:
@@ -231,6 +243,7 @@ class FairOptions:
             "bulge": self.equation == "CONSTANT",
             "continuity": self.equation in OF_CURVATURE and self.method == "GLOBAL",
             "boundary_normals": self.equation != "MINIMAL",
+            "position_group": self.frees_slopes,
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",

@@ -15,7 +15,7 @@ from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, Progress, go_on, islands
 from .evidence import Evidence, Flank
-from .lost import Lost, is_smoother, kept_key, moved_border, sunken
+from .lost import Lost, beyond_pins, is_smoother, kept_key, moved_border, sunken
 from .moved_keys import MovedKey
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
@@ -96,7 +96,7 @@ def outcome(
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
         flank=flank_of(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
-        lost=_lost(mesh, matrix, problem, after),
+        lost=replace(_lost(mesh, matrix, problem, after), beyond=beyond_pins(problem, after, solved.released)),
     )  # fmt: skip
     go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
@@ -177,14 +177,16 @@ def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
 
 def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, moving: Ints) -> Ints:
     """Return the mesh vertices outside at hard edges that a smoothed boundary or a band has rounded."""
-    moved = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
+    outside = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
     moves = np.zeros(len(mesh.positions), dtype=bool)
-    moves[moved] = True
-    around = nearby(mesh.triangles[~mesh.in_patch[mesh.triangle_faces]], moves)
+    moves[outside] = True
+    around = nearby(mesh.triangles, moves)  # one row before the boundary shows no hard edge by itself
     before = places(mesh, matrix)
     points = before.copy()
     points[problem.vertices] = after
-    return fairing.rounded_edges(before, points, around, moved).astype(np.int64)
+    rounded = fairing.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
+    found: Ints = np.intersect1d(rounded, outside).astype(np.int64)
+    return found
 
 
 def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:

@@ -17,6 +17,14 @@ from .sentences import in_mesh_words
 RINGS = 2  # around what is shown, so that its border is measured from both sides
 
 
+HIGH_INWARDS = ("CURVATURE", "PRINCIPAL")  # H is positive where the surface caves in
+
+
+def sense(mode: str) -> float:
+    """Return by what values are multiplied before they are coloured, so that outwards has one colour in all modes."""
+    return -1.0 if mode in HIGH_INWARDS else 1.0
+
+
 @dataclass(frozen=True)
 class Surface:
     """What is drawn: n vertices in world space."""

@@ -105,11 +105,12 @@ def crossing(patch: Patch, points: Floats) -> Ints:
 def join(problem: Problem, points: Floats) -> Join:
     """Measure the join of the patch with the faces around it at the positions (q, 3) of problem.vertices.
 
-    Where the slope is that of the selected faces the boundary stays a hard edge, which is no kink.
+    Where the slope is that of the selected faces the boundary stays a hard edge, and where the surface finds its own it
+    may have one: neither is a kink.
     """
     patch = problem.patch
     rim = np.intersect1d(patch.outline, problem.outside)
-    rim = rim[~np.isin(patch.vertices[rim], problem.inward)]
+    rim = np.setdiff1d(rim[~np.isin(patch.vertices[rim], problem.inward)], patch.free_slopes)
     return join_at(patch.vertices[rim], fairing.visible_join(points, patch.triangles, problem.outside, rim))
 
 

@@ -123,6 +123,7 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
         hidden=None if mesh.hidden is None else np.tile(mesh.hidden, 2),
         sample=None if mesh.sample is None else np.tile(mesh.sample, 2),
         pinned=np.concatenate([mesh.pinned, mesh.pinned[off]]),
+        free_slopes=_twice(mesh.free_slopes, off),
         parts=_twice(mesh.parts, off),
         creases=_twice(mesh.creases, apart),
         smooth_curves=_twice(mesh.smooth_curves, apart),

@@ -47,6 +47,7 @@ class MeshArrays:
     triangle_faces: Ints  # (t,)
     in_patch: Mask  # (f,) selected and visible
     pinned: Mask  # (n,)
+    free_slopes: Mask | None = None  # (n,) where the boundary's position alone is kept; None: nowhere
     creases: Mask | None = None  # (e,) pinned edges on whose sides the surface finds slopes of their own
     smooth_curves: Mask | None = None  # (e,) pinned edges through which it runs with a slope that it finds
     fair_border: bool = False  # open borders inside the patch move, too
@@ -106,6 +107,12 @@ class Patch:
     neighbours: Ints | None  # (e, 2) patch indices; None where all faces are triangles
     creases: Ints = field(default_factory=nothing)  # patch indices of fixed vertices on creases
     smooth_curves: Ints = field(default_factory=nothing)  # and on smooth curves
+    free_slopes: Ints = field(default_factory=nothing)  # and on the outline, where its position alone is kept
+
+    @property
+    def slopes_found(self) -> Ints:
+        """Where the surface finds its slope, on each side of a crease one."""
+        return np.union1d(self.creases, self.free_slopes)
 
     @property
     def origin(self) -> Origin:
@@ -197,6 +204,7 @@ def make_patch(mesh: MeshArrays, by_connectivity: bool = True) -> Patch:
         creases=number[_curve(mesh, mesh.creases, uses > 0)],
         # Where such a curve reaches the boundary, the slope there is the boundary's.
         smooth_curves=number[_curve(mesh, mesh.smooth_curves, uses > 0) & ~outline],
+        free_slopes=nothing() if mesh.free_slopes is None else number[outline & ~free & mesh.free_slopes],
     )
 
 

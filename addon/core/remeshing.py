@@ -184,7 +184,7 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, part: NewPart, 
 
 def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
     patch = problem.patch
-    arguments = {**options.engine_arguments(), "creases": patch.creases, "smooth_curves": patch.smooth_curves}
+    arguments = {**options.engine_arguments(), "creases": patch.slopes_found, "smooth_curves": patch.smooth_curves}
     for name in ("method", "levels", "detail", "detail_size"):
         del arguments[name]
     boundary = fairing.Boundary(patch.fixed, problem.normals, problem.curvatures)

@@ -145,6 +145,42 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "WIDTH_TOO_LARGE": (
         Words("A width of {width:.4g} leaves nothing of the part with {n} vertices, {first} among them: make it less"),
     ),
+    "WIRES_END": (
+        Words(
+            "A curve of edges ends at vertex {first}: join that end to another curve, or deselect it",
+            "Curves of edges end at {n} vertices, {first} among them: join each end to another curve, or deselect it",
+        ),
+    ),
+    "WIRES_CROSS": (
+        Words("Edges cross, or lie on each other, at vertex {first}: give them a common vertex, or move them apart"),
+    ),
+    "NO_CELL": (
+        Words(
+            "The curve through vertex {first} divides nothing, as one cell lies on both of its sides: deselect it, or "
+            "draw edges that divide this cell",
+            when="both_sides",
+        ),
+        Words(
+            "The curves through vertex {first} go around openings alone: draw edges across these, or choose Fill "
+            "Openings",
+            when="openings",
+        ),
+        Words(
+            "The outline of a cell passes vertex {first} twice: draw an edge that divides it",
+            when="pinched",
+        ),
+        Words("No edge without a face is selected: select closed curves of edges"),
+    ),
+    "UNCLEAR_CELLS": (
+        Words(
+            "A surface along the curve through vertex {first} would come back to its own other side: deselect it",
+            when="one_sided",
+        ),
+        Words(
+            "Edges leave vertex {first} one above the other, so that no surface passes through all of them: part them, "
+            "or deselect some"
+        ),
+    ),
     "NOT_TANGENT": (
         Words(
             "The surface turns back by {degrees:.0f}° at {n} vertex of the boundary: unfold the faces there",

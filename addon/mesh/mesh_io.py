@@ -131,7 +131,7 @@ def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
             return False
         positions = column(now.vertices, "co", 3, np.float32)
         corners = stored(now, ".corner_vert", (now.loops, "vertex_index"))
-        same = np.array_equal(positions, arrays.positions, equal_nan=True)
+        same = np.array_equal(positions, arrays.positions, equal_nan=True) and len(now.edges) == len(arrays.edges)
         return bool(same and np.array_equal(corners, arrays.corner_vertices))
 
 

@@ -44,8 +44,24 @@ def members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
 
 
 def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> MeshArrays:
-    """Return the arrays with how far each vertex goes, and the faces whose skin is copied; raises what these raise."""
-    return replace(arrays, parts=parts_of_the_way(mesh, obj, options), sample=sample_faces(mesh, obj, options))
+    """Return the arrays with what vertex groups and the mask say of them; raises what these raise."""
+    return replace(
+        arrays,
+        parts=parts_of_the_way(mesh, obj, options),
+        sample=sample_faces(mesh, obj, options),
+        free_slopes=free_slopes(mesh, obj, options),
+    )
+
+
+def free_slopes(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Mask | None:
+    """Return the (n,) mask of the position group; None where none is asked for.
+
+    obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group.
+    """
+    group = group_index(obj, options.position_group, "position_group")
+    if group is None or not options.frees_slopes:
+        return None
+    return _group_weights(mesh, group) > 0.0
 
 
 def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:

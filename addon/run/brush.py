@@ -74,10 +74,6 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         """Paint until the button is let go, then wait for the surface."""
         return Watched.modal(self, context, event) if self._run is not None else self.follow_stroke(context, event)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Fair what was painted over, and return when done."""
-        return self._begin_with(context, self._solve_at_once)
-
     def cancel(self, context: bpy.types.Context) -> None:
         """Leave all as it was."""
         self._hide()
@@ -106,7 +102,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         if not len(self.dabs):
             self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
-        return self._begin_with(context, self._solve_or_start)
+        return self._begin_with(context, self._start_work)
 
     def _read_object(self, obj: bpy.types.Object, options: FairOptions) -> Task:
         """Read the mesh with what was painted as its mask, which each vertex goes by."""

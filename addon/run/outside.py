@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
@@ -25,7 +25,7 @@ from ..mesh.free_normals import free_normals
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
-from .background import Watched, at_once
+from .background import Watched, Work
 from .fair_arrays import fair_arrays
 from .fair_mesh import read, write
 from .job import Refused
@@ -71,6 +71,9 @@ def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
 class FairsOutside(FairProperties, Watched):
     """An operator that fairs the active object outside edit mode, but for `_faces`, which says what of it."""
 
+    if TYPE_CHECKING:
+        _faces: Callable[[bpy.types.Object], Ints]  # in object mode; raises ValueError where there are none
+
     _task: Task
     _begin: float
 
@@ -83,10 +86,6 @@ class FairsOutside(FairProperties, Watched):
             and require(cls, obj.mode in MODES, "In sculpt or object mode; in edit mode use Fair Region")
             and require_idle(cls, context)
         )
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Fair at once, and return when done."""
-        return self._begin_with(context, self._solve_at_once)
 
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin = time.perf_counter()
@@ -108,10 +107,10 @@ class FairsOutside(FairProperties, Watched):
         mesh, matrix = read(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
         return Task(obj.name, mesh, matrix, options, painted.positions(obj.data))
 
-    def _solve_at_once(self, context: bpy.types.Context) -> set[str]:
-        return self._apply(context, at_once(context, partial(solve, self._task)))
+    def _work(self) -> Work:
+        return partial(solve, self._task)
 
-    def _solve_or_start(self, context: bpy.types.Context) -> set[str]:
+    def _start_work(self, context: bpy.types.Context) -> set[str]:
         large = int(np.count_nonzero(free_vertices(self._task.mesh))) >= background_from(context)
         return self._start(context, partial(solve, self._task), large)
 
@@ -143,10 +142,6 @@ class FairsOutside(FairProperties, Watched):
         last_run.forget()
         self.report({"ERROR"}, translated(str(refusal)))
         return {"CANCELLED"}
-
-    def _faces(self, obj: bpy.types.Object) -> Ints:
-        """Return the faces to be faired, in object mode; raises ValueError where there are none."""
-        raise NotImplementedError
 
 
 def check_shown(obj: bpy.types.Object) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..core.arrays import Floats
+from ..core.overlay_data import sense
 from ..translations import translated
 
 LOW, MIDDLE, HIGH = (0.10, 0.30, 0.85), (0.96, 0.96, 0.96), (0.85, 0.12, 0.10)  # as in overlay_shader.py
@@ -52,9 +53,9 @@ def draw(context: Any, mode: str, full: float, largest: float) -> None:
     edges = np.linspace(0.0, 1.0, _STEPS + 1)
     xs = np.repeat(left + width * edges, 2)
     places = np.column_stack([xs, np.tile([bottom, bottom + height], _STEPS + 1)]).astype(np.float32)
-    rgba = np.column_stack([np.repeat(colours(2.0 * edges - 1.0), 2, axis=0), np.ones(len(places))]).astype(np.float32)
+    rgba = np.column_stack([np.repeat(colours(sense(mode) * (2.0 * edges - 1.0)), 2, axis=0), np.ones(len(places))])
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
-    batch_for_shader(shader, "TRI_STRIP", {"pos": places, "color": rgba}).draw(shader)
+    batch_for_shader(shader, "TRI_STRIP", {"pos": places, "color": rgba.astype(np.float32)}).draw(shader)
     for text, share in zip(ends, (0.0, 0.5, 1.0), strict=True):
         _write(text, left + share * (width - blf.dimensions(0, text)[0]), bottom - 1.1 * height)
 

@@ -15,7 +15,7 @@ from ..follow.live import live
 from ..follow.watch import watch
 from ..translations import translated
 
-BAD = (1.0, 0.45, 0.0, 1.0)
+BAD = (1.0, 0.0, 0.8, 1.0)  # magenta: Blender selects in orange
 SAID = (1.0, 1.0, 1.0, 1.0)
 SIZE = 9.0  # pixels
 

@@ -12,6 +12,7 @@ from ..run.compare import MESH_OT_fair_compare
 from ..run.denoise import MESH_OT_fair_denoise
 from ..run.fill import MESH_OT_fair_fill
 from ..run.fillet import MESH_OT_fair_fillet
+from ..run.from_curves import MESH_OT_fair_from_curves
 from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
 
@@ -29,6 +30,7 @@ def draw_edge_menu(menu: Any, _context: bpy.types.Context) -> None:
     menu.layout.operator_context = "INVOKE_DEFAULT"
     menu.layout.operator(MESH_OT_fair_fill.bl_idname, text="Fair Bridge").bridge = True
     menu.layout.operator(MESH_OT_fair_fill.bl_idname)
+    menu.layout.operator(MESH_OT_fair_from_curves.bl_idname)
     menu.layout.operator(MESH_OT_fair_fillet.bl_idname)
 
 

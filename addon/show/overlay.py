@@ -17,7 +17,7 @@ from ..core import signals
 from ..core.arrays import Floats
 from ..core.combs import Comb, comb
 from ..core.options import FairOptions
-from ..core.overlay_data import Surface, make_surface
+from ..core.overlay_data import Surface, make_surface, sense
 from ..core.region import MeshArrays
 from ..host.context import active_object, edited_objects
 from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
@@ -113,7 +113,7 @@ def _batch(shader: Any, surface: Surface, mode: str) -> Any:
     content = {
         "position": surface.positions.astype(np.float32),
         "normal": surface.normals.astype(np.float32),
-        "curvature": surface.values(mode).astype(np.float32),
+        "curvature": (sense(mode) * surface.values(mode)).astype(np.float32),
     }
     return batch_for_shader(shader, "TRIS", content, indices=surface.triangles.astype(np.int32))
 

@@ -11,9 +11,9 @@ from ..core.signals import content_changed, look_changed
 
 _MODES = (
     ("ZEBRA", "Reflection Lines", "Stripes of light mirrored in the surface: they break at creases, bend at bad joins"),
-    ("CURVATURE", "Mean Curvature", "Blue bulges out, red caves in, white is flat on average; fair is without spots"),
+    ("CURVATURE", "Mean Curvature", "Red bulges out, blue caves in, white is flat on average; fair is without spots"),
     ("GAUSSIAN", "Gaussian Curvature", "Red is round like a ball, blue is like a saddle, white unrolls flat"),
-    ("PRINCIPAL", "Largest Curvature", "The way it bends most: blue outwards, red inwards"),
+    ("PRINCIPAL", "Largest Curvature", "The way it bends most: red outwards, blue inwards"),
     (
         "COMBS",
         "Curvature Combs",

@@ -34,7 +34,7 @@ vec4 zebra(vec3 n)
   return vec4(vec3(mix(0.02, 0.95, smoothstep(-soft, soft, wave))), look.z);
 }
 
-// Blue: bulges outwards, white: flat on average, red: caves in.
+// Red: bulges outwards, white: flat on average, blue: caves in.
 vec4 heat(float h, vec3 n)
 {
   float light = 0.6 + 0.4 * abs(dot(n, towards_eye()));

@@ -26,7 +26,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("task", choices=("run", "sheets", "table"))
     parser.add_argument("jobs", nargs="*", help="names; default: those of --parts")
-    parser.add_argument("--parts", default="first", help="of the jobs: first, second, third; separated by commas")
+    parser.add_argument("--parts", default="first", help="of the jobs: first to fifth; separated by commas")
     parser.add_argument(
         "--tree", action="store_true", help="the tree's add-on and build/native's module, not the zip's"
     )

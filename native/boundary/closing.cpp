@@ -1,51 +1,66 @@
 #include "boundary/closing.h"
 
+#include <vector>
+
 #include "geometry/neighbourhood.h"
-#include "linear/conjugate_gradients.h"
+#include "linear/sparse_cholesky.h"
 
 namespace fairing {
 
-Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held) {
-    constexpr double accuracy = 1e-6;  // flat loops give exact zeros across; others need a direction alone
-    const auto count = static_cast<int>(points.cols());
-    const VertexAdjacency around(triangles, count);
-    const auto is_free = [&](int v) { return !held[v] && around.begin[v] < around.begin[v + 1]; };
-    Vector3 centre = Vector3::Zero();
-    int boundary = 0;
-    for (int v = 0; v < count; ++v) {
-        if (!held[v] || around.begin[v] == around.begin[v + 1]) continue;
-        centre += points.col(v);
-        ++boundary;
+namespace {
+
+// Of the diagonal: pieces without a boundary have a place then, too.
+constexpr double anchoring = 1e-12;
+
+// Vertices of triangles, held or free, numbered within each kind.
+struct Members {
+    Indices held;
+    Indices free;
+    Indices number;  // of a free vertex
+};
+
+Members members_of(const VertexAdjacency& around, const std::vector<char>& held) {
+    Members members{{}, {}, Indices(held.size(), none)};
+    for (int v = 0; v < static_cast<int>(held.size()); ++v) {
+        if (around.begin[v] == around.begin[v + 1]) continue;
+        if (!held[v]) members.number[v] = static_cast<int>(members.free.size());
+        (held[v] ? members.held : members.free).push_back(v);
     }
-    if (boundary == 0) return points;
-    centre /= boundary;
-    Points pull = Points::Zero(3, count);  // of what is held, from the centre
-    VectorX degree = VectorX::Ones(count);
-    for (int v = 0; v < count; ++v) {
-        if (!is_free(v)) continue;
-        degree[v] = around.begin[v + 1] - around.begin[v];
+    return members;
+}
+
+// The lower triangle of the graph's Laplacian at the free vertices. `pull`: of what is held, from the centre.
+SparseMatrix laplacian(const VertexAdjacency& around, const Members& members, const Points& from_centre, Points& pull) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int row = 0; row < static_cast<int>(members.free.size()); ++row) {
+        const int v = members.free[row];
+        const int degree = around.begin[v + 1] - around.begin[v];
+        entries.emplace_back(row, row, (1.0 + anchoring) * degree);
         for (int k = around.begin[v]; k < around.begin[v + 1]; ++k) {
-            const int other = around.neighbours[k];
-            if (held[other]) pull.col(v) += points.col(other) - centre;
+            const int column = members.number[around.neighbours[k]];
+            if (column == none) pull.col(row) += from_centre.col(around.neighbours[k]);
+            if (column != none && column < row) entries.emplace_back(row, column, -1.0);
         }
     }
-    const auto apply = [&](const Points& p, Points& q) {
-        for_ranges(count, fine_grain, [&](int begin, int end) {
-            for (int v = begin; v < end; ++v) {
-                q.col(v) = degree[v] * p.col(v);
-                if (!is_free(v)) continue;
-                for (int k = around.begin[v]; k < around.begin[v + 1]; ++k) {
-                    if (is_free(around.neighbours[k])) q.col(v) -= p.col(around.neighbours[k]);
-                }
-            }
-        });
-    };
-    const auto precondition = [&](const Points& r, Points& z) { z = r * degree.cwiseInverse().asDiagonal(); };
-    const Points offsets = conjugate_gradients(pull, accuracy, most_cycles, apply, precondition).x;
+    const auto count = static_cast<Eigen::Index>(members.free.size());
+    SparseMatrix lower(count, count);
+    lower.setFromTriplets(entries.begin(), entries.end());
+    return lower;
+}
+
+}  // namespace
+
+Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held) {
+    const VertexAdjacency around(triangles, static_cast<int>(points.cols()));
+    const Members members = members_of(around, held);
+    if (members.held.empty() || members.free.empty()) return points;
+    const Vector3 centre = points(Eigen::all, members.held).rowwise().mean();
+    Points pull = Points::Zero(3, static_cast<Eigen::Index>(members.free.size()));
+    SparseCholesky factor(points(Eigen::all, members.free));
+    if (!factor.factorise(laplacian(around, members, points.colwise() - centre, pull), "boundary normals", Progress()))
+        return points;
     Points result = points;
-    for (int v = 0; v < count; ++v) {
-        if (is_free(v)) result.col(v) = centre + offsets.col(v);
-    }
+    result(Eigen::all, members.free) = factor.solve_points(pull).colwise() + centre;
     return result;
 }
 

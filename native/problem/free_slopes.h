@@ -15,4 +15,8 @@ Equation equation_for(const Patch& patch, Equation asked);
 // The problem with slopes at its pins, read off the surface (3 × local vertices), for stages that need slopes.
 Problem with_slopes_of(const Problem& problem, const Points& points);
 
+// The same, where a loop has given normals too: by how much these turn about the border away from the surface's is
+// carried on along the loop.
+Problem with_slopes_carried_on(const Problem& problem, const Points& points);
+
 }  // namespace fairing

@@ -1,9 +1,8 @@
 #include "proxy/proxy_solver.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <span>
+#include <vector>
 
 #include "iteration/continuation.h"
 #include "operators/biharmonic_operator.h"
@@ -96,9 +95,7 @@ public:
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too.
     SolvedProxy from_membrane(const Points& membrane) {
         std::optional<SolvedProxy> least_bent;
-        static constexpr std::array meshes{first_fineness, second_fineness, third_fineness};
-        const bool is_one_loop = problem_.patch.loop_count() == 1;
-        for (const Fineness& fineness : is_one_loop ? std::span(meshes) : std::span(meshes).subspan(1, 1)) {
+        for (const Fineness& fineness : tried()) {
             SolvedProxy proxy = fine(coarse(membrane, fineness), fineness);
             if (proxy.refused) return proxy;
             if (proxy.converged()) return proxy;
@@ -124,13 +121,22 @@ public:
     SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
         lay_over_outline(coarse.mesh);
         if (coarse.end == CoarseEnd::far) return given_up(std::move(coarse.mesh));
-        const double longest =
-            std::clamp(fineness.share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
-        const Sizing sizing{std::min(fineness.growth, finest_growth), longest, free_limit_};
+        const Sizing sizing{std::min(fineness.growth, finest_growth), longest_of(fineness), free_limit_};
         return solve_fine(std::move(coarse.mesh), sizing, coarse.end == CoarseEnd::converged);
     }
 
 private:
+    [[nodiscard]] double longest_of(const Fineness& fineness) const {
+        return std::clamp(fineness.share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
+    }
+
+    // Beside a fine outline the first two are the same mesh.
+    [[nodiscard]] std::vector<Fineness> tried() const {
+        if (problem_.patch.loop_count() != 1) return {second_fineness};
+        if (longest_of(second_fineness) == longest_fine) return {first_fineness, third_fineness};
+        return {first_fineness, second_fineness, third_fineness};
+    }
+
     void lay_over_outline(ProxyMesh& mesh) const {
         auto snapshot = mesh.snapshot();
         snapshot.points.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;

@@ -66,7 +66,7 @@ bool has_free_slopes(const Patch& patch) {
 Points start_of(const Problem& problem, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());
-    const Problem uniform = with_slopes_of(given, membrane(given, work));
+    const Problem uniform = with_slopes_carried_on(given, membrane(given, work));
     const Points fill = best_fill(uniform, work, progress.here());
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }

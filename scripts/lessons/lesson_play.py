@@ -10,13 +10,16 @@ import numpy as np
 from lesson_page import Step, Value
 
 AXES = {"X": 0, "Y": 1, "Z": 2}
+# Entries of menus with a text of their own: what they run, and with which options.
+ENTRIES: dict[str, tuple[str, dict[str, Value]]] = {"Fair Bridge": ("fair_fill", {"bridge": True})}
 
 
 class Run(NamedTuple):
-    """An operator of Blender's meshes, and the options that the page names after it, by their identifiers."""
+    """An operator of meshes, the options that the page names after it, and those of the entry itself."""
 
     operator: str
     options: dict[str, Value]
+    given: dict[str, Value]
 
 
 class Move(NamedTuple):
@@ -54,7 +57,10 @@ def actions(steps: list[Step]) -> list[Run | Move | Key]:
         elif step.name in ("Tab", "A"):
             found.append(Key(step.name))
         elif (label := step.name.split(" ▸ ")[-1]) in known:
-            found.append(Run(known[label], {}))
+            found.append(Run(known[label], {}, {}))
+        elif label in ENTRIES:
+            operator, given = ENTRIES[label]
+            found.append(Run(operator, {}, given))
         elif step.name != "Enter":
             raise ValueError(f"{step.name!r} is no key, menu or button")
     return found
@@ -80,7 +86,7 @@ def play(steps: list[Step]) -> None:
     """Do it, from the file that is open."""
     for action in actions(steps):
         if isinstance(action, Run):
-            getattr(bpy.ops.mesh, action.operator)("EXEC_DEFAULT", True, **action.options)
+            getattr(bpy.ops.mesh, action.operator)("EXEC_DEFAULT", True, **action.given, **action.options)
         elif isinstance(action, Move):
             move(action)
         elif action.name == "Tab":

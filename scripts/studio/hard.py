@@ -69,11 +69,12 @@ def letter() -> Chosen:
     return letters.at_foot
 
 
+TWO_TONES = 30.0  # stripes with which the two planes of the box differ
 FILLS = {"Grid Fill": tools.grid_fill, "Fair Fill": tools.fair_fill}
 SHEETS = {
     "hard_surfaces": [
-        [Row("A hole over an edge", box_edge, "edges", FILLS)],
-        [Row("A hole over a bevel", bevelled_edge, "edges", FILLS)],
+        [Row("A hole over an edge", box_edge, "edges", FILLS, stripes=TWO_TONES)],
+        [Row("A hole over a bevel", bevelled_edge, "edges", FILLS, stripes=TWO_TONES)],
         [Row(
             "A dented top", lid, "faces",
             {"Smooth Vertices × 60": tools.smooth_vertices, "Fair Region": tools.fair_region()},

@@ -16,12 +16,12 @@ FULL = 1.0  # curvature with the full colour: the overlay's Range
 
 
 def curvature(path: Path) -> None:
-    """Blue where the surface bulges out, red where it caves in; by the add-on's own attribute."""
+    """Red where the surface bulges out, blue where it caves in; by the add-on's own attribute."""
     bpy.ops.mesh.fair_curvature()
     mesh = bpy.context.object.data
     values = np.empty(len(mesh.vertices), dtype=np.float32)
     mesh.attributes["mean_curvature"].data.foreach_get("value", values)
-    shares = np.clip(values / FULL, -1.0, 1.0)[:, None]
+    shares = np.clip(-values / FULL, -1.0, 1.0)[:, None]
     tones = MIDDLE + np.abs(shares) * (np.where(shares < 0.0, LOW, HIGH) - MIDDLE)
     colours = mesh.color_attributes.new("Curvature", "FLOAT_COLOR", "POINT")
     colours.data.foreach_set("color", np.column_stack([tones**2.2, np.ones(len(tones))]).astype(np.float32).ravel())

@@ -30,6 +30,7 @@ DEFAULTS = {
     "falloff": 0.0,
     "smooth_boundary": False,
     "vertex_group": "",
+    "position_group": "",
     "use_mask": False,
     "all_keys": False,
     "detail_from": "",

@@ -54,6 +54,18 @@ def test_gaussian_and_principal_curvature_of_a_sphere(overlay: Any, radius: floa
         settings().mode = "ZEBRA"
 
 
+@pytest.mark.parametrize("mode", ["CURVATURE", "PRINCIPAL", "GAUSSIAN"])
+def test_a_ball_is_red_in_all_modes(overlay: Any, mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As what a run has moved outwards is: the shader's colour for values above 0."""
+    meshes.sphere(48)
+    settings().show = True
+    sent: dict[str, Any] = {}
+    monkeypatch.setattr(module("show.overlay"), "batch_for_shader", lambda *args, **_: sent.update(args[2]))
+    module("show.overlay")._batch(None, overlay.surfaces[0], mode)
+    assert (sent["curvature"] > 0.0).all()
+    assert module("core.overlay_data").sense("DEVIATION") == 1.0
+
+
 def test_gaussian_curvature_tells_saddles_from_cylinders() -> None:
     """z = (x² ± y²) / 2 has K = ±1 in the middle, a parabolic cylinder none; the larger principal one bends alike."""
     curvatures = module("core.curvatures")

@@ -68,14 +68,17 @@ class Listed:
 
     def __init__(self) -> None:
         self.layout, self.operators = self, list[str]()
+        self.entries = dict[str, tuple[str, SimpleNamespace]]()  # by their own text
 
     def separator(self) -> None:
         """Draw nothing."""
 
-    def operator(self, name: str, **_: str) -> SimpleNamespace:
+    def operator(self, name: str, text: str = "") -> SimpleNamespace:
         """Remember it."""
         self.operators.append(name)
-        return SimpleNamespace()
+        properties = SimpleNamespace()
+        self.entries[text] = (name, properties)
+        return properties
 
 
 @pytest.mark.parametrize(
@@ -86,7 +89,11 @@ def test_menus_have_what_the_page_names(path: str) -> None:
     blenders = {"Face": "VIEW3D_MT_edit_mesh_faces", "Edge": "VIEW3D_MT_edit_mesh_edges"}[menu]
     listed = Listed()
     dict(module("show.menus").ENTRIES)[blenders](listed, bpy.context)
-    assert f"mesh.{lesson_play.labels()[label]}" in listed.operators
+    if label in lesson_play.ENTRIES:
+        operator, given = lesson_play.ENTRIES[label]
+        assert listed.entries[label] == (f"mesh.{operator}", SimpleNamespace(**given))
+    else:
+        assert f"mesh.{lesson_play.labels()[label]}" in listed.operators
 
 
 @pytest.mark.parametrize("name", LESSONS)

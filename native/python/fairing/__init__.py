@@ -12,6 +12,7 @@ from fairing._feather import feather_weights
 from fairing._fill import fill
 from fairing._fillet import fillet
 from fairing._foreign import refuse_foreign as _refuse_foreign
+from fairing._from_curves import surface_from_curves
 from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Surface
 from fairing._growing import GrownOutline, grown_outline
 from fairing._hard_edges import hard_edges
@@ -30,7 +31,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FilletResult, FillResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, FromCurvesResult, RemeshResult
 from fairing._outline import (
     MendedOutline,
     SurroundingNormals,
@@ -78,6 +79,7 @@ __all__ = [
     "FillResult",
     "FilletResult",
     "Flank",
+    "FromCurvesResult",
     "Girth",
     "GrownOutline",
     "HoleLoops",
@@ -142,6 +144,7 @@ __all__ = [
     "self_intersections",
     "subdivide_edges",
     "sunken",
+    "surface_from_curves",
     "surrounding_normals",
     "vertex_normals",
     "visible_join",

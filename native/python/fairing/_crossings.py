@@ -16,7 +16,17 @@ _TINY = 1e-300
 
 def crossing_edges(loops: Sequence[IntArray], vertices: FloatArray) -> IntArray:
     """(c, 4) vertices: the ends of two edges that meet, not at a vertex that both have."""
-    edges = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    return crossing(edges_around(loops), vertices)
+
+
+def edges_around(loops: Sequence[IntArray]) -> IntArray:
+    """(e, 2) the edges of loops, in their direction."""
+    edges: IntArray = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    return edges
+
+
+def crossing(edges: IntArray, vertices: FloatArray) -> IntArray:
+    """The same of edges (e, 2)."""
     slack = _TOUCHING * float(np.ptp(vertices[edges].reshape(-1, 3), axis=0).max())
     one, other = _near_pairs(vertices[edges], slack)
     apart = (edges[one][:, :, None] != edges[other][:, None]).all(axis=(1, 2))
@@ -28,7 +38,7 @@ def crossing_edges(loops: Sequence[IntArray], vertices: FloatArray) -> IntArray:
 
 def are_clear(loops: Sequence[IntArray], vertices: FloatArray) -> bool:
     """Whether no loop by itself comes near itself: a quick look at many, which may say no where nothing is wrong."""
-    edges = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    edges = edges_around(loops)
     of = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
     segments = vertices[edges]
     if not np.isfinite(segments).all():
@@ -64,7 +74,11 @@ class Touches:
 
 def touches(loops: Sequence[IntArray], vertices: FloatArray) -> Touches:
     """Vertices nearer than 1e-5 of an edge to that edge, or to an end of it that no edge joins to them."""
-    edges = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in loops])
+    return touching(edges_around(loops), vertices)
+
+
+def touching(edges: IntArray, vertices: FloatArray) -> Touches:
+    """The same of edges (e, 2)."""
     segments = vertices[edges]
     slack = _ON_EDGE * float(np.linalg.norm(segments[:, 1] - segments[:, 0], axis=1).max())
     one, other = _near_pairs(segments, slack)

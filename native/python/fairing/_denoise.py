@@ -76,7 +76,7 @@ def denoise(
     low = points[numbers].min(axis=0)
     unit = float(np.ptp(points[numbers], axis=0).max()) or 1.0
     placed = (points[numbers] - low) / unit
-    around = _edges_around(placed, np.searchsorted(numbers, part.edges))
+    around = edges_around(placed, np.searchsorted(numbers, part.edges))
     sizes = np.full(len(placed), length / unit) if length else EDGES * around
     sizes[np.isin(numbers, part.loose)] = 0.0
     moved = np.isin(numbers, part.free)
@@ -112,7 +112,7 @@ def _part(faces: IntArray, fixed: IntArray, edges: IntArray, count: int) -> _Par
     return _Part(np.flatnonzero(moves), loose, around, sides)
 
 
-def _edges_around(points: FloatArray, edges: npt.NDArray[np.intp]) -> FloatArray:
+def edges_around(points: FloatArray, edges: npt.NDArray[np.intp]) -> FloatArray:
     """(n,) the mean length of the edges around each vertex."""
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     both, count = edges.ravel(), len(points)

@@ -106,6 +106,18 @@ class FilletResult(NewMeshResult):
     """(l, 2) edges of the line where the fillet ends, the fillet on their left."""
 
 
+@dataclass(frozen=True, eq=False)
+class FromCurvesResult(NewMeshResult):
+    """What :func:`fairing.surface_from_curves` gives back: the new mesh and what :func:`fairing.fair` reports."""
+
+    cells: tuple[IntArray, ...]
+    """The loops of wires that were filled, each with its surface on the left."""
+    cell: IntArray
+    """(m,) which of them each triangle fills."""
+    left_open: tuple[IntArray, ...]
+    """Loops around openings, and around the outside of a sheet."""
+
+
 def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
     """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
     own = {each.name for each in fields(NewMeshResult)}

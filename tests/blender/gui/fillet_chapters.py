@@ -47,6 +47,8 @@ def _has_ended() -> bool:
 def _drag() -> Story:
     """Begin, and pull to a width."""
     x, y = middle()
+    move_mouse(x, y)  # where the width is 0
+    yield 0.3
     run_operator("mesh.fair_fillet")
     yield from wait_until(_follows, 5.0)
     for way in (FAR // 3, 2 * FAR // 3, FAR):

@@ -70,7 +70,7 @@ def _done(action: Any) -> Story:
         yield 1.0
         yield from _typed("", "", f"{action.options['width']:g}")
     else:
-        run_with(action.operator)
+        run_with(action.operator, **action.given)
         yield from _rested()
         if action.options:  # in the panel at the lower left
             redo_with(**action.options)

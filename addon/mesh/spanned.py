@@ -1,0 +1,47 @@
+"""New faces over edges that have none, and which of these are selected."""
+
+from __future__ import annotations
+
+import bmesh
+import bpy
+import numpy as np
+
+from ..core.arrays import Mask
+from ..core.spanning import Spanned
+from .columns import elements_of
+from .free_normals import renew
+from .new_faces import VertexData, make_vertices
+from .selecting import select_new_faces
+from .target import in_edit_mode
+
+
+def selected_wires(mesh: bpy.types.Mesh) -> Mask:
+    """Return the (e,) mask of the selected edges of a mesh in edit mode that have no face."""
+    edges = bmesh.from_edit_mesh(mesh).edges
+    return np.array([edge.select and not edge.hide and edge.is_wire for edge in edges], dtype=bool)
+
+
+def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> int:
+    """Add a surface to a mesh in edit mode and select it alone; return the number of faces.
+
+    They are smooth, of the active material; what belongs to vertices is carried over from the curves.
+    """
+    with in_edit_mode(obj) as target:
+        target.open()
+        bm = target.bm
+        bm.verts.ensure_lookup_table()
+        held = elements_of(bm.verts, spanned.outline)
+        examples = [held[number] for number in spanned.near.tolist()]
+        data = VertexData(
+            spanned.positions, held, spanned.carried, examples, limit=spanned.options.limit_total
+        )  # fmt: skip
+        table = [*held, *make_vertices(target, data)]
+        made = []
+        for polygon in spanned.faces.polygons:
+            face = bm.faces.new([table[corner] for corner in polygon])
+            face.smooth, face.material_index = True, max(0, obj.active_material_index)
+            made.append(face)
+        select_new_faces(bm, made)
+        bm.normal_update()
+        renew(bm, table[len(held) :], made)
+        return len(made)

@@ -1,0 +1,129 @@
+"""The operator that makes a surface over edges without faces: at once where that is quick, else in the background."""
+
+from dataclasses import dataclass
+from functools import partial
+
+import bpy
+import numpy as np
+
+from ..core.arrays import Floats, Mask
+from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.options import FairOptions
+from ..core.region import MeshArrays
+from ..core.spanning import NO_WIRE, CurvesOptions, Spanned, span_arrays
+from ..host.context import edited_objects
+from ..host.polling import require_edit_mode, require_idle
+from ..mesh import mesh_io, spanned
+from ..preferences import background_from
+from ..translations import translated
+from . import compare, last_run
+from .background import Watched, Work
+from .job import Refused, is_unchanged, objects_in_mode, show_vertices
+from .option_properties import CurvesProperties
+from .redo_panel import draw_options
+from .report_properties import clear, store_refusal
+
+
+@dataclass(frozen=True)
+class Task:
+    """One object's curves, as they were read."""
+
+    object_name: str
+    mesh: MeshArrays
+    wires: Mask
+    matrix: Floats  # (4, 4) to world space
+    key: str  # the shape key that was read, as mesh_io.writable_key names it
+
+
+def read(context: bpy.types.Context) -> list[Task]:
+    """Read every object in edit mode that has selected edges without faces; raises Refused."""
+    tasks = []
+    for obj in edited_objects(context):
+        wires = spanned.selected_wires(obj.data)
+        if not wires.any():
+            continue
+        try:
+            mesh_io.check_new_faces(obj)
+            key = mesh_io.writable_key(obj)
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions())
+        except ValueError as cause:
+            raise Refused(obj.name, cause) from cause
+        tasks.append(Task(obj.name, mesh, wires, np.array(obj.matrix_world, dtype=np.float64), key))
+    return tasks
+
+
+def solve(tasks: list[Task], options: CurvesOptions, progress: Progress) -> list[Spanned]:
+    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
+    outcomes = []
+    for k, task in enumerate(tasks):
+        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
+        try:
+            outcomes.append(span_arrays(task.mesh, task.wires, task.matrix, options, part))
+        except REFUSALS as cause:
+            raise Refused(task.object_name, cause) from cause
+    return outcomes
+
+
+class MESH_OT_fair_from_curves(CurvesProperties, Watched, bpy.types.Operator):
+    """Make a fair surface over selected edges without faces: closed curves, or a network of them.
+    Edges marked sharp become creases"""
+
+    bl_idname = "mesh.fair_from_curves"
+    bl_label = "Fair From Curves"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    _tasks: list[Task]
+    _options: CurvesOptions
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Edit mode has edges; while a run is under way, the mesh is its own."""
+        return require_edit_mode(cls, context, NO_WIRE) and require_idle(cls, context)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Lay the options out."""
+        draw_options(self.layout, self, context.object, context.window_manager)
+
+    def _read(self, context: bpy.types.Context) -> bool:
+        self._options = CurvesOptions.of(self)
+        self._tasks = read(context)
+        if not self._tasks:
+            store_refusal(context.window_manager.fairing_report, "", NO_WIRE)
+            last_run.forget()
+            self.report({"ERROR"}, translated(NO_WIRE))
+        return bool(self._tasks)
+
+    def _work(self) -> Work:
+        return partial(solve, self._tasks, self._options)
+
+    def _start_work(self, context: bpy.types.Context) -> set[str]:
+        edges = sum(int(np.count_nonzero(task.wires)) for task in self._tasks)
+        large = (edges / self._options.spacing) ** 2 / 16 >= background_from(context)  # as of a square around them
+        return self._start(context, self._work(), large)
+
+    def _is_current(self, context: bpy.types.Context) -> bool:
+        objects = objects_in_mode(context)
+        return context.mode == "EDIT_MESH" and all(
+            task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
+            for task in self._tasks
+        )
+
+    def _apply(self, context: bpy.types.Context, outcomes: list[Spanned]) -> set[str]:
+        last_run.forget()  # there are no faces to fair again, and no two states to compare
+        compare.forget()
+        clear(context.window_manager.fairing_report)
+        objects = objects_in_mode(context)
+        faces = sum(
+            spanned.add_to_edit_mesh(objects[task.object_name], outcome)
+            for task, outcome in zip(self._tasks, outcomes, strict=True)
+        )
+        cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
+        self.report({"INFO"}, translated(f"{faces} new faces in {cells} cells; {left} openings stay"))
+        return {"FINISHED"}
+
+    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
+        show_vertices(context, refusal.object_name, refusal.elements)
+        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
+        last_run.forget()
+        self.report({"ERROR"}, translated(str(refusal)))
+        return {"CANCELLED"}

@@ -1,0 +1,206 @@
+"""Fair From Curves in Blender: faces over edges that have none, and nothing else about the mesh changes."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Any
+
+import bmesh
+import bpy
+import meshes
+import numpy as np
+import pytest
+
+
+def wired(lines: list[Any], name: str = "Wires") -> bpy.types.Object:
+    """Polylines; points in one place are one vertex."""
+    numbers: dict[tuple[float, ...], int] = {}
+    edges: set[tuple[int, int]] = set()
+    for line in lines:
+        at = [numbers.setdefault(tuple(np.round(point, 6) + 0.0), len(numbers)) for point in line]
+        edges |= {(min(a, b), max(a, b)) for a, b in pairwise(at) if a != b}
+    mesh = bpy.data.meshes.new(name)
+    bm = bmesh.new()
+    vertices = [bm.verts.new(point) for point in numbers]
+    for a, b in sorted(edges):
+        bm.edges.new((vertices[a], vertices[b]))
+    bm.to_mesh(mesh)
+    bm.free()
+    obj = bpy.data.objects.new(name, mesh)
+    bpy.context.collection.objects.link(obj)
+    for other in bpy.context.view_layer.objects:
+        other.select_set(other == obj)
+    bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def circles(count: int = 32) -> list[Any]:
+    angles = 2.0 * np.pi * np.arange(count + 1) / count
+    a, b, nought = np.cos(angles), np.sin(angles), 0.0 * angles
+    return [np.stack(ring, axis=1) for ring in ((a, b, nought), (nought, a, b), (b, nought, a))]
+
+
+def tube(count: int = 32) -> list[Any]:
+    angles = 2.0 * np.pi * np.arange(count + 1) / count
+    rings = [np.stack([np.cos(angles), np.sin(angles), 0.0 * angles + z], axis=1) for z in (0.0, 2.0)]
+    lines = [np.linspace(*(ring[8 * k] for ring in rings), 9) for k in range(4)]
+    return [*rings, *lines]
+
+
+def run(obj: bpy.types.Object, chosen: Any = lambda edge: True, **properties: Any) -> set[str]:
+    """Run it from and to object mode with these edges selected."""
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    try:
+        bm = bmesh.from_edit_mesh(obj.data)
+        for edge in bm.edges:
+            edge.select_set(bool(chosen(edge)))
+        bm.select_flush_mode()
+        bmesh.update_edit_mesh(obj.data)
+        status: set[str] = bpy.ops.mesh.fair_from_curves("EXEC_DEFAULT", True, **properties)
+        return status
+    finally:
+        meshes.leave()
+
+
+def radii(obj: bpy.types.Object) -> Any:
+    return np.linalg.norm(meshes.positions(obj), axis=1)
+
+
+def test_three_circles_become_a_sphere_and_keep_their_bits() -> None:
+    obj = wired(circles())
+    before = meshes.positions(obj)
+    assert run(obj) == {"FINISHED"}
+    after = meshes.positions(obj)
+    assert np.array_equal(after[: len(before)], before) and len(after) > 2 * len(before)
+    assert np.abs(radii(obj) - 1.0).max() < 1e-5
+    with meshes.rebuilt(obj, write=False) as bm:
+        assert all(edge.is_manifold and edge.is_contiguous for edge in bm.edges)
+        assert bm.calc_volume(signed=True) > 4.0  # outwards
+        assert all(face.select and face.smooth for face in bm.faces)
+
+
+def test_a_mirrored_object_is_turned_outwards_too() -> None:
+    obj = wired(circles())
+    obj.scale = (2.0, -2.0, 2.0)
+    assert run(obj) == {"FINISHED"}
+    with meshes.rebuilt(obj, write=False) as bm:
+        assert bm.calc_volume(signed=True) > 4.0
+    assert np.abs(radii(obj) - 1.0).max() < 1e-5
+
+
+def test_openings_stay_or_are_filled() -> None:
+    obj = wired(tube())
+    assert run(obj) == {"FINISHED"}
+    with meshes.rebuilt(obj, write=False) as bm:
+        assert sum(edge.is_boundary for edge in bm.edges) == 64
+    assert np.abs(np.hypot(*meshes.positions(obj)[:, :2].T) - 1.0).max() < 1e-5
+    closed = wired(tube())
+    assert run(closed, fill_openings=True) == {"FINISHED"}
+    with meshes.rebuilt(closed, write=False) as bm:
+        assert all(edge.is_manifold for edge in bm.edges)
+        assert bm.calc_volume() == pytest.approx(2.0 * np.pi, rel=0.02)
+
+
+def test_spacing_and_quads() -> None:
+    plain, fine, quads = (wired(circles()) for _ in range(3))
+    run(plain)
+    run(fine, spacing=0.5)
+    run(quads, quads=True)
+    assert len(fine.data.polygons) > 2 * len(plain.data.polygons)
+    assert len(quads.data.polygons) < 0.6 * len(plain.data.polygons)
+    assert np.abs(radii(quads) - 1.0).max() < 1e-5
+
+
+def test_edges_marked_sharp_are_creases() -> None:
+    """A roof of two planes."""
+    ridge = [(0.0, 0.25 * k, 1.0) for k in range(9)]
+    lines: list[Any] = [ridge]
+    for side in (-1.0, 1.0):
+        eaves = [(side, 0.25 * k, 0.0) for k in range(9)]
+        lines += [eaves, *(np.linspace(ridge[k], eaves[k], 6) for k in (0, 8))]
+    obj = wired(lines)
+    for edge in obj.data.edges:
+        edge.use_edge_sharp = all(obj.data.vertices[v].co.z > 0.999 for v in edge.vertices)
+    assert run(obj) == {"FINISHED"}
+    x, _, z = meshes.positions(obj).T
+    assert np.abs(z - 1.0 + np.abs(x)).max() < 1e-5
+
+
+def test_what_belongs_to_vertices_is_carried_over() -> None:
+    obj = wired(circles())
+    group = obj.vertex_groups.new(name="Half")
+    for vertex in obj.data.vertices:
+        group.add([vertex.index], 0.5 + 0.4 * vertex.co.x, "REPLACE")
+    obj.data.materials.append(bpy.data.materials.new("First"))
+    obj.data.materials.append(bpy.data.materials.new("Second"))
+    obj.active_material_index = 1
+    obj.shape_key_add(name="Basis")
+    obj.shape_key_add(name="Up").data.foreach_set("co", (meshes.positions(obj) + np.array([0.0, 0.0, 1.0])).ravel())
+    assert run(obj) == {"FINISHED"}
+    weights = [vertex.groups[0].weight for vertex in obj.data.vertices]
+    assert np.corrcoef(weights, meshes.positions(obj)[:, 0])[0, 1] > 0.98
+    assert {polygon.material_index for polygon in obj.data.polygons} == {1}
+    up = np.empty(3 * len(obj.data.vertices), dtype=np.float32)
+    obj.data.shape_keys.key_blocks["Up"].data.foreach_get("co", up)
+    assert up.reshape(-1, 3) - meshes.positions(obj) == pytest.approx(np.tile([0.0, 0.0, 1.0], (len(up) // 3, 1)))
+
+
+def test_faces_beside_and_wires_that_are_not_selected_stay() -> None:
+    obj = wired([*circles(), [(3.0, 0.0, 0.0), (4.0, 0.0, 0.0)]])
+    with meshes.rebuilt(obj) as bm:
+        bm.faces.new([bm.verts.new(p) for p in ((5.0, 0.0, 0.0), (6.0, 0.0, 0.0), (5.0, 1.0, 0.0))])
+    assert run(obj, lambda edge: all(v.co.x < 2.0 for v in edge.verts) or edge.verts[0].co.x > 4.5) == {"FINISHED"}
+    with meshes.rebuilt(obj, write=False) as bm:
+        assert sum(edge.is_wire for edge in bm.edges) == 1
+        assert sum(face.calc_center_median().x > 4.0 for face in bm.faces) == 1
+
+
+@pytest.mark.parametrize("wrong", ["no edge", "open end", "not finite", "crossing", "locked key", "too fine"])
+def test_what_can_not_be_done_is_refused_and_leaves_the_mesh(wrong: str) -> None:
+    lines = circles()
+    if wrong == "open end":
+        lines.append([(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)])
+    elif wrong == "crossing":
+        lines += [np.array([[x, 0.0, z] for x, z in ((-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3))])]
+        lines += [np.array([[0.0, y, z] for y, z in ((-4, 3), (4, 3), (4, 5), (-4, 3))])]
+    obj = wired(lines)
+    if wrong == "not finite":
+        obj.data.vertices[7].co.x = float("nan")
+    elif wrong == "locked key":
+        obj.shape_key_add(name="Basis")
+        obj.shape_key_add(name="Smile").lock_shape = True
+        obj.active_shape_key_index = 1
+    with pytest.raises(RuntimeError, match="No edge"):  # once through edit mode
+        run(obj, lambda edge: False)
+    before = {name: value for name, value in meshes.contents(obj).items() if "select" not in name}
+    said = {
+        "no edge": "No edge without a face", "open end": "A curve of edges ends", "not finite": "NaN",
+        "crossing": "Edges cross", "locked key": "locked", "too fine": "Vertex Limit",
+    }  # fmt: skip
+    with pytest.raises(RuntimeError, match=said[wrong]):
+        run(obj, lambda edge: wrong != "no edge", max_vertices=10 if wrong == "too fine" else 0)
+    after = {name: value for name, value in meshes.contents(obj).items() if "select" not in name}
+    assert after == before
+
+
+def test_an_open_end_is_shown() -> None:
+    obj = wired([*circles(), [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]])
+    with pytest.raises(RuntimeError, match="A curve of edges ends"):
+        run(obj)
+    assert [vertex.co.x for vertex in obj.data.vertices if vertex.select] == [2.0]
+
+
+def test_one_step_of_undo_takes_it_back() -> None:
+    obj = wired(circles())
+    bpy.context.preferences.edit.use_global_undo = True
+    name, before = obj.name, meshes.positions(obj)
+    meshes.enter(obj, np.zeros(0, dtype=bool))
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.ed.undo_push(message="before")
+    assert bpy.ops.mesh.fair_from_curves("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    meshes.leave()
+    obj = bpy.data.objects[name]
+    assert not len(obj.data.polygons)
+    assert np.array_equal(meshes.positions(obj), before)

@@ -1,0 +1,86 @@
+"""*Position Group*: parts of the selection's boundary whose position alone is kept."""
+
+from __future__ import annotations
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import inspect
+
+SLOPE = 0.5  # of the faces beyond the left side: about 27°
+
+
+def put(obj: bpy.types.Object, vertices: meshes.Mask, weight: float = 1.0) -> None:
+    """Make the vertices the group *Loose*."""
+    obj.vertex_groups.new(name="Loose").add(np.flatnonzero(vertices).tolist(), weight, "REPLACE")
+
+
+def sloping_plate() -> tuple[bpy.types.Object, meshes.Mask, meshes.Mask]:
+    """A flat square that bends down along its left side, where the selection ends, its free vertices rough; the
+    selection's faces; the vertices near enough to that side for the bend to count in the slopes there."""
+    obj = meshes.grid(16)
+    points = meshes.positions(obj)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
+    free = meshes.free_vertices(obj, faces)
+    left = points[free][:, 0].min() - 0.125
+    points[:, 2] = np.minimum(SLOPE * (points[:, 0] - left), 0.0)
+    points[free, 2] = 0.05 * np.random.default_rng(1).normal(size=free.sum())
+    meshes.move(obj, points)
+    return obj, faces, points[:, 0] < left + 0.3
+
+
+def test_the_slope_is_found_along_the_group_and_met_elsewhere() -> None:
+    """The plate goes on flat, with a bend at that side which was asked for; without the group it swells."""
+    obj, faces, side = sloping_plate()
+    free = meshes.free_vertices(obj, faces)
+    put(obj, side)
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert np.abs(meshes.positions(obj)[free, 2]).max() > 0.02
+    obj, faces, side = sloping_plate()
+    put(obj, side)
+    assert meshes.fair(obj, faces, position_group="Loose") == {"FINISHED"}
+    assert np.abs(meshes.positions(obj)[free, 2]).max() < 1e-5
+    assert (meshes.report().verdict, meshes.report().reason) == ("GOOD", "")
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6])
+def test_a_ball_comes_back_from_what_is_met(share: float) -> None:
+    """Its boundary runs in steps across the quads."""
+    obj = meshes.sphere(48)
+    faces = meshes.faces_where(obj, lambda c: c.z + 0.4 * c.x > 0.3)
+    free = meshes.free_vertices(obj, faces)
+    points = meshes.positions(obj)
+    put(obj, points[:, 1] < np.quantile(points[free, 1], share))
+    points[free] *= 1.0 + 0.1 * np.random.default_rng(2).random((free.sum(), 1))
+    meshes.move(obj, points)
+    assert meshes.fair(obj, faces, position_group="Loose") == {"FINISHED"}
+    assert np.abs(np.linalg.norm(meshes.positions(obj)[free], axis=1) - 1.0).max() < 1e-3
+
+
+def test_all_of_the_boundary_is_a_position_for_all() -> None:
+    """A soap film, but for how its first row is measured where normals are given that count for nothing."""
+    found = []
+    for options in ({"position_group": "Loose"}, {"continuity": "G0"}, {}):
+        obj, faces = meshes.domed_grid()
+        put(obj, np.ones(len(obj.data.vertices), dtype=bool))
+        assert meshes.fair(obj, faces, **options) == {"FINISHED"}
+        found.append(meshes.positions(obj))
+    assert 10 * np.abs(found[0] - found[1]).max() < np.abs(found[0] - found[2]).max()
+
+
+@pytest.mark.parametrize("weight", [0.0, 1.0])
+def test_a_group_without_boundary_vertices_says_so(weight: float) -> None:
+    obj, faces = meshes.domed_grid()
+    free = meshes.free_vertices(obj, faces)
+    put(obj, np.ones_like(free) if weight == 0.0 else free, weight)
+    notes = inspect(obj, faces, position_group="Loose").notes
+    assert any("frees nothing" in note for note in notes)
+
+
+def test_a_missing_group_is_refused_and_nothing_changes() -> None:
+    obj, faces = meshes.domed_grid()
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match="Missing"):
+        meshes.fair(obj, faces, position_group="Missing")
+    assert meshes.contents(obj) == before

@@ -1,0 +1,214 @@
+"""Surfaces over wires: closed loops of edges without faces, and networks of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+import wire_networks as networks
+
+
+def whole(points: networks.Floats, result: fairing.FromCurvesResult) -> networks.Floats:
+    return np.concatenate([points, result.vertices])
+
+
+def tube(rings: int, lines: int) -> networks.Wires:
+    return networks.revolved(lambda s: (1.0, 2.0 * s), np.linspace(0.0, 1.0, rings), lines, steps=16)
+
+
+def plane(u: float, v: float) -> list[float]:
+    return [3.0 * u + 0.2 * np.sin(3.0 * v), 2.0 * v + 0.3 * np.sin(2.0 * u), 0.0]
+
+
+def ring(height: float, count: int = 48) -> networks.Wires:
+    angles = 2.0 * np.pi * np.arange(count) / count
+    points = np.stack([np.cos(angles), np.sin(angles), height * np.cos(2.0 * angles)], axis=1)
+    return points, np.column_stack([np.arange(count), (np.arange(count) + 1) % count])
+
+
+def joined(*parts: networks.Wires) -> networks.Wires:
+    """Several wirings, side by side as they lie."""
+    starts = np.cumsum([0] + [len(points) for points, _ in parts[:-1]])
+    edges = [edges + start for (_, edges), start in zip(parts, starts, strict=True)]
+    return np.concatenate([points for points, _ in parts]), np.concatenate(edges).astype(np.int32)
+
+
+def test_three_circles_are_a_sphere() -> None:
+    points, wires = networks.circles([1.0, 1.0, 1.0])
+    result = fairing.surface_from_curves(points, wires)
+    assert result.converged and result.equation == "least_variation"
+    assert len(result.cells) == 8 and not result.left_open
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1.0).max() < 1e-9
+    at = whole(points, result)[result.triangles]
+    volume = np.einsum("ij,ij->i", at[:, 0], np.cross(at[:, 1], at[:, 2])).sum() / 6.0
+    assert 4.0 < volume < 4.0 / 3.0 * np.pi  # outwards, all around
+    assert np.isclose(np.unique(result.cell, return_counts=True)[1], len(at) / 8, rtol=0.1).all()
+    octant = np.sign(at.mean(axis=1))
+    for k in range(8):
+        assert len(np.unique(octant[result.cell == k], axis=0)) == 1
+
+
+def test_the_surface_turns_and_grows_with_its_wires() -> None:
+    points, wires = networks.hull(6.0, 1.0, 1.0, 0.2)
+    turn = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    one = fairing.surface_from_curves(points, wires)
+    moved = 100.0 * points @ turn.T + [500.0, -200.0, 30.0]
+    other = fairing.surface_from_curves(moved, wires)
+    assert one.converged and other.converged
+    there = (whole(moved, other) - [500.0, -200.0, 30.0]) @ turn / 100.0
+    away = fairing.deviation(there, whole(points, one), one.triangles)
+    assert np.abs(away[np.unique(other.triangles)]).max() < 0.02  # meshes differ where a choice is a tie
+
+
+def test_a_flat_net_is_flat_and_its_outside_stays_open() -> None:
+    points, wires = networks.net(plane, 3, 2)
+    result = fairing.surface_from_curves(points, wires)
+    assert result.converged and len(result.cells) == 6
+    assert np.abs(result.vertices[:, 2]).max() < 1e-12
+    assert [len(loop) for loop in result.left_open] == [80]
+
+
+@pytest.mark.parametrize(("rings", "lines"), [(3, 4), (2, 2)])
+def test_circles_and_lines_are_a_cylinder_that_is_open(rings: int, lines: int) -> None:
+    points, wires = tube(rings, lines)
+    result = fairing.surface_from_curves(points, wires)
+    assert result.converged and len(result.cells) == (rings - 1) * lines and len(result.left_open) == 2
+    assert np.abs(np.hypot(*result.vertices[:, :2].T) - 1.0).max() < 1e-9
+
+
+def test_closed_gives_an_opening_its_surface() -> None:
+    points, wires = tube(2, 4)
+    result = fairing.surface_from_curves(points, wires, closed=True)
+    assert result.converged and len(result.cells) == 6 and not result.left_open
+    lids = [k for k, loop in enumerate(result.cells) if np.ptp(points[loop][:, 2]) < 1e-9]
+    assert len(lids) == 2
+    for lid in lids:
+        heights = whole(points, result)[np.unique(result.triangles[result.cell == lid]), 2]
+        assert np.ptp(heights) < 1e-9 and np.count_nonzero(result.cell == lid) > 100
+    walls = np.unique(result.triangles[~np.isin(result.cell, lids)])
+    assert np.abs(np.hypot(*whole(points, result)[walls, :2].T) - 1.0).max() < 1e-9
+    sheet = fairing.surface_from_curves(*networks.net(plane, 3, 2), closed=True)
+    assert len(sheet.cells) == 6 and len(sheet.left_open) == 1
+
+
+def test_a_lone_loop_bounds_a_soap_film() -> None:
+    points, wires = ring(0.3)
+    result = fairing.surface_from_curves(points, wires)
+    assert result.converged and result.equation == "minimal" and len(result.cells) == 1
+    assert np.abs(result.mean_curvature).max() < 1e-2
+    flat = fairing.surface_from_curves(*ring(0.0))
+    assert flat.converged and np.abs(flat.vertices[:, 2]).max() < 1e-12
+
+
+def test_wires_apart_have_surfaces_of_their_own() -> None:
+    sphere, loop = networks.circles([1.0, 1.0, 1.0]), ring(0.0)
+    points, wires = joined(sphere, (loop[0] + [4.0, 0.0, 0.0], loop[1]))
+    result = fairing.surface_from_curves(points, wires)
+    assert result.converged and len(result.cells) == 9
+    there = result.vertices[result.vertices[:, 0] < 2.0]
+    assert np.abs(np.linalg.norm(there, axis=1) - 1.0).max() < 1e-9
+    assert np.abs(result.vertices[result.vertices[:, 0] > 2.0, 2]).max() < 1e-12
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 3])
+def test_all_cells_are_wound_alike_and_wires_are_edges(seed: int) -> None:
+    _, (points, wires) = networks.random(seed)
+    result = fairing.surface_from_curves(points, wires)
+    assert result.converged
+    sides = result.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    assert len(np.unique(sides, axis=0)) == len(sides)
+    edges = {tuple(edge) for edge in np.sort(sides, axis=1).tolist()}
+    assert {tuple(edge) for edge in np.sort(wires, axis=1).tolist()} <= edges
+    assert not len(fairing.self_intersections(whole(points, result), result.triangles))
+    for k, loop in enumerate(result.cells):  # bounds the triangles of its cell, on its left
+        (found,) = fairing.boundary_loops(result.triangles[result.cell == k])
+        assert set(zip(found, np.roll(found, -1), strict=True)) == set(zip(loop, np.roll(loop, -1), strict=True))
+
+
+def test_no_kink_at_a_wire_inside_but_at_a_crease() -> None:
+    """A roof: over its ridge the surface bends only where the ridge is a crease."""
+
+    def roof(u: float, v: float) -> list[float]:
+        return [2.0 * u - 1.0, 2.0 * v - 1.0, -abs(2.0 * u - 1.0)]
+
+    points, wires = networks.net(roof, 2, 2)
+    ridge = wires[(points[wires][:, :, 0] == 0.0).all(axis=1)]
+    sharp = fairing.surface_from_curves(points, wires, creases=ridge)
+    assert sharp.converged
+    assert np.abs(sharp.vertices[:, 2] + np.abs(sharp.vertices[:, 0])).max() < 1e-9
+    smooth = fairing.surface_from_curves(points, wires)
+    assert np.abs(smooth.vertices[:, 2] + np.abs(smooth.vertices[:, 0])).max() > 1e-2
+
+
+def test_spacing_and_its_limit() -> None:
+    points, wires = networks.circles([1.0, 1.0, 1.0])
+    coarse, fine = (fairing.surface_from_curves(points, wires, spacing=s) for s in (0.3, 0.05))
+    assert len(fine.triangles) > 3 * len(coarse.triangles)
+    assert max(np.abs(np.linalg.norm(each.vertices, axis=1) - 1.0).max() for each in (coarse, fine)) < 1e-9
+    with pytest.raises(fairing.MeshError, match="OUT_OF_PROPORTION"):
+        fairing.surface_from_curves(points, wires, spacing=0.05, max_vertices=100)
+
+
+def test_a_cage_of_few_edges() -> None:
+    """A cube's twelve edges, which has no smooth surface at its corners, still has one."""
+    corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    wires = [(a, b) for a in range(8) for b in range(a) if np.abs(corners[a] - corners[b]).sum() == 1.0]
+    result = fairing.surface_from_curves(corners, wires, creases=wires)
+    assert result.converged and len(result.cells) == 6
+    at = whole(corners, result)[result.triangles]
+    normals = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
+    assert np.einsum("ij,ij->i", at[:, 0] - 0.5, normals).sum() > 0.0
+    assert np.isclose(np.linalg.norm(normals, axis=1).sum() / 2.0, 6.0)
+
+
+def refused(code: str, points: networks.Floats, wires: object, **options: object) -> list[int]:
+    before = points.copy()
+    with pytest.raises(fairing.MeshError) as reported:
+        fairing.surface_from_curves(points, wires, **options)  # type: ignore[arg-type]
+    assert reported.value.code == code
+    assert (points == before).all() or np.isnan(before).any()
+    return reported.value.elements.tolist()
+
+
+def test_what_is_refused() -> None:
+    points, wires = tube(2, 4)
+    assert refused("NO_CELL", points, np.empty((0, 2), np.int32)) == []
+    (ring_edge,) = np.flatnonzero((wires == [1, 2]).all(axis=1))  # neither meets a line
+    assert refused("WIRES_END", points, np.delete(wires, ring_edge, axis=0)) == [1, 2]
+    broken = points.copy()
+    broken[7] = np.nan
+    assert refused("NONFINITE", broken, wires) == [7]
+    assert refused("INDEX_RANGE", points, [[0, len(points)]]) == [len(points)]
+    square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    around = [[0, 1], [1, 2], [2, 3], [3, 0]]
+    assert refused("WIRES_CROSS", square[[0, 2, 1, 3]], around) == [0, 1, 2, 3]
+    doubled = joined((square, np.array(around)), (square + np.array([1.0, 0.0, 0.0]), np.array(around)))
+    assert refused("WIRES_CROSS", *doubled) == [1, 2, 4, 7]
+
+
+def test_wires_that_tell_no_cells() -> None:
+    one, other = ring(0.0), ring(0.0)
+    points, wires = joined(one, (other[0] + [0.0, 0.0, 2.0], other[1]))
+    assert refused("NO_CELL", points, np.concatenate([wires, [[0, 48]]])) == [0, 48]  # one line between two rings
+    arcs = np.linspace(0.0, np.pi, 9)
+    drawing = networks.Drawing()
+    for turn in np.radians([0.0, 2.0, 180.0]):  # the first two leave the poles in nearly one direction
+        drawing.line([[np.sin(a) * np.cos(turn), np.sin(a) * np.sin(turn), np.cos(a)] for a in arcs])
+    assert len(refused("UNCLEAR_CELLS", *drawing.wires)) == 1
+
+
+def test_wrong_arguments() -> None:
+    points, wires = ring(0.0)
+    for message, options in (
+        ("closed: True or False", {"closed": "yes"}),
+        ("creases: some of them", {"creases": [[0, 2]]}),
+        ("spacing: a length", {"spacing": -1.0}),
+    ):
+        with pytest.raises(ValueError, match=message):
+            fairing.surface_from_curves(points, wires, **options)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="edges: row 0 joins a vertex to itself"):
+        fairing.surface_from_curves(points, [[3, 3]])
+    with pytest.raises(fairing.Cancelled):
+        fairing.surface_from_curves(points, wires, progress=lambda share, stage: False)
