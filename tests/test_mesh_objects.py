@@ -43,6 +43,23 @@ def holed() -> Arrays:
     return points, split(quads[~((row >= 6) & (row < 9) & (column >= 4) & (column < 7))])
 
 
+def test_new_quads_are_faces_of_four_corners() -> None:
+    """Those of a tube of quads go on in a hole; libraries that hold triangles alone get two of each."""
+    points, quads = tube()
+    row, column = np.divmod(np.arange(len(quads)), COLUMNS)
+    hole = (row >= 6) & (row < 9) & (column >= 4) & (column < 8)
+    mesh, result = fairing.fill_holes((points, quads[~hole]), longest=20, faces="quads")
+    assert mesh[1].shape == quads.shape
+    assert result.quads is not None and len(result.quads.quads) == hole.sum()
+    assert abs(radius(mesh[0]) - 1).max() < 1e-2
+    trimesh = pytest.importorskip("trimesh")
+    halves = trimesh.Trimesh(
+        points, split(quads[~hole]), process=False, face_attributes={"on": np.ones(2 * (~hole).sum())}
+    )
+    mesh, _ = fairing.fill_holes(halves, longest=20, faces="quads")
+    assert len(mesh.faces) == len(mesh.face_attributes["on"]) == 2 * len(quads)
+
+
 def radius(points: Any) -> np.ndarray:
     return np.linalg.norm(np.asarray(points)[:, :2], axis=1)
 

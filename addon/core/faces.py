@@ -32,6 +32,24 @@ def paired_faces(points: Floats, triangles: Ints, kept: Ints, kinds: Ints) -> Fa
     quad together.
     """
     found = fairing.paired_quads(points, triangles, np.concatenate([kept, _borders(triangles, kinds)]))
+    return _faces(triangles, found)
+
+
+def faces_in_rows(triangles: Ints, pairs: Ints, kept: Ints) -> Faces:
+    """Return quads of known pairs (q, 2), but the halves of those that run across the (e, 2) edges `kept`."""
+    first, second = triangles[pairs[:, 0]], triangles[pairs[:, 1]]
+    alone = (first[:, :, None] == second[:, None, :]).any(axis=2).argmin(axis=1)
+    other = (second[:, :, None] == first[:, None, :]).any(axis=2).argmin(axis=1)
+    row = np.arange(len(first))
+    around = [first[row, alone], first[row, (alone + 1) % 3], second[row, other], first[row, (alone + 2) % 3]]
+    corners = np.stack(around, axis=1).astype(np.int64).reshape(-1, 4)
+    diagonals = {(a, b) for a, b in np.sort(kept, axis=1).tolist()}
+    whole = np.array([tuple(sorted((b, d))) not in diagonals for _, b, _, d in corners.tolist()], dtype=bool)
+    rest = np.setdiff1d(np.arange(len(triangles)), pairs[whole])
+    return _faces(triangles, fairing.PairedQuads(corners[whole], triangles[rest], pairs[whole], rest))
+
+
+def _faces(triangles: Ints, found: fairing.PairedQuads) -> Faces:
     first, second = found.pairs.T
     beneath = np.stack([first, first, second, first], axis=1)
     place = (triangles[beneath] == found.quads[:, :, None]).argmax(axis=2)

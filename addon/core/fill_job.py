@@ -32,7 +32,9 @@ from .verdict import UNUSABLE, Verdict
 _TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
 _TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
 _SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
-_TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE")
+_SINGLE = 4  # edges of those that one face closes
+_TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE", "NO_QUAD_ROWS")
+_NO_ROWS_MIRRORED = "The quads are in no rows: X mirror is on"
 
 
 @dataclass(frozen=True)
@@ -70,6 +72,7 @@ class Job:
             around=_keyed_from(local.vertices, local.around, half.chain, self.matrix),
             quads=self.options.quads,
             limit_total=self.options.limit_total,
+            notes=(_NO_ROWS_MIRRORED,) if self.options.quads else (),
             on_plane=found.on_plane,
         )
 
@@ -110,6 +113,7 @@ class Job:
             around=_keyed_from(local.vertices, local.around, loop, self.matrix),
             quads=self.options.quads,
             limit_total=self.options.limit_total,
+            notes=(_NO_ROWS_MIRRORED,) if self.options.quads else (),
         )
 
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
@@ -117,13 +121,14 @@ class Job:
         outline = np.concatenate(loops)
         local = self.local(outline, self._drawn(outline))
         with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
-            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1)
+            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1, self.options.quads)
         return self._made(local, loops, result)
 
     def small(self, groups: list[list[Ints]]) -> dict[int, Piece]:
         """Make those over small loops in one call, by the groups' numbers; none where anything is wrong with one."""
         loops = {k: group[0] for k, group in enumerate(groups) if len(group) == 1}
-        few = [k for k, loop in loops.items() if len(loop) <= _SMALL and len(np.unique(loop)) == len(loop)]
+        most = _SINGLE if self.options.quads else _SMALL
+        few = [k for k, loop in loops.items() if len(loop) <= most and len(np.unique(loop)) == len(loop)]
         few = [k for k in few if not len(self._drawn(loops[k]))]
         if self.options.bridge or self.options.spacing != 1.0 or len(few) < 2:
             return {}
@@ -153,7 +158,7 @@ class Job:
         return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
 
     def filled(
-        self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool = False
+        self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool = False, quads: bool = False
     ) -> fairing.FillResult:
         options = self.options
         surface = fairing.Surface(options.equation.lower(), continuity="G2" if options.joins_curvature else "G1")
@@ -161,7 +166,8 @@ class Job:
             self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
             fairing.Options(surface), bridge=bridge,
             spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
-            max_vertices=options.max_vertices, edges=options.hard_edges.lower(), wires=local.drawn,
+            faces="quads" if quads else "triangles", max_vertices=options.max_vertices,
+            edges=options.hard_edges.lower(), wires=local.drawn,
             marked=within(marked_edges(self.world), local.vertices), progress=progress,
         )  # fmt: skip
 
@@ -189,6 +195,7 @@ class Job:
             join=join,
             around=_keyed_from(vertices, around, outline, self.matrix),
             quads=self.options.quads,
+            rows=self.options.quads and not any(warning.code == "NO_QUAD_ROWS" for warning in result.warnings),
             limit_total=self.options.limit_total,
             notes=_notes(result, slopes, local.origin),
             across=across,

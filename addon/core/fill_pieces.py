@@ -14,7 +14,7 @@ from .across import Across
 from .arrays import Floats, Ints
 from .border import Left
 from .checked import refuse_negative, refuse_other_kinds
-from .faces import Faces, faces_of, paired_faces
+from .faces import Faces, faces_in_rows, faces_of, paired_faces
 from .fill_options import FILL, FILL_EQUATIONS
 from .harmonic import carried_over_half, harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
@@ -43,7 +43,7 @@ class FillOptions:
     spacing: float = 1.0  # of new edges, as a factor of the boundary's
     inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
     subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as new ones
-    quads: bool = False  # triangles are written in pairs, as far as they can be
+    quads: bool = False  # faces are quads, in rows where a pattern fits
     longest: int = 0  # edges: longer borders stay open; 0: any number
     longest_length: float = 0.0  # likewise by their lengths in world space
     max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
@@ -97,20 +97,23 @@ class Piece:
     result: fairing.FillResult
     join: Join
     around: Surroundings
-    quads: bool = False  # whether triangles are written in pairs
+    quads: bool = False  # whether faces are quads
+    rows: bool = False  # whether these are in rows: those of the result
     limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
     on_plane: Ints = field(default_factory=nothing)  # points that close a boundary which is a chain: see core.halves
     across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
-        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired.
+        """Return what is written; kinds: (m,) of the triangles, of which only those of one kind are paired in no rows.
 
         lines: (l, 2) edges that no quad runs across.
         """
         closes_at_once = not len(self.positions) and len(self.triangles) == 2
         if not (self.quads or closes_at_once):
             return faces_of(self.triangles)
+        if self.rows and self.result.quads is not None:
+            return faces_in_rows(self.triangles, self.result.quads.pairs.astype(np.int64), lines)
         return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
     @property

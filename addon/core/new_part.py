@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -36,6 +36,11 @@ class Stencil:
         return found
 
 
+def no_pairs() -> Ints:
+    """Return none."""
+    return np.empty((0, 2), dtype=np.int64)
+
+
 @dataclass(frozen=True)
 class NewPart:
     """Faces between r vertices of the mesh and k new ones, in this order; all other indices are those of the mesh."""
@@ -50,6 +55,7 @@ class NewPart:
     faces: Ints  # (m,) each takes its material from
     gone_faces: Ints
     gone_vertices: Ints
+    pairs: Ints = field(default_factory=no_pairs)  # (q, 2) triangles that are the halves of a quad in a row
 
 
 def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, lines: Mask) -> NewPart:
@@ -58,7 +64,7 @@ def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, l
     mesh: as it was solved, a mirrored one wound the other way round.
     """
     patch = problem.patch
-    triangles, gone = _replaced(patch, result)
+    triangles, gone, rows = _replaced(patch, result)
     count = len(patch.vertices)
     held = np.unique(triangles[triangles < count])
     moving = np.isin(held, problem.curve)
@@ -86,11 +92,23 @@ def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, l
         faces=_face_sources(patch, numbered, len(stay), places[0]),
         gone_faces=gone,
         gone_vertices=patch.vertices[np.setdiff1d(patch.free, stay)],
+        pairs=_pairs_in_rows(result, rows),
     )
 
 
-def _replaced(patch: Patch, result: fairing.RemeshResult) -> tuple[Ints, Ints]:
-    """Return the triangles that are new (m, 3), and the faces that go."""
+def _pairs_in_rows(result: fairing.RemeshResult, rows: Ints) -> Ints:
+    """Return (q, 2): the quads that the result has in rows, as pairs of the triangles that are new; rows: of these."""
+    if result.quads is None or any(warning.code == "NO_QUAD_ROWS" for warning in result.warnings):
+        return no_pairs()
+    number = np.full(len(result.triangles), -1, dtype=np.int64)
+    number[rows] = np.arange(len(rows))
+    pairs = number[result.quads.pairs]
+    whole: Ints = pairs[(pairs >= 0).all(axis=1)]
+    return whole
+
+
+def _replaced(patch: Patch, result: fairing.RemeshResult) -> tuple[Ints, Ints, Ints]:
+    """Return the triangles that are new (m, 3), the faces that go, and the rows of the result that are new."""
     stays = fairing.components(patch.triangles, fixed=patch.fixed) < 0
     kept = np.flatnonzero(stays & (not stays.all()))  # without any free vertex all of them go
     gone = np.setdiff1d(patch.faces, patch.faces[kept])
@@ -104,7 +122,7 @@ def _replaced(patch: Patch, result: fairing.RemeshResult) -> tuple[Ints, Ints]:
     whole = _faces_that_stay(patch, named, gone)
     sorted_new = [tuple(corners) for corners in np.sort(named, axis=1).tolist()]
     keep = np.array([corners not in whole for corners in sorted_new], dtype=bool)
-    return triangles[keep], np.setdiff1d(gone, list(whole.values()))
+    return triangles[keep], np.setdiff1d(gone, list(whole.values())), rows[keep]
 
 
 def _in_old_numbers(patch: Patch, result: fairing.RemeshResult) -> Ints:

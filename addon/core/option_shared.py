@@ -55,7 +55,8 @@ def of_new_mesh(shown: Callable[[Any], bool]) -> Table:
         Option(
             "quads",
             "Quads",
-            "Pairs of triangles become quads as far as possible, none across a border of materials or face sets",
+            "Quads in rows that continue the boundary's loops, with edges as long as its own. Where no pattern fits, "
+            "pairs of triangles, none across a border of materials or face sets",
             False,
             VERTICES,
             shown=shown,

@@ -12,7 +12,7 @@ from . import quality
 from .arrays import Floats, Ints
 from .engine import Problem, Progress
 from .evidence import Evidence
-from .faces import Faces, faces_of, paired_faces
+from .faces import Faces, faces_in_rows, faces_of, paired_faces
 from .findings import Origin
 from .lines import inner_curves, inner_lines
 from .lost import sunken
@@ -40,15 +40,17 @@ class Remeshed(Fairing):
     part: NewPart
     new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
-    quads: bool  # whether triangles are written in pairs
+    quads: bool  # whether faces are quads
     limit_total: int  # as FairOptions has it
     parted: Subdivided | None = None  # the mesh whose numbers these are; None: as it was read
     unselected: int = 0  # faces at the beginning that are not to be selected
 
     def faces(self, kinds: Ints) -> Faces:
-        """Return what is written; kinds: (m,) of the triangles, only those of one kind are paired."""
+        """Return what is written; kinds: (m,) of the triangles: quads in rows have one kind, and each pair has."""
         if not self.quads:
             return faces_of(self.part.triangles)
+        if len(self.part.pairs) and (kinds == kinds[:1]).all():
+            return faces_in_rows(self.part.triangles, self.part.pairs, self.part.lines)
         return paired_faces(self.points, self.part.triangles, self.part.lines, kinds)
 
 
@@ -190,7 +192,7 @@ def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progre
         return fairing.remesh(
             problem.posed[: len(patch.vertices)], patch.triangles, boundary, fairing.Options.of(**arguments),
             kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(),
-            max_vertices=options.max_vertices, progress=progress,
+            faces="quads" if options.quads else "triangles", max_vertices=options.max_vertices, progress=progress,
         )  # fmt: skip
 
 

@@ -127,6 +127,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "two vertices, F) where they are to run"
         ),
     ),
+    "NO_QUAD_ROWS": (
+        Words("The quads are in no rows: edges that stay run through them", when="curves"),
+        Words("The quads are in no rows: more than two boundary loops are joined", when="several"),
+        Words("The quads are in no rows: no pattern of them fits the corners of the boundary"),
+    ),
     "OUT_OF_PROPORTION": (
         Words(
             "The surface would take about {count:,.0f} new vertices, and {limit:,.0f} are accepted: raise Spacing, or "

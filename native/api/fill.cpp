@@ -6,10 +6,9 @@
 #include <set>
 
 #include "accept/accept.h"
-#include "api/component.h"
+#include "api/old_surface.h"
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "boundary/surrounding_fit.h"
 #include "fill/equal_edge_mesh.h"
 #include "fill/first_surface.h"
 #include "mesh/pieces.h"
@@ -79,38 +78,6 @@ private:
     std::vector<Eigen::Vector3i> triangles_;
 };
 
-// The patch of one component with the surface on it, in units of D.
-struct OldSurface {
-    OldSurface(const MeshInput& input, const CheckedMesh& mesh, const Patch& component)
-        : patch(component),
-          unit(normalise(gather(input.vertices, fixed_vertices(component)))),
-          points(unit.to_unit(gather(input.vertices, component.to_input))) {
-        FaceGeometry faces;
-        faces.update(points, patch.triangles);
-        normals = vertex_normals(patch, points, faces, mesh.normals.gather(fixed_vertices(patch)), NormalKind::fitted);
-        fit_at_creases(mesh.roles.free_slope);
-    }
-
-    // At creases the normals are those of the patch's own side.
-    void fit_at_creases(const std::vector<char>& free_slope) {
-        Indices creases;
-        for (int v = 0; v < patch.vertex_count(); ++v) {
-            if (free_slope[patch.to_input[v]]) creases.push_back(v);
-        }
-        if (!creases.empty())
-            normals(Eigen::all, creases) = surrounding_normals(points, patch.triangles, creases).normals;
-    }
-
-    [[nodiscard]] VectorX lengths(const WantedLengths& wanted, const KeptEdges& kept = {}) const {
-        return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count, wanted.spread}, kept);
-    }
-
-    const Patch& patch;
-    Normalisation unit;
-    Points points;
-    Points normals;
-};
-
 using EdgeSet = std::set<std::array<int, 2>>;
 
 EdgeSet sorted_pairs(const VertexPairs& pairs) {
@@ -127,13 +94,6 @@ KeptEdges edges_among(const Patch& patch, const EdgeSet& pairs) {
         kept.push_back(pairs.contains({low, high}) ? 1 : 0);
     }
     return kept;
-}
-
-std::vector<Patch> patches_of(const CheckedMesh& mesh) {
-    std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
-    std::erase_if(patches, [](const Patch& patch) { return patch.free_count == patch.vertex_count(); });
-    if (!patches.empty()) return patches;
-    throw MeshError({Code::no_free_vertices, "there is no vertex that may move, or none that holds them", {}, {}, {}});
 }
 
 }  // namespace
@@ -172,7 +132,7 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
     const CheckedMesh mesh = check_mesh(input);
-    const std::vector<Patch> patches = patches_of(mesh);
+    const std::vector<Patch> patches = patches_with_vertices(mesh);
     Assembly assembly(static_cast<int>(input.vertices.cols()));
     std::vector<char> replaced(static_cast<std::size_t>(input.triangles.cols()), 0);
     const EdgeSet pairs = sorted_pairs(kept);
@@ -217,7 +177,7 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
 double expected_remesh_count(const MeshInput& input, const WantedLengths& wanted) {
     const CheckedMesh mesh = check_mesh(input);
     double count = 0.0;
-    for (const Patch& patch : patches_of(mesh)) {
+    for (const Patch& patch : patches_with_vertices(mesh)) {
         const OldSurface old(input, mesh, patch);
         count += expected_count(patch, old.points, old.lengths(wanted));
     }

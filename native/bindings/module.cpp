@@ -16,5 +16,6 @@ PYBIND11_MODULE(_core, module) {
     fairing::bindings::bind_hierarchy(module);
     fairing::bindings::bind_measure(module);
     fairing::bindings::bind_outline(module);
+    fairing::bindings::bind_quads(module);
     fairing::bindings::bind_shape(module);
 }

@@ -161,6 +161,16 @@ def fill_loops(
     equation: str,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+def quad_patterns(
+    faces: _Ints, places: _Floats, cells: float, count: int
+) -> list[tuple[_Ints, _Ints, int, float, int, int]]: ...
+def quad_mesh(
+    vertices: _Floats,
+    triangles: _Ints,
+    fixed: _Ints | None,
+    fixed_normals: _Floats | None,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
 def paired_quads(vertices: _Floats, triangles: _Ints, kept: _Ints) -> tuple[_Ints, _Ints, _Ints]: ...
 def remesh(
     vertices: _Floats,

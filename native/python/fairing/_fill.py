@@ -17,6 +17,7 @@ from fairing._fill_task import Task
 from fairing._groups import Options
 from fairing._new_mesh import FillResult, read_only
 from fairing._patch import refuse_made_here, spacing_of
+from fairing._rows import FACES, quads_of
 from fairing._types import MeshError
 from fairing._watch import Progress
 
@@ -33,6 +34,7 @@ def fill(
     longest: int = 0,
     longest_length: float = 0.0,
     inner: str | None = None,
+    faces: str = "triangles",
     max_vertices: int = 0,
     fixed_curvatures: Any = None,
     edges: str = "run_on",
@@ -75,6 +77,11 @@ def fill(
         "outline": new edges are in proportion to those of the boundary around them, and ``spacing`` long in the mean.
         "even": all are ``spacing`` long; as the boundary's mean edge for 0. Default: "outline" for a spacing of 0, else
         "even".
+    faces : "triangles" | "quads"
+        "quads": ``result.quads`` has them. Over a hole or a tube they are rows that meet the boundary at right
+        angles and run from side to side, and one triangle where the boundary has an odd number of edges. Their edges
+        are as long as the boundary's, whatever ``spacing`` says. Pairs of triangles stand in where there are no rows:
+        NO_QUAD_ROWS tells (docs/quads.md).
     longest : int
         Without ``loops``: border loops with more edges than that are left open; 0: none.
     longest_length : float
@@ -130,7 +137,8 @@ def fill(
     broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
     wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
     chosen = chosen_loops(points, around, wanted)
-    task = Task(points, known, bool(bridge), length, max_vertices, broken, given, _rising(progress))
+    in_rows = _arguments.choice("faces", faces, FACES) == "quads"
+    task = Task(points, known, bool(bridge), length, max_vertices, broken, given, _rising(progress), in_rows)
     while True:
         try:
             values = task.filled(chosen)
@@ -143,8 +151,10 @@ def fill(
                 raise
             chosen = less
     values["warnings"] += chosen.warnings
+    pairs = values.pop("pairs", None)
     return FillResult(
         **values,
+        quads=None if pairs is None else quads_of(values["triangles"], pairs),
         loops=tuple(read_only(loop) for loop in chosen.outline.loops),
         left_open=tuple(read_only(each.loop) for each in chosen.left),
         left_because=tuple(each.reason for each in chosen.left),

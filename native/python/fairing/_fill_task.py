@@ -24,8 +24,9 @@ from fairing._joined import joined
 from fairing._new_mesh import read_only, report_fields
 from fairing._patch import LEAST_COUNT, Patch, Spacing, carried, cut_fields
 from fairing._proportion import Limit
+from fairing._rows import Rows, no_rows, rows_over, with_pairs
 from fairing._tangency import not_tangent
-from fairing._types import FloatArray, IntArray, MeshError
+from fairing._types import FairResult, FloatArray, IntArray, MeshError
 from fairing._watch import Progress, Watch
 
 
@@ -41,6 +42,8 @@ class Task:
     broken: _run_on.Edges
     options: dict[str, Any]
     progress: Progress | None
+    in_rows: bool = False
+    """Whether faces are quads in rows."""
 
     def filled(self, chosen: Chosen) -> dict[str, Any]:
         """The fields of a result but for the loops: curves, faces, fans and surfaces, as each loop asks for."""
@@ -60,11 +63,16 @@ class Task:
             others = sorted([*others, *through])
         made = [
             along,
-            self._solved(chosen.part(others), watch.part(share, 1.0)) if others else None,
+            *self._each_solved(chosen, others, watch.part(share, 1.0)),
             fans,
             self._single_faces(chosen.part(plain)) if plain else None,
         ]
-        values = joined(len(self.points), [fields for fields in made if fields is not None])
+        parts = [fields for fields in made if fields is not None]
+        if self.in_rows:
+            if along is not None:
+                along["warnings"] += tuple(no_rows(chosen.outline.loops[k], "curves") for k in through)
+            parts = [with_pairs(fields, self.points) for fields in parts]
+        values = joined(len(self.points), parts)
         if curves:
             values["warnings"] += curves.warnings
             bands = tuple(tuple(map(read_only, band)) for band in curves.bands)
@@ -90,7 +98,7 @@ class Task:
     def _hubs(self, chosen: Chosen, numbers: list[int]) -> list[int]:
         """The loops over which one vertex is enough."""
         plain = self.options.get("equation", "harmonic") in ("harmonic", "automatic")
-        if self.length.length or not plain or self.options.get("continuity", "G1") != "G1":
+        if self.in_rows or self.length.length or not plain or self.options.get("continuity", "G1") != "G1":
             return []
         loops, rows = chosen.outline.loops, chosen.outline.split(chosen.normals)
         fit = [k for k in numbers if len(loops[k]) < 9 and len(np.unique(loops[k])) == len(loops[k])]
@@ -142,6 +150,16 @@ class Task:
         arrays = {name: read_only(array) for name, array in values.items()}
         return {**_single_face.report_of(str(equation), str(continuity)), **arrays}
 
+    def _each_solved(self, chosen: Chosen, numbers: list[int], progress: Progress | None) -> list[dict[str, Any]]:
+        """Surfaces with vertices inside: all in one solve, but one by one where each has its own pattern of quads."""
+        if not self.in_rows or self.bridge:
+            return [self._solved(chosen.part(numbers), progress)] if numbers else []
+        watch = Watch(progress)
+        return [
+            self._solved(chosen.part([number]), watch.part(k / len(numbers), (k + 1) / len(numbers)))
+            for k, number in enumerate(numbers)
+        ]
+
     def _solved(self, chosen: Chosen, progress: Progress | None) -> dict[str, Any]:
         """The same without curves, where there are vertices inside."""
         options, bridge, length = dict(self.options), self.bridge, self.length
@@ -170,8 +188,13 @@ class Task:
         report = fine.faired(_start(first["start"], options), around, trying, watch.part(0.4, 0.9 if coarser else 1.0))
         values = report_fields(report, split.count)
         values["warnings"] += not_tangent(report, outline, split.points, around)
-        if coarser:
-            solved = Patch(report.vertices, fine.triangles, outline.vertices, slopes)
+        solved = Patch(report.vertices, fine.triangles, outline.vertices, slopes)
+        rows = rows_over(solved, split.count, watch.part(0.9, 1.0)) if self.in_rows else None
+        if self.in_rows and rows is None:
+            values["warnings"] += (no_rows(outline.vertices, "several" if len(outline.loops) > 2 else "shape"),)
+        if rows is not None:
+            values.update(_on_rows(rows, (report, solved), around, trying, split.count))
+        elif coarser:
             coarse, origin = solved.remeshed(split.count, length, 0, options, watch.part(0.9, 1.0))
             values.update(cut_fields(coarse, split.count))
             values["mean_curvature"] = carried(report.mean_curvature, fine.triangles, origin)
@@ -180,6 +203,20 @@ class Task:
         watch.lap("coarser")
         values["seconds"] = {**values["seconds"], **watch.seconds}
         return split.welded(values)
+
+
+def _on_rows(
+    rows: Rows, solved: tuple[FairResult, Patch], around: IntArray, options: dict[str, Any], old_count: int
+) -> dict[str, Any]:
+    """The fields that a pattern changes: solved on it, or on the solved surface where it is too coarse for that."""
+    report, patch = solved
+    own = {"triangles": rows.patch.triangles, "pairs": rows.pairs}
+    if len(rows.patch.vertices) - old_count >= 0.9 * LEAST_COUNT and report.converged:
+        again = rows.patch.faired("given", around, {**options, "otherwise": "stop"}, None)
+        if again.converged:
+            return {**report_fields(again, old_count), **own}
+    curvature = carried(report.mean_curvature, patch.triangles, rows.origin)
+    return {**cut_fields(rows.patch, old_count), "mean_curvature": curvature, **own}
 
 
 def _first_surface(

@@ -35,6 +35,9 @@ def joined(count: int, parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
     for name in ("fixed", "triangles"):
         moved = [_moved(part[name], count, first) for part, first in zip(parts, firsts, strict=True)]
         result[name] = np.concatenate(moved)
+    if all("pairs" in part for part in parts):
+        rows = np.cumsum([0, *(len(part["triangles"]) for part in parts)])[:-1].tolist()
+        result["pairs"] = np.concatenate([part["pairs"] + first for part, first in zip(parts, rows, strict=True)])
     for name in ("curves", "marked"):
         result[name] = tuple(each for part in parts for each in part.get(name, ()))
     for name in ("converged", "polished"):

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
 import numpy as np
 
+from fairing._quads import PairedQuads
 from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 
 Origin = tuple[IntArray, FloatArray]
@@ -50,6 +51,8 @@ class NewMeshResult:
     way: tuple[tuple[str, float], ...]
     warnings: tuple[Diagnostic, ...]
     """Triangles and vertices that they name are those of the mesh that was solved: this one unless it was ``cut``."""
+    quads: PairedQuads | None = field(default=None, kw_only=True)
+    """Of ``faces="quads"``: which of ``triangles`` are halves of a quad, and which are left."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,8 +120,8 @@ class FromCurvesResult(NewMeshResult):
 
 def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
     """The fields of a report on ``old_count`` old vertices and then new ones; `triangles` is missing."""
-    own = {field.name for field in fields(NewMeshResult)}
-    values = {field.name: getattr(report, field.name) for field in fields(report) if field.name in own}
+    own = {each.name for each in fields(NewMeshResult)}
+    values = {each.name: getattr(report, each.name) for each in fields(report) if each.name in own}
     values["cut"] = False
     for name in ("vertices", "mean_curvature"):
         values[name] = read_only(values[name][old_count:])

@@ -78,7 +78,7 @@ class Patch:
     ) -> tuple[Patch, Origin, IntArray]:
         """The same with edges that stay, and with the old vertex that each new one is, or −1."""
         mesh = _core.remesh(
-            self.vertices, self.triangles, self.fixed, self.normals, _free_slopes(options), lines,
+            self.vertices, self.triangles, self.fixed, self.normals, free_slopes(options), lines,
             wanted[0].wanted(wanted[1]),
             _arguments.whole("threads", options.get("threads", 0), 0), progress,
         )  # fmt: skip
@@ -102,7 +102,7 @@ class Patch:
         return solved(self.vertices, self.triangles, boundary, Options.of(**chosen, start=start), progress, threads)
 
 
-def _free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:
+def free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:
     """Fixed vertices on creases, and on smooth curves."""
     given = {name: options.get(name) for name in ("creases", "smooth_curves")}
     creases, curves = (_arguments.integers(name, [] if at is None else at, None) for name, at in given.items())

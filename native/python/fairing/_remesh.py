@@ -18,11 +18,14 @@ from fairing._patch import (
     Spacing,
     carried,
     cut_fields,
+    free_slopes,
     refuse_made_here,
     spacing_of,
 )
 from fairing._proportion import Limit
-from fairing._types import MeshError
+from fairing._quads import paired_quads
+from fairing._rows import FACES, no_rows, quads_of, rows_over
+from fairing._types import IntArray, MeshError
 from fairing._watch import Progress, Watch
 
 
@@ -35,6 +38,7 @@ def remesh(
     kept: npt.ArrayLike | None = None,
     spacing: float = 0.0,
     inner: str | None = None,
+    faces: str = "triangles",
     max_vertices: int = 0,
     progress: Progress | None = None,
     threads: int = 0,
@@ -54,6 +58,9 @@ def remesh(
     ``creases``, some of the fixed vertices: as in :func:`fairing.fair`, each side of a curve of them finds its slope.
     Hard edges through the patch are such curves, made fair by :func:`fairing.fair_edges`. They keep their vertices.
 
+    ``faces``: as for :func:`fairing.fill`. Quads are in rows where one patch between one boundary loop or two has no
+    pins, creases or ``kept`` edges.
+
     ``max_vertices``: more new vertices than that are refused (OUT_OF_PROPORTION), by the old surface before anything is
     solved, and by the faired one. 0: 20 times as many as the old surface would have with that spacing, or 50 000 where
     that is less, 4 000 000 at most.
@@ -63,44 +70,67 @@ def remesh(
         raise ValueError("continuity: 'G2' on parts of the boundary needs `curvatures` here")
     given = flat(chosen, threads, around.curvatures)
     points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
+    corners = _arguments.triangles_within(triangles, len(points))
     held, given_normals = _arguments.boundary(around.vertices, around.normals)
-    lines = _arguments.edges_of("kept", kept, faces)
+    lines = _arguments.edges_of("kept", kept, corners)
     length = spacing_of(spacing, inner)
+    wants_quads = _arguments.choice("faces", faces, FACES) == "quads"
     outside = around.outside
     refuse_made_here(given, progress)
     if given.get("equation") == "minimal":
         raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
     watch = Watch(progress)
     base = len(points)
-    refined = with_inner_vertices(points, faces, held, lines)
+    refined = with_inner_vertices(points, corners, held, lines)
     if refined is not None:
-        points, faces = refined.vertices, refined.triangles
-    old = Patch(points, faces, held, given_normals)
+        points, corners = refined.vertices, refined.triangles
+    old = Patch(points, corners, held, given_normals)
     most = Limit.of(_count_on(old, length), max_vertices)
     border = old.border()
     most.check(most.flat, border)
     report = old.faired("outline", outside, given, watch.part(0, 0.4))
     watch.lap("first")
     if given_normals is None:
-        averaged = _core.vertex_normals(points, faces, "averaged")
+        averaged = _core.vertex_normals(points, corners, "averaged")
         held, given_normals = report.fixed, averaged[report.fixed]
-    solved = Patch(report.vertices, faces, held, given_normals)
+    solved = Patch(report.vertices, corners, held, given_normals)
     most.check(solved.expected_new(length), border)
-    new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), given, watch.part(0.4, 0.6))
+    stays = len(lines) > 0 or len(free_slopes(given)[0]) > 0
+    rows = rows_over(solved, base, watch.part(0.4, 0.6)) if wants_quads and not stays else None
+    if rows is not None:
+        new, origin, old_vertex = rows.patch, rows.origin, np.full(len(rows.origin[0]), -1, np.int32)
+    else:
+        new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), given, watch.part(0.4, 0.6))
     watch.lap("mesh")
     values = report_fields(report, base)
     added = len(new.vertices) - base
-    if added >= min(LEAST_COUNT, len(np.setdiff1d(faces, report.fixed))):
+    if added >= min(LEAST_COUNT, len(np.setdiff1d(corners, report.fixed))):
         values = report_fields(new.faired("given", outside, given, watch.part(0.6, 1.0)), base)
         values["triangles"] = new.triangles
     else:
         values.update(cut_fields(new, base))
-        values["mean_curvature"] = carried(report.mean_curvature, faces, origin)
+        values["mean_curvature"] = carried(report.mean_curvature, corners, origin)
     values["seconds"] = {**values["seconds"], **watch.seconds}
+    quads = None
+    if rows is not None:
+        quads = quads_of(new.triangles, rows.pairs)
+    elif wants_quads:
+        values["warnings"] += (no_rows(border, "curves" if stays else "shape"),)
+        quads = paired_quads(new.vertices, new.triangles, _edges_again(new.triangles, base, old_vertex, lines))
     if refined is not None:
         origin = refined.given(origin)
-    return RemeshResult(**values, origin=(read_only(origin[0]), read_only(origin[1])), old=read_only(old_vertex))
+    places = read_only(origin[0]), read_only(origin[1])
+    return RemeshResult(**values, origin=places, old=read_only(old_vertex), quads=quads)
+
+
+def _edges_again(triangles: IntArray, base: int, old: IntArray, kept: IntArray) -> IntArray:
+    """(e, 2) edges of the new triangles that are the old mesh's ``kept`` ones."""
+    name = np.concatenate([np.arange(base), old])
+    held = {(a, b) for a, b in np.sort(kept, axis=1).tolist()}
+    sides = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
+    again = [tuple(pair) in held for pair in np.sort(name[sides], axis=1).tolist()]
+    edges: IntArray = sides[np.array(again, dtype=bool)]
+    return edges
 
 
 def _count_on(old: Patch, spacing: Spacing) -> float:

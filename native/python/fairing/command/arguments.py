@@ -70,6 +70,7 @@ def _fill(parser: ArgumentParser) -> None:
     parser.add_argument("--longest-length", type=float, metavar="LENGTH", help="leave longer holes open")
     parser.add_argument("--bridge", action="store_true", default=None, help="one surface joins all boundary loops")
     parser.add_argument("--spacing", type=float, metavar="LENGTH", help="length of new edges")
+    parser.add_argument("--faces", choices=("triangles", "quads"), help="what new faces are; quads run in rows")
     parser.add_argument("--edges", choices=("run_on", "ignored"), help="what hard edges at a hole do")
 
 

@@ -24,7 +24,7 @@ Report = dict[str, Any]
 Progress = Callable[[float, str], "bool | None"]
 SUFFIX = {"fill": "_filled", "fair": "_fair", "fillet": "_fillet"}
 _OPTIONS = {
-    "fill": ("longest", "longest_length", "bridge", "spacing", "edges", "continuity", "equation", "threads"),
+    "fill": ("longest", "longest_length", "bridge", "spacing", "faces", "edges", "continuity", "equation", "threads"),
     "fair": ("continuity", "equation", "detail", "feather", "side", "threads"),
     "fillet": ("width", "width_2", "profile", "spacing", "continuity", "threads"),
 }

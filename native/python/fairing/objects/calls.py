@@ -103,7 +103,8 @@ def fill_holes(
     loops : list of (k,) int
         These loops of border vertices instead of all holes.
     options
-        Those of :func:`fairing.fill`: ``spacing``, ``continuity``, ``edges``, ``progress``, …
+        Those of :func:`fairing.fill`: ``spacing``, ``faces``, ``continuity``, ``edges``, ``progress``, … Quads become
+        faces of four corners where the kind of mesh has them.
 
     Returns
     -------
@@ -125,10 +126,14 @@ def fill_holes(
     points = np.concatenate([parts.points, result.vertices])
     of_vertices = data.spread(parts.vertex_data, points, result.triangles, count)
     rim = np.flatnonzero(np.isin(parts.triangles, np.concatenate(result.loops)).any(axis=1))
-    middles = [points[triangles].mean(axis=1) for triangles in (result.triangles, parts.triangles[rim])]
+    new_faces = Polygons.of(result.triangles)
+    if result.quads is not None:
+        new_faces = Polygons.joined([Polygons.of(result.quads.quads), Polygons.of(result.quads.triangles)])
+    firsts = np.column_stack([new_faces.corners[new_faces.first + k] for k in range(3)])
+    middles = [points[triangles].mean(axis=1) for triangles in (firsts, parts.triangles[rim])]
     beside = parts.faces.face_of[rim[data.nearest(*middles)]]
     of_faces = {name: np.concatenate([values, values[beside]]) for name, values in parts.face_data.items()}
-    whole = Polygons.joined([parts.faces, Polygons.of(result.triangles)])
+    whole = Polygons.joined([parts.faces, new_faces])
     new = np.arange(count, len(points), dtype=np.int32)
     made = data.with_normals(Parts(points, whole, of_vertices, of_faces), new)
     _report("fill_holes", result, len(new))

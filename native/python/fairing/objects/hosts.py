@@ -53,7 +53,8 @@ def _trimesh(mesh: Any) -> tuple[Parts, Maker]:
     elif kind == "texture" and visual.uv is not None:
         vertex_data[_OWN] = np.asarray(visual.uv)
 
-    def make(made: Parts) -> Any:
+    def make(polygons: Parts) -> Any:
+        made = polygons.in_triangles()
         of_vertices, of_faces = dict(made.vertex_data), dict(made.face_data)
         own = of_vertices.pop(_OWN, None) if kind in ("vertex", "texture") else of_faces.pop(_OWN, None)
         result = type(mesh)(
@@ -140,7 +141,8 @@ def _open3d(mesh: Any) -> tuple[Parts, Maker]:
         "triangle_uvs": np.array(mesh.triangle_uvs).reshape(-1, 6),
     }
 
-    def make(made: Parts) -> Any:
+    def make(polygons: Parts) -> Any:
+        made = polygons.in_triangles()
         result = type(mesh)(mesh)
         result.vertices = type(mesh.vertices)(made.points)
         result.triangles = type(mesh.triangles)(made.faces.triangles)

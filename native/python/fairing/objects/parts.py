@@ -115,3 +115,8 @@ class Parts:
     def triangles(self) -> IntArray:
         """(t, 3) with one vertex for each place along seams."""
         return np.ascontiguousarray(self.same[self.faces.triangles])
+
+    def in_triangles(self) -> Parts:
+        """The same with each face as a fan of triangles, which all have what is stored for it."""
+        data = {name: values[self.faces.face_of] for name, values in self.face_data.items()}
+        return Parts(self.points, Polygons.of(self.faces.triangles), self.vertex_data, data)

@@ -1,0 +1,92 @@
+"""Quads in rows over a hole, and which triangles are halves of a quad."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fairing import _core
+from fairing._new_mesh import Origin, read_only
+from fairing._patch import Patch
+from fairing._quads import PairedQuads
+from fairing._types import Diagnostic, FloatArray, IntArray
+from fairing._watch import Progress
+
+FACES = ("triangles", "quads")
+_NO_PAIRS = np.empty((0, 2), dtype=np.int32)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A pattern of quads on a surface, each as two triangles."""
+
+    patch: Patch
+    origin: Origin
+    pairs: IntArray
+    """(q, 2) the triangles of each quad; see :class:`fairing.PairedQuads`."""
+
+
+def rows_over(solved: Patch, old_count: int, progress: Progress | None) -> Rows | None:
+    """The pattern that suits a solved patch best, over the first ``old_count`` of its vertices and new ones."""
+    made = _core.quad_mesh(solved.vertices, solved.triangles, solved.fixed, solved.normals, progress)
+    if not len(made["quads"]):
+        return None
+    points = np.concatenate([solved.vertices[:old_count], made["vertices"]])
+    number = np.concatenate([made["boundary"], old_count + np.arange(len(made["vertices"]))]).astype(np.int32)
+    quads = _turned(points, number[made["quads"]])
+    count = len(quads)
+    stay = _core.components(solved.triangles, solved.fixed, len(solved.vertices)) < 0
+    rest = solved.triangles[stay]
+    halves = np.concatenate([quads[:, [0, 1, 3]], quads[:, [2, 3, 1]], number[made["triangles"]], rest])
+    pairs = np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
+    patch = Patch(points, read_only(halves), solved.fixed, solved.normals)
+    return Rows(patch, (made["triangle"], made["weights"]), pairs)
+
+
+def _turned(points: FloatArray, quads: IntArray) -> IntArray:
+    """Quads that begin so that the diagonal from corner 1 to corner 3 is the shorter one."""
+    corners = points[quads]
+    lengths = np.linalg.norm(corners[:, [0, 1]] - corners[:, [2, 3]], axis=2)
+    is_shorter = lengths[:, 0] < (1 - 1e-6) * lengths[:, 1]
+    result: IntArray = np.where(is_shorter[:, None], np.roll(quads, -1, axis=1), quads)
+    return result
+
+
+def with_pairs(values: dict[str, Any], points: FloatArray) -> dict[str, Any]:
+    """The fields of a result with its ``pairs``: where no pattern made them, as many as the triangles give."""
+    if "pairs" in values:
+        return values
+    triangles = values["triangles"]
+    edges = [np.column_stack([curve[:-1], curve[1:]]) for curve in values.get("curves", ())]
+    for band in values.get("bands", ()):
+        edges += [np.column_stack([row[:-1], row[1:]]) for row in band]
+    kept = np.concatenate([np.empty((0, 2), np.int32), *edges])
+    _, pairs, _ = _core.paired_quads(np.concatenate([points, values["vertices"]]), triangles, kept)
+    return {**values, "pairs": pairs}
+
+
+def quads_of(triangles: IntArray, pairs: IntArray) -> PairedQuads:
+    """The faces that pairs of triangles make."""
+    first, second = triangles[pairs[:, 0]], triangles[pairs[:, 1]]
+    begin = (first[:, :, None] != second[:, None, :]).all(axis=2).argmax(axis=1)
+    end = (second[:, :, None] != first[:, None, :]).all(axis=2).argmax(axis=1)
+    row = np.arange(len(pairs))
+    at = [first[row, begin], first[row, (begin + 1) % 3], second[row, end], first[row, (begin + 2) % 3]]
+    rest = np.setdiff1d(np.arange(len(triangles), dtype=np.int32), pairs)
+    quads = np.stack(at, axis=1).astype(np.int32).reshape(-1, 4)
+    return PairedQuads(*(read_only(each) for each in (quads, triangles[rest], pairs, rest)))
+
+
+def no_rows(loop: IntArray, why: str) -> Diagnostic:
+    """Why the quads over a boundary are pairs of triangles."""
+    texts = {
+        "curves": "edges that stay run through it",
+        "several": "more than two boundary loops are joined",
+        "shape": "no pattern fits its corners",
+    }
+    text = f"the quads over the boundary of {len(loop)} edges are pairs of triangles, in no rows: {texts[why]}"
+    return Diagnostic(
+        "NO_QUAD_ROWS", text, np.unique(loop).astype(np.int32), "vertex", {"edges": float(len(loop)), why: 1.0}
+    )

@@ -1,0 +1,31 @@
+// Patterns of quads over a boundary, those that suit it best first.
+#pragma once
+
+#include "quads/front.h"
+
+namespace fairing {
+
+// What is known about a hole's boundary: interior angles of its surface in degrees, and where the boundary lies in a
+// plane without crossing itself, about.
+struct HoleBoundary {
+    VectorX angles;
+    Eigen::Matrix2Xd places;
+    double cells = 0.0;  // how many squares of the boundary's edges the surface has room for
+};
+
+// A pattern with what speaks against it: `misfit` of its shape and size, from 0.
+struct CandidatePattern {
+    QuadPattern pattern;
+    double misfit = 0.0;
+    int poles = 0;
+    int least_poles = 0;  // that the corners of the boundary ask for
+};
+
+// At most `count`. Corners are where angles are nearer to one quarter, three or four than to two; as a corner may be
+// rounded off, more and more of them are taken for straight as well.
+std::vector<CandidatePattern> candidate_patterns(const HoleBoundary& boundary, int count);
+
+// The same for corners that are known: `faces` of the new quads at each vertex of the boundary.
+std::vector<CandidatePattern> patterns_with_corners(const HoleBoundary& boundary, const Indices& faces, int count);
+
+}  // namespace fairing
