@@ -24,6 +24,7 @@ from .region import MeshArrays, nothing, to_local
 from .sentences import in_mesh_words, sentences
 
 NO_WIRE = "No edge without a face is selected: select closed curves of edges, or a network of them"
+WIRES_ALONE = "Edges without faces are selected: Fair From Curves makes a surface over these"
 NOT_SPANNED = "No surface through these curves was found: add curves across large cells, or give the curves more edges"
 _PLATE = "bilaplacian"  # what stands in where there is no surface of least variation
 _FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")

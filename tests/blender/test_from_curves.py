@@ -214,3 +214,12 @@ def test_rough_curves_get_a_thin_plate_and_a_word(capfd: pytest.CaptureFixture[s
     assert run(obj) == {"FINISHED"}
     assert "a thin plate was taken" in capfd.readouterr().out
     assert np.sqrt(np.mean((radii(obj) - 1.0) ** 2)) < 0.1
+
+
+def test_fair_fill_says_what_is_for_wires() -> None:
+    obj = wired(circles())
+    meshes.enter(obj, np.zeros(0, dtype=bool))
+    bpy.ops.mesh.select_all(action="SELECT")
+    with pytest.raises(RuntimeError, match="Fair From Curves"):
+        bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True)
+    meshes.leave()
