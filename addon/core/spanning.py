@@ -73,6 +73,7 @@ class Spanned:
     positions: Floats  # (k, 3) of the new ones, in the mesh's own coordinates
     triangles: Ints  # (m, 3) in numbers of `points`, seen from outside in the mesh's own coordinates
     wires: Ints  # (e, 2) likewise
+    creases: Ints  # (c, 2) likewise: edges over which it may bend
     cells: int
     left_open: int
     warnings: tuple[str, ...]
@@ -131,6 +132,7 @@ def span_arrays(
         positions=to_local(result.vertices, matrix),
         triangles=triangles,
         wires=number[wires],
+        creases=number[result.creases],
         cells=len(result.cells),
         left_open=len(result.left_open),
         warnings=sentences(result.warnings, origin),

@@ -100,6 +100,7 @@ def test_openings_stay_or_are_filled() -> None:
     with meshes.rebuilt(closed, write=False) as bm:
         assert all(edge.is_manifold for edge in bm.edges)
         assert bm.calc_volume() == pytest.approx(2.0 * np.pi, rel=0.02)
+        assert sum(not edge.smooth for edge in bm.edges) == 64  # the rims
 
 
 def test_spacing_and_quads() -> None:
