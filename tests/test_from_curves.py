@@ -81,6 +81,7 @@ def test_circles_and_lines_are_a_cylinder_that_is_open(rings: int, lines: int) -
 def test_closed_gives_an_opening_its_surface() -> None:
     points, wires = tube(2, 4)
     result = fairing.surface_from_curves(points, wires, closed=True)
+    assert len(result.creases) == 64 and (np.ptp(points[result.creases][:, :, 2], axis=1) < 1e-9).all()
     assert result.converged and len(result.cells) == 6 and not result.left_open
     lids = [k for k, loop in enumerate(result.cells) if np.ptp(points[loop][:, 2]) < 1e-9]
     assert len(lids) == 2

@@ -24,6 +24,7 @@ from .region import MeshArrays, nothing, to_local
 from .sentences import in_mesh_words, sentences
 
 NO_WIRE = "No edge without a face is selected: select closed curves of edges, or a network of them"
+WIRES_ALONE = "Edges without faces are selected: Fair From Curves makes a surface over these"
 NOT_SPANNED = "No surface through these curves was found: add curves across large cells, or give the curves more edges"
 _PLATE = "bilaplacian"  # what stands in where there is no surface of least variation
 _FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
@@ -72,6 +73,7 @@ class Spanned:
     positions: Floats  # (k, 3) of the new ones, in the mesh's own coordinates
     triangles: Ints  # (m, 3) in numbers of `points`, seen from outside in the mesh's own coordinates
     wires: Ints  # (e, 2) likewise
+    creases: Ints  # (c, 2) likewise: edges over which it may bend
     cells: int
     left_open: int
     warnings: tuple[str, ...]
@@ -130,6 +132,7 @@ def span_arrays(
         positions=to_local(result.vertices, matrix),
         triangles=triangles,
         wires=number[wires],
+        creases=number[result.creases],
         cells=len(result.cells),
         left_open=len(result.left_open),
         warnings=sentences(result.warnings, origin),

@@ -24,7 +24,7 @@ def selected_wires(mesh: bpy.types.Mesh) -> Mask:
 def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> int:
     """Add a surface to a mesh in edit mode and select it alone; return the number of faces.
 
-    They are smooth, of the active material; what belongs to vertices is carried over from the curves.
+    They are smooth but for creases, of the active material; what belongs to vertices is carried over from the curves.
     """
     with in_edit_mode(obj) as target:
         target.open()
@@ -41,6 +41,8 @@ def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> int:
             face = bm.faces.new([table[corner] for corner in polygon])
             face.smooth, face.material_index = True, max(0, obj.active_material_index)
             made.append(face)
+        for a, b in spanned.creases.tolist():
+            bm.edges.get((table[a], table[b])).smooth = False
         select_new_faces(bm, made)
         bm.normal_update()
         renew(bm, table[len(held) :], made)

@@ -17,9 +17,11 @@ from ..core.holes import Borders, borders_at, chosen_borders, expected_vertices
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
+from ..core.spanning import WIRES_ALONE
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import filled, mesh_io
+from ..mesh.spanned import selected_wires
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
@@ -121,9 +123,11 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         self._options = FillOptions.of(self)
         self._tasks = read(context, self._options)
         if not self._tasks:
-            store_refusal(context.window_manager.fairing_report, "", NO_BORDER)
+            wires = any(selected_wires(obj.data).any() for obj in edited_objects(context))
+            reason = WIRES_ALONE if wires else NO_BORDER
+            store_refusal(context.window_manager.fairing_report, "", reason)
             last_run.forget()
-            self.report({"ERROR"}, translated(NO_BORDER))
+            self.report({"ERROR"}, translated(reason))
         return bool(self._tasks)
 
     def _work(self) -> Work:

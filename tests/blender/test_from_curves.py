@@ -100,6 +100,7 @@ def test_openings_stay_or_are_filled() -> None:
     with meshes.rebuilt(closed, write=False) as bm:
         assert all(edge.is_manifold for edge in bm.edges)
         assert bm.calc_volume() == pytest.approx(2.0 * np.pi, rel=0.02)
+        assert sum(not edge.smooth for edge in bm.edges) == 64  # the rims
 
 
 def test_spacing_and_quads() -> None:
@@ -206,10 +207,20 @@ def test_one_step_of_undo_takes_it_back() -> None:
     assert np.array_equal(meshes.positions(obj), before)
 
 
-def test_rough_curves_get_a_thin_plate_and_a_word() -> None:
+def test_rough_curves_get_a_thin_plate_and_a_word(capfd: pytest.CaptureFixture[str]) -> None:
     obj = wired(circles())
     rough = meshes.positions(obj)
     rough += np.random.default_rng(1).normal(0.0, 0.03, rough.shape)
     meshes.move(obj, rough)
     assert run(obj) == {"FINISHED"}
-    assert np.abs(radii(obj) - 1.0).max() < 0.2
+    assert "a thin plate was taken" in capfd.readouterr().out
+    assert np.sqrt(np.mean((radii(obj) - 1.0) ** 2)) < 0.1
+
+
+def test_fair_fill_says_what_is_for_wires() -> None:
+    obj = wired(circles())
+    meshes.enter(obj, np.zeros(0, dtype=bool))
+    bpy.ops.mesh.select_all(action="SELECT")
+    with pytest.raises(RuntimeError, match="Fair From Curves"):
+        bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True)
+    meshes.leave()

@@ -96,13 +96,16 @@ class _Held:
 
     creases: IntArray
     smooth: IntArray
+    bent: IntArray
+    """(c, 2) the edges over which it may bend."""
 
     @classmethod
     def of(cls, cells: Cells, sharp: IntArray) -> _Held:
         edges, uses = cells.edges
-        ends = np.concatenate([edges[uses == 1].ravel(), sharp.ravel(), cells.rims.ravel()])
+        bent = np.unique(np.sort(np.concatenate([sharp, cells.rims]), axis=1), axis=0)
+        ends = np.concatenate([edges[uses == 1].ravel(), bent.ravel()])
         creases = np.intersect1d(ends, edges).astype(np.int32)
-        return cls(creases, np.setdiff1d(edges, creases).astype(np.int32))
+        return cls(creases, np.setdiff1d(edges, creases).astype(np.int32), bent)
 
     @property
     def all(self) -> IntArray:
@@ -140,6 +143,7 @@ class _Task:
             cells=tuple(map(read_only, self.cells.loops)),
             cell=read_only(_cell_of(new.triangles, self.cells)),
             left_open=tuple(map(read_only, self.cells.left_open)),
+            creases=read_only(self.held.bent),
         )
 
     def _plate(self, new: Patch) -> dict[str, Any]:

@@ -116,6 +116,8 @@ class FromCurvesResult(NewMeshResult):
     """(m,) which of them each triangle fills."""
     left_open: tuple[IntArray, ...]
     """Loops around openings, and around the outside of a sheet."""
+    creases: IntArray
+    """(c, 2) wires over which the surface may bend: those given, and those around openings that were closed."""
 
 
 def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:
