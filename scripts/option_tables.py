@@ -27,9 +27,8 @@ Made by `scripts/option_tables.py` from the add-on's own list: don't edit it her
 [user guide](user_guide.md#options) has pictures of what they do.
 """
 BEFORE = """\
-## Names before
-Names of options before these work until 0.2, in scripts, presets and on the command line; a `DeprecationWarning` says
-what to write instead.
+## Earlier names
+They work until 0.2, in scripts, presets and on the command line; a `DeprecationWarning` says what to write instead.
 """
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -382,6 +384,36 @@ def test_a_triangle_without_area_in_a_seam_is_got_over() -> None:
     u, v, apex = int(t[k]), int(t[(k + 1) % 3]), int(t[(k + 2) % 3])
     cut = np.concatenate([np.delete(triangles, beside[0], axis=0), [[u, new, apex], [new, v, apex], [u, v, new]]])
     seam = np.concatenate([along, [[a, new], [new, b]]])
+    result = fairing.fillet(more, cut, seam, width=0.2)
+    assert result.converged
+    near = middle(result)
+    near = near[(near[:, :2] > 0.8 - 1e-9).all(axis=1)]
+    off = abs(np.hypot(near[:, 0] - 0.8, near[:, 1] - 0.8) - 0.2) / 0.2
+    assert off.max() < 5e-3
+    _, faces = whole(more, cut, result)
+    assert fairing.boundary_loops(faces) == []
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_edges_without_length_in_a_seam_are_got_over(count: int) -> None:
+    """As booleans leave them. Points of the line lie in one place, and seemed to be before each other for ever."""
+    vertices, triangles = solids.box(2)
+    edge = _edges(triangles)
+    along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
+    a, b = along[0].tolist()
+    doubled = list(range(len(vertices), len(vertices) + count))
+    place = vertices[a] + 0.3 * (vertices[b] - vertices[a])
+    more = np.concatenate([vertices, [place] * count])
+    beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))
+    parts = []
+    for t in triangles[beside]:
+        apex = next(int(v) for v in t if v not in (a, b))
+        chain = [a, *doubled, b]
+        if t.tolist()[t.tolist().index(a) - 2] != b:
+            chain.reverse()
+        parts += [[u, v, apex] for u, v in pairwise(chain)]
+    cut = np.concatenate([np.delete(triangles, beside, axis=0), parts])
+    seam = np.concatenate([along[1:], list(pairwise([a, *doubled, b]))])
     result = fairing.fillet(more, cut, seam, width=0.2)
     assert result.converged
     near = middle(result)

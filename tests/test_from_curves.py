@@ -212,3 +212,15 @@ def test_wrong_arguments() -> None:
         fairing.surface_from_curves(points, [[3, 3]])
     with pytest.raises(fairing.Cancelled):
         fairing.surface_from_curves(points, wires, progress=lambda share, stage: False)
+
+
+def test_rough_wires_get_a_thin_plate() -> None:
+    points, wires = networks.bottle(1.0, 0.4, 3.0)
+    length = np.linalg.norm(points[wires[:, 0]] - points[wires[:, 1]], axis=1).mean()
+    rough = points + np.random.default_rng(3).normal(0.0, 0.1 * length, points.shape)
+    result = fairing.surface_from_curves(rough, wires)
+    assert not result.converged and result.equation == "bilaplacian" and len(result.cells) == 20
+    assert [warning.code for warning in result.warnings] == ["NO_SOLUTION"]
+    exact = fairing.surface_from_curves(points, wires)
+    away = fairing.deviation(whole(rough, result), whole(points, exact), exact.triangles)
+    assert np.sqrt(np.nanmean(away**2)) < 0.05 and np.nanmax(np.abs(away)) < 0.3

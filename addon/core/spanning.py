@@ -21,10 +21,11 @@ from .option_items import INNER
 from .option_shared import LEAST_SPACING
 from .option_table import fields_of, read_named
 from .region import MeshArrays, nothing, to_local
-from .sentences import in_mesh_words
+from .sentences import in_mesh_words, sentences
 
 NO_WIRE = "No edge without a face is selected: select closed curves of edges, or a network of them"
 NOT_SPANNED = "No surface through these curves was found: add curves across large cells, or give the curves more edges"
+_PLATE = "bilaplacian"  # what stands in where there is no surface of least variation
 _FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
 
 
@@ -73,6 +74,7 @@ class Spanned:
     wires: Ints  # (e, 2) likewise
     cells: int
     left_open: int
+    warnings: tuple[str, ...]
     options: CurvesOptions
 
     @property
@@ -112,7 +114,8 @@ def span_arrays(
             points, wires, creases=creases, closed=options.fill_openings, spacing=spacing,
             inner=options.inner.lower(), max_vertices=options.max_vertices, progress=progress,
         )  # fmt: skip
-    if not result.converged or any(warning.code in _FOLDS for warning in result.warnings):
+    folds = any(warning.code in _FOLDS for warning in result.warnings)
+    if folds or not (result.converged or result.equation == _PLATE):
         raise ValueError(NOT_SPANNED)
     outline = np.unique(result.triangles[result.triangles < len(points)]).astype(np.int64)
     number = np.full(len(points) + len(result.vertices), -1, dtype=np.int64)
@@ -129,5 +132,6 @@ def span_arrays(
         wires=number[wires],
         cells=len(result.cells),
         left_open=len(result.left_open),
+        warnings=sentences(result.warnings, origin),
         options=options,
     )

@@ -322,6 +322,11 @@ WORDS: dict[str, tuple[Words, ...]] = {
             "No fair surface fits these boundary loops: the old shape was smoothed as far as it goes",
             when="smoothed",
         ),
+        Words(
+            "No surface of Least Variation passes through these curves, as through rough ones: a thin plate was taken, "
+            "which bends more",
+            when="plate",
+        ),
         Words("No fair surface was found: a smooth one was taken at once, and is kept", when="bilaplacian"),
         Words(
             "No fair surface fits these boundary loops: a loft joins them, with a kink at {n} vertex",

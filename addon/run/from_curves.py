@@ -117,6 +117,8 @@ class MESH_OT_fair_from_curves(CurvesProperties, Watched, bpy.types.Operator):
             spanned.add_to_edit_mesh(objects[task.object_name], outcome)
             for task, outcome in zip(self._tasks, outcomes, strict=True)
         )
+        for warning in (each for outcome in outcomes for each in outcome.warnings):
+            self.report({"WARNING"}, translated(warning))
         cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
         self.report({"INFO"}, translated(f"{faces} new faces in {cells} cells; {left} openings stay"))
         return {"FINISHED"}

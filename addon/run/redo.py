@@ -146,6 +146,12 @@ def _following() -> Following | None:
     return next((each for each in under_way if isinstance(each, Following)), None)
 
 
+def is_being_edited(context: bpy.types.Context) -> bool:
+    """Return whether an operator that edits is under way: undo would take the mesh away from it."""
+    windows = context.window_manager.windows
+    return any("UNDO" in operator.bl_options for window in windows for operator in window.modal_operators)
+
+
 def _look() -> float | None:
     """Look at the search; a timer calls this, again after so many seconds."""
     following = _following()
@@ -153,6 +159,8 @@ def _look() -> float | None:
         with following.place() as context:
             if following.unwanted:
                 following.end(GIVEN_UP)
+            elif is_being_edited(context):
+                show_following(context, following.run.fraction)
             elif following.run.finished:
                 _collect(context, following)
             else:

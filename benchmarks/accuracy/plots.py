@@ -35,7 +35,7 @@ def save(tables: dict[str, list[Row]], folder: Path) -> None:
 
 def _finished(figure: Figure, path: Path) -> None:
     figure.tight_layout()
-    figure.savefig(path, dpi=90)
+    figure.savefig(path, dpi=135)
     plt.close(figure)
 
 

@@ -79,7 +79,7 @@ def convergence_plot(case: Case, path: Path) -> str:
     for axis in axes.flat:
         axis.grid(alpha=0.3)
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=100, pil_kwargs={"optimize": True})
+    figure.savefig(path, dpi=120, pil_kwargs={"optimize": True})
     pyplot.close(figure)
     ends = [f"{found.name} {found.steps[-1]} in {found.seconds[-1]:.2f} s" for found in courses]
     return f"Steps of the finest mesh to the last mark: {'; '.join(ends)}."

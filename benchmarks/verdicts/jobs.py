@@ -12,8 +12,13 @@ import selections
 from scenes import Ints, Mask, Scene
 
 KINDS = 4  # of jobs in each family
-# Seeds; what each part was for is in judged.txt.
-PARTS = {"first": (0, 1), "second": (2, 3), "third": (4,), "fourth": (5, 6), "fifth": (7, 8)}
+PARTS = {
+    "first": (0, 1),
+    "second": (2, 3),
+    "third": (4,),
+    "fourth": (5, 6),
+    "fifth": (7, 8),
+}  # seeds; what each part was for is in judged.txt
 SCANS = ("demosthenes-low-res", "boot", "skull_low_resolution", "hammer")
 CHARACTERS = (
     "ict_head",

@@ -20,6 +20,7 @@ namespace fairing {
 namespace {
 
 constexpr double resolution = 0.5;  // of the spacing: how finely the line is sought
+constexpr double apart = 1e-7;      // of the way to the next vertex: far more than roundoff, far less than is seen
 
 std::vector<VertexPair> joined(const std::vector<VertexPair>& a, const std::vector<VertexPair>& b) {
     std::vector<VertexPair> both = a;
@@ -208,6 +209,31 @@ void part_edges(const TurnedCap& turned, std::vector<VertexPair>& edges) {
     if (!is_there(second)) edges.push_back(second);
 }
 
+// An edge without length, as booleans leave them, has no direction in which a distance could be counted: for the cut
+// its ends go apart, along the seam, so that planes stay plane; those between them by halves.
+void part_doubled(FilletInput& input) {
+    std::set<int> doubled;
+    const auto is_one = [&](int a, int b) { return input.vertices.col(a) == input.vertices.col(b); };
+    for (const auto& [a, b] : input.seams) {
+        if (is_one(a, b)) doubled.insert({a, b});
+    }
+    std::map<int, Vector3> ways;
+    for (bool changed = !doubled.empty(); changed;) {
+        changed = false;
+        for (const auto& [a, b] : input.seams) {
+            for (const auto& [from, to] : {VertexPair{a, b}, VertexPair{b, a}}) {
+                if (!doubled.contains(from) || ways.contains(from)) continue;
+                const bool is_end = !is_one(from, to);
+                if (!is_end && !ways.contains(to)) continue;
+                ways[from] = is_end ? Vector3(apart * (input.vertices.col(to) - input.vertices.col(from)))
+                                    : Vector3(0.5 * ways.at(to));
+                changed = true;
+            }
+        }
+    }
+    for (const auto& [v, way] : ways) input.vertices.col(v) += way;
+}
+
 // So that seams have no triangles without area beside them. `plane`: of each triangle, one in whose plane it is.
 void turn_caps_at_seams(FilletInput& input, Indices& plane) {
     std::vector<char> on_seam(static_cast<std::size_t>(input.vertices.cols()), 0);
@@ -243,6 +269,7 @@ FilletCut cut_fillet(const FilletInput& given, const ProgressCallback& callback)
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
     FilletInput input = given;
+    part_doubled(input);
     Indices plane(static_cast<std::size_t>(given.triangles.cols()));
     std::iota(plane.begin(), plane.end(), 0);
     turn_caps_at_seams(input, plane);

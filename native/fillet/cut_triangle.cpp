@@ -166,9 +166,18 @@ std::vector<std::array<int, 2>> CutTriangle::crossed(int a, int b) const {
     return result;
 }
 
+// Point by point, and no more often than there are points: roundoff may put two that coincide each before the other.
 bool CutTriangle::add_edge(int a, int b) {
-    const int between = point_between(a, b);
-    if (between != none) return add_edge(a, between) && add_edge(between, b);
+    for (std::size_t step = 0; step < places_.size(); ++step) {
+        const int between = point_between(a, b);
+        if (!join(a, between == none ? b : between)) return false;
+        if (between == none) return true;
+        a = between;
+    }
+    return false;
+}
+
+bool CutTriangle::join(int a, int b) {
     const std::size_t most = triangles_.size() * triangles_.size() + 1;  // flips: each edge crosses each other one once
     for (std::size_t round = 0; at(a, b) == none && at(b, a) == none; ++round) {
         bool flipped = false;

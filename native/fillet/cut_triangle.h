@@ -36,6 +36,7 @@ private:
     void put(int triangle, const Corners& corners);
     void remove_sides(int triangle);
     bool flip(int a, int b);
+    bool join(int a, int b);  // without points between
     [[nodiscard]] bool is_in_circle(int a, int b, int c, int d) const;
     [[nodiscard]] int point_between(int a, int b) const;
     [[nodiscard]] std::vector<std::array<int, 2>> crossed(int a, int b) const;

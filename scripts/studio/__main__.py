@@ -20,6 +20,7 @@ import options
 import rivals
 import sheet
 import slopes
+import wired
 from rows import Row, smooth
 
 import demo_pictures as pictures
@@ -103,7 +104,7 @@ def main() -> None:
     package, out = Path(sys.argv[1]), Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
     demo.install(package)
-    for name in sys.argv[3:] or [*SHEETS, quality.NAME, *lesson_sheets.LESSONS, *moving.MOVING]:
+    for name in sys.argv[3:] or [*SHEETS, quality.NAME, wired.NAME, *lesson_sheets.LESSONS, *moving.MOVING]:
         if name in moving.MOVING:
             moving.write(name, out)
         else:
@@ -116,6 +117,8 @@ def lines_of(name: str, out: Path) -> list[list[sheet.Tile]]:
         return [lesson_sheets.tiles(name, out)]
     if name == quality.NAME:
         return [quality.tiles(out, LEAST)]
+    if name == wired.NAME:
+        return [wired.tiles(out, LEAST)]
     lines = SHEETS[name]
     pictures.SIZE = max(LEAST, WIDTH // max(sum(len(row.runs) + 1 for row in line) for line in lines))
     return [

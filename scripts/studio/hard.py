@@ -77,7 +77,7 @@ SHEETS = {
         [Row("A hole over a bevel", bevelled_edge, "edges", FILLS, stripes=TWO_TONES)],
         [Row(
             "A dented top", lid, "faces",
-            {"Smooth Vertices × 60": tools.smooth_vertices, "Fair Region": tools.fair_region()},
+            {"Smooth Vertices × 60": tools.smooth_vertices(60), "Fair Region": tools.fair_region()},
         )],
     ],
     "fillets": [

@@ -14,7 +14,7 @@ from rows import smooth
 
 import demo_pictures as pictures
 
-SIZE = 480  # pixels of each of two pictures beside each other
+SIZE = 600  # pixels of each of two pictures beside each other
 FRAMES = 20
 PAUSE, HOLD = 90, 1200  # ms of a frame, of the first and the last one
 LARGEST = 2_000_000  # bytes

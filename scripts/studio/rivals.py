@@ -133,7 +133,7 @@ def seam() -> Chosen:
 
 
 REGION = {
-    "Smooth Vertices × 60": tools.smooth_vertices,
+    "Smooth Vertices × 100": tools.smooth_vertices(100),
     "Smooth Laplacian": tools.laplacian_smooth,
     "Fair Tangency": tools.fair_tangency,
     "Fair Region": tools.fair_region(),

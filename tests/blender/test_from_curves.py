@@ -204,3 +204,12 @@ def test_one_step_of_undo_takes_it_back() -> None:
     obj = bpy.data.objects[name]
     assert not len(obj.data.polygons)
     assert np.array_equal(meshes.positions(obj), before)
+
+
+def test_rough_curves_get_a_thin_plate_and_a_word() -> None:
+    obj = wired(circles())
+    rough = meshes.positions(obj)
+    rough += np.random.default_rng(1).normal(0.0, 0.03, rough.shape)
+    meshes.move(obj, rough)
+    assert run(obj) == {"FINISHED"}
+    assert np.abs(radii(obj) - 1.0).max() < 0.2

@@ -211,6 +211,24 @@ def test_what_changes_the_mesh_meanwhile_keeps_the_first_surface(panel: Panel, w
         np.testing.assert_array_equal(panel.positions(), there)
 
 
+def test_nothing_happens_while_vertices_are_being_moved(panel: Panel, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Undo would take the mesh away from the operator that is under way. Its end lets the fair surface in."""
+    panel.change(shape="LEAST_VARIATION")
+    first = panel.positions()
+    panel.go_on.set()
+    with monkeypatch.context() as moved:
+        moved.setattr(panel.redo, "is_being_edited", lambda _context: True)
+        for _ in range(20):
+            assert panel.redo._look() is not None
+            time.sleep(0.01)
+    np.testing.assert_array_equal(panel.positions(), first)
+    assert not panel.redo.is_being_edited(bpy.context)
+    panel.settle()
+    found = panel.positions()
+    meshes.leave()
+    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+
+
 def test_undo_meanwhile_ends_it(panel: Panel) -> None:
     panel.change(shape="LEAST_VARIATION")
     bpy.ops.ed.undo()

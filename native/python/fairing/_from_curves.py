@@ -14,12 +14,12 @@ from fairing._denoise import edges_around
 from fairing._fair import solved
 from fairing._groups import Boundary, Options
 from fairing._loops import listed
-from fairing._measure import edges_with_uses
+from fairing._measure import edges_with_uses, self_intersections
 from fairing._network import refuse
 from fairing._new_mesh import FromCurvesResult, read_only, report_fields
 from fairing._patch import Patch, Spacing, spacing_of
 from fairing._proportion import Limit
-from fairing._types import FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray
 from fairing._watch import Progress, Watch
 
 _STIFF = 100.0  # mean edges: shorter waves go from soap films that are bent into one surface, whose cells have some 20
@@ -41,8 +41,9 @@ def surface_from_curves(
 
     Through a network goes the surface of least variation, with one slope on both sides of each wire and a free one at
     those that it ends at: planes, spheres and circular cylinders come back from their curves. A lone loop does not say
-    which slope is meant, and bounds a soap film (H = 0). Vertices given stay, with their bits; networks apart from each
-    other have surfaces of their own. No argument is ever changed.
+    which slope is meant, and bounds a soap film (H = 0). Where no surface of least variation is found, as through rough
+    wires, a thin plate stands in, not ``converged``, and NO_SOLUTION says so. Vertices given stay, with their bits;
+    networks apart from each other have surfaces of their own. No argument is ever changed.
 
     The wires' directions where they meet tell in which order they lie around that point, and so which cells they
     enclose (docs/curves.md). No surface closes an opening: a loop at which half of the wires that meet it end, or one
@@ -130,6 +131,8 @@ class _Task:
             self.threads,
         )  # fmt: skip
         values = report_fields(report, len(self.points))
+        if not report.converged and len(self.held.smooth):
+            values.update(self._plate(new))
         values["seconds"] = {**values["seconds"], **watch.seconds}
         return FromCurvesResult(
             **values,
@@ -138,6 +141,23 @@ class _Task:
             cell=read_only(_cell_of(new.triangles, self.cells)),
             left_open=tuple(map(read_only, self.cells.left_open)),
         )
+
+    def _plate(self, new: Patch) -> dict[str, Any]:
+        """The fields that differ where the equation has no surface: the plate itself stands in."""
+        count = len(self.points)
+        curvature = _core.mean_curvature(new.vertices, new.triangles, new.fixed, None, "averaged")
+        crossing = self_intersections(new.vertices, new.triangles)
+        text = "no surface of least variation was found through these wires: a thin plate stands in, which bends more"
+        found = [Diagnostic("NO_SOLUTION", text, self.held.all, "vertex", {"plate": 1.0})]
+        if len(crossing):
+            text = "the thin plate through the wires passes through itself: divide large cells by more wires"
+            found.append(
+                Diagnostic("SELF_INTERSECTION", text, crossing, "triangle", {"triangles": float(len(crossing))})
+            )
+        return {
+            "vertices": read_only(new.vertices[count:]), "mean_curvature": read_only(curvature[count:]),
+            "equation": "bilaplacian", "provenance": "first_surface", "warnings": tuple(found),
+        }  # fmt: skip
 
     @property
     def _options(self) -> Options:
