@@ -18,7 +18,7 @@ constexpr double same_misfit = 1e-6;     // misfits nearer to each other are equ
 
 int quarters_of(PoleKind kind) { return kind == PoleKind::five ? -1 : 1; }
 
-std::int64_t key_of(const Lattice& p) { return (static_cast<std::int64_t>(p.x) << 32) + p.y; }
+std::int64_t key_of(const Lattice& p) { return static_cast<std::int64_t>(p.x) * 4294967296LL + p.y; }
 
 class Search {
 public:

@@ -180,6 +180,7 @@ FlatMap::Flat FlatMap::places(const QuadPattern& pattern) const {
     for (const auto& triangle : pattern.triangles) add(triangle);
     for (const auto& [a, b] : pattern.over_seam) turns[std::minmax(a, b)] = a < b ? 1 : -1;
     std::vector<Edge> edges;
+    edges.reserve(turns.size());
     for (const auto& [ends, each] : turns) edges.push_back({ends.first, ends.second, 1.0, each});
     std::vector<char> is_known(static_cast<std::size_t>(pattern.vertex_count), 0);
     std::fill_n(is_known.begin(), pattern.boundary_count, 1);
@@ -246,7 +247,7 @@ std::array<int, 2> FlatMap::bin_of(const Eigen::Vector2d& place) const {
 
 void FlatMap::sort_triangles() {
     bins_ = std::max(1, static_cast<int>(std::sqrt(patch_.triangle_count())));
-    in_bin_.resize(static_cast<std::size_t>(bins_ * bins_));
+    in_bin_.resize(static_cast<std::size_t>(bins_) * static_cast<std::size_t>(bins_));
     for (int t = 0; t < patch_.triangle_count(); ++t) {
         const auto corners = flat_(Eigen::all, patch_.triangles.col(t));
         const auto low = bin_of(corners.rowwise().minCoeff());

@@ -11,7 +11,7 @@ from fairing import _core
 from fairing._new_mesh import Origin, read_only
 from fairing._patch import Patch
 from fairing._quads import PairedQuads
-from fairing._types import Diagnostic, FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray, SolverError
 from fairing._watch import Progress
 
 FACES = ("triangles", "quads")
@@ -29,8 +29,14 @@ class Rows:
 
 
 def rows_over(solved: Patch, old_count: int, progress: Progress | None) -> Rows | None:
-    """The pattern that suits a solved patch best, over the first ``old_count`` of its vertices and new ones."""
-    made = _core.quad_mesh(solved.vertices, solved.triangles, solved.fixed, solved.normals, progress)
+    """The pattern that suits a solved patch best, over the first ``old_count`` of its vertices and new ones.
+
+    None where no pattern fits, or the surface can't be flattened.
+    """
+    try:
+        made = _core.quad_mesh(solved.vertices, solved.triangles, solved.fixed, solved.normals, progress)
+    except SolverError:
+        return None
     if not len(made["quads"]):
         return None
     points = np.concatenate([solved.vertices[:old_count], made["vertices"]])
