@@ -18,6 +18,7 @@ PRIVATE = re.compile(r"^namespace \{\n(.*?)^\}  // namespace$", re.MULTILINE | r
 NAME = re.compile(
     r"^(?:template <.*> )?(?:(?:struct|class|enum class|using) (\w+)|[A-Za-z].*?\b(\w+)(?: = |[({;[]))", re.MULTILINE
 )
+SAID = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"')  # comments and strings, names of headers among them
 SIZE = 16  # sources
 
 
@@ -41,7 +42,7 @@ def closure(path: Path) -> list[Path]:
 
 @dataclass(frozen=True)
 class Words:
-    """What a source declares for itself alone, and all words of it and of our headers that it includes."""
+    """What a source declares for itself alone, and all words of the code in it and in our headers that it includes."""
 
     private: frozenset[str]
     every: frozenset[str]
@@ -56,22 +57,23 @@ class Words:
 def words(path: Path) -> Words:
     own = "".join(PRIVATE.findall(path.read_text(encoding="utf-8")))
     private = frozenset(name for pair in NAME.findall(own) for name in pair if name)
-    text = "".join(each.read_text(encoding="utf-8") for each in closure(path))
+    text = "".join(SAID.sub("", each.read_text(encoding="utf-8")) for each in closure(path))
     return Words(private, frozenset(re.findall(r"\w+", text)), path.parent.name)
 
 
 def groups(paths: list[Path]) -> list[list[Path]]:
-    """Sources to read together, neighbours first, up to SIZE in each group."""
-    found: list[list[tuple[Path, Words]]] = []
-    for path in paths:
-        mine = words(path)
+    """Sources to read together, up to SIZE in each group: those that fit the fewest others come first."""
+    all_words = {path: words(path) for path in paths}
+    clashes = {path: sum(not mine.fit(other) for other in all_words.values()) for path, mine in all_words.items()}
+    found: list[list[Path]] = []
+    for path in sorted(paths, key=lambda path: -clashes[path]):
         for group in found:
-            if len(group) < SIZE and all(mine.fit(other) for _, other in group):
-                group.append((path, mine))
+            if len(group) < SIZE and all(all_words[path].fit(all_words[other]) for other in group):
+                group.append(path)
                 break
         else:
-            found.append([(path, mine)])
-    return [[path for path, _ in group] for group in found]
+            found.append([path])
+    return found
 
 
 def main() -> None:

@@ -6,6 +6,7 @@
 
 #include "base/difference.h"
 #include "base/parallel.h"
+#include "geometry/averages.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
 #include "geometry/limits.h"
@@ -191,12 +192,6 @@ bool agree(const Problem& problem, const Solution& own, const SolvedSurface& sur
     if (found.distance <= surface.edge && is_finer(problem.patch, own.points, surface.edge)) return true;
     if (found.distance > farthest) return false;
     return found.curvature < curvature_share * std::max(1.0, surface.mean_curvature.cwiseAbs().maxCoeff());
-}
-
-double mean_edge(const Patch& patch, const Points& points) {
-    double sum = 0.0;
-    for (const auto& [a, b] : patch.edge_ends) sum += (points.col(a) - points.col(b)).norm();
-    return sum / patch.edge_count();
 }
 
 }  // namespace fairing

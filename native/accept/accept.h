@@ -38,7 +38,4 @@ double share_of_poor_triangles(const Patch& patch, const Points& points);
 // Whether these are so many that the discrete equation can't be trusted even where it converges: more than a tenth.
 bool has_poor_triangles(const Patch& patch, const Points& points);
 
-// Mean length of a patch's edges.
-double mean_edge(const Patch& patch, const Points& points);
-
 }  // namespace fairing

@@ -7,6 +7,7 @@
 
 #include "accept/accept.h"
 #include "api/old_surface.h"
+#include "base/columns.h"
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "fill/equal_edge_mesh.h"
@@ -38,8 +39,7 @@ OutlineData gathered(const OpenLoops& input, std::span<const int> chosen) {
         }
     }
     data.points = gather(input.vertices, data.to_input);
-    data.normals.resize(3, data.points.cols());
-    for (Eigen::Index k = 0; k < data.normals.cols(); ++k) data.normals.col(k) = normals[static_cast<std::size_t>(k)];
+    data.normals = as_columns(normals);
     return data;
 }
 
@@ -61,16 +61,8 @@ public:
     }
     void keep(const Eigen::Vector3i& triangle) { triangles_.push_back(triangle); }
 
-    [[nodiscard]] Points points() const {
-        Points result(3, static_cast<Eigen::Index>(points_.size()));
-        for (std::size_t k = 0; k < points_.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = points_[k];
-        return result;
-    }
-    [[nodiscard]] Triangles triangles() const {
-        Triangles result(3, static_cast<Eigen::Index>(triangles_.size()));
-        for (std::size_t k = 0; k < triangles_.size(); ++k) result.col(static_cast<Eigen::Index>(k)) = triangles_[k];
-        return result;
-    }
+    [[nodiscard]] Points points() const { return as_columns(points_); }
+    [[nodiscard]] Triangles triangles() const { return as_columns(triangles_); }
 
 private:
     int old_count_;
@@ -164,12 +156,8 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
     }
     result.vertices = assembly.points();
     result.triangles = assembly.triangles();
-    result.weights.resize(3, result.vertices.cols());
-    result.normals.resize(3, result.vertices.cols());
-    for (Eigen::Index k = 0; k < result.weights.cols(); ++k) {
-        result.weights.col(k) = weights[static_cast<std::size_t>(k)];
-        result.normals.col(k) = normals[static_cast<std::size_t>(k)];
-    }
+    result.weights = as_columns(weights);
+    result.normals = as_columns(normals);
     progress.report(1.0, "done");
     return result;
 }

@@ -6,6 +6,7 @@
 
 #include "base/direction.h"
 #include "base/median.h"
+#include "geometry/area_vector.h"
 
 namespace fairing {
 
@@ -58,10 +59,7 @@ Points moves(const Points& points, const Triangles& triangles, const VectorX& sh
     return result;
 }
 
-Vector3 face_normal(const Points& points, const Eigen::Vector3i& t) {
-    const Vector3 a = points.col(t[0]);
-    return direction((points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a)));
-}
+Vector3 face_normal(const Points& points, const Eigen::Vector3i& t) { return direction(area_vector(points, t)); }
 
 // Takes back the moves at triangles that turn by more than 90°, until there are none. Returns the vertices.
 Indices hold_folds(const Points& points, const Triangles& triangles, Points& move) {

@@ -6,6 +6,7 @@
 #include "base/direction.h"
 #include "boundary/closing.h"
 #include "geometry/angle.h"
+#include "geometry/area_vector.h"
 #include "mesh/edges.h"
 #include "mesh/union_find.h"
 
@@ -40,9 +41,7 @@ std::vector<Meeting> meetings(const PatchInMesh& mesh) {
 }
 
 Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
-    const auto corners = triangles.col(side / 3);
-    const Vector3 a = points.col(corners[0]);
-    return direction((points.col(corners[1]) - a).cross(Vector3(points.col(corners[2]) - a)));
+    return direction(area_vector(points, triangles.col(side / 3)));
 }
 
 struct HardMeeting {

@@ -6,7 +6,7 @@
 #include "base/direction.h"
 #include "detail/low_pass.h"
 #include "detail/skin.h"
-#include "geometry/face_geometry.h"
+#include "geometry/averages.h"
 #include "geometry/neighbourhood.h"
 
 namespace fairing {
@@ -35,12 +35,6 @@ VectorX distances_from_edge(const Points& points, const Triangles& triangles, co
         }
     }
     return distance;
-}
-
-double mean_edge(const Patch& patch, const Points& points) {
-    double sum = 0.0;
-    for (const auto& [a, b] : patch.edge_ends) sum += (points.col(a) - points.col(b)).norm();
-    return sum / patch.edge_count();
 }
 
 }  // namespace

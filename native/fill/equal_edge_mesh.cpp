@@ -11,6 +11,7 @@
 #include "base/progress.h"
 #include "fill/angles.h"
 #include "fill/limits.h"
+#include "geometry/area_vector.h"
 
 namespace fairing {
 
@@ -19,8 +20,6 @@ namespace {
 constexpr double collapse_below = 0.75;    // of the wanted length
 constexpr double longest_after = 1.4;      // edges that a collapse makes
 constexpr double most_per_expected = 2.0;  // vertices; on a surface with folds splits would never end
-
-Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
 using QueuedEdge = std::pair<double, int>;  // relative length, half-edge
 using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
@@ -175,7 +174,7 @@ bool EqualEdgeMesh::may_collapse(Halfedge h) {
         if (other == kept) continue;
         if (fixed(kept) && fixed(other) && !mesh_.find_halfedge(kept, other).is_valid()) return false;
         if (next == kept) continue;
-        if (!(cross_product(place, point(other), point(next)).dot(normal) > 0.0)) return false;
+        if (!(area_vector(place, point(other), point(next)).dot(normal) > 0.0)) return false;
     }
     return true;
 }
@@ -275,8 +274,7 @@ void EqualEdgeMesh::smooth(int sweeps) {
                     const Vertex b = mesh_.to_vertex_handle(spoke);
                     const Vertex c = apex(spoke);
                     const double wanted = wanted_[k] + wanted_[b.idx()] + wanted_[c.idx()];
-                    const double weight =
-                        cross_product(point(v), point(b), point(c)).norm() / (wanted * wanted * wanted);
+                    const double weight = area_vector(point(v), point(b), point(c)).norm() / (wanted * wanted * wanted);
                     sum += weight / 3.0 * (point(v) + point(b) + point(c));
                     total += weight;
                 }

@@ -22,16 +22,7 @@ EqualEdgeMesh::Result EqualEdgeMesh::result() const {
     for (const Vertex v : mesh_.vertices()) {
         if (!fixed_in_patch(v)) result.points.col(number[v.idx()]) = point(v);
     }
-    std::vector<Eigen::Vector3i> triangles;
-    for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
-        Eigen::Vector3i corners;
-        int k = 0;
-        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = number[v.idx()];
-        triangles.push_back(corners);
-    }
-    result.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        result.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    result.triangles = triangles_of(mesh_, number);
     return result;
 }
 

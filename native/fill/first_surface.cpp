@@ -13,6 +13,7 @@
 #include "fill/joined_loops.h"
 #include "fill/limits.h"
 #include "fill/tube_start.h"
+#include "geometry/area_vector.h"
 #include "geometry/face_geometry.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
@@ -45,10 +46,7 @@ double agreement(const OpenOutline& outline, const Triangles& triangles) {
     double along = 0.0;
     double whole = 0.0;
     for (const auto corners : triangles.colwise()) {
-        const Vector3 a = outline.points.col(corners[0]);
-        const Vector3 b = outline.points.col(corners[1]);
-        const Vector3 c = outline.points.col(corners[2]);
-        const Vector3 area = (b - a).cross(c - a);
+        const Vector3 area = area_vector(outline.points, corners);
         for (const int v : corners) along += area.dot(outline.normals.col(v)) / 3.0;
         whole += area.norm();
     }

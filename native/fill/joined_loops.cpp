@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/columns.h"
 #include "base/direction.h"
 #include "fill/triangulation.h"
 
@@ -88,10 +89,7 @@ Triangles joined_loops(const Points& points, const std::vector<Indices>& loops, 
     const TriangleCost cost =
         loops.size() == 1 || normals != nullptr ? TriangleCost(points) : cost_around(points, loops);
     const Indices polygon = loops.size() == 1 ? loops.front() : linked(points, loops);
-    const auto triangles = cheapest_triangulation(polygon, normals == nullptr ? cost : cost.along(*normals));
-    Triangles result(3, static_cast<Eigen::Index>(triangles.size()));
-    for (Eigen::Index t = 0; t < result.cols(); ++t) result.col(t) = triangles[static_cast<std::size_t>(t)];
-    return result;
+    return as_columns(cheapest_triangulation(polygon, normals == nullptr ? cost : cost.along(*normals)));
 }
 
 }  // namespace fairing

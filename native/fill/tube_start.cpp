@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/columns.h"
+
 namespace fairing {
 
 namespace {
@@ -81,9 +83,7 @@ TubeMesh tube_start(const SweptTube& tube) {
         last = std::move(row);
     }
     join(last, row_of(tube.last(), added), triangles);
-    result.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        result.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    result.triangles = as_columns(triangles);
     return result;
 }
 

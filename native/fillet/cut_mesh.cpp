@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "base/columns.h"
 #include "base/progress.h"
 #include "fillet/cut_triangle.h"
 
@@ -30,9 +31,7 @@ public:
             else
                 keep(t);
         }
-        made_.triangles.resize(3, static_cast<Eigen::Index>(corners_.size()));
-        for (std::size_t t = 0; t < corners_.size(); ++t)
-            made_.triangles.col(static_cast<Eigen::Index>(t)) = corners_[t];
+        made_.triangles = as_columns(corners_);
         add_seams();
         for (const LineSegment& segment : line_.segments)
             made_.line.push_back({number_[segment.from], number_[segment.to]});
@@ -55,8 +54,7 @@ private:
             std::sort(on_edge.begin(), on_edge.end(),
                       [&](int a, int b) { return line_.points[a].along < line_.points[b].along; });
         }
-        made_.points.resize(3, static_cast<Eigen::Index>(places.size()));
-        for (std::size_t k = 0; k < places.size(); ++k) made_.points.col(static_cast<Eigen::Index>(k)) = places[k];
+        made_.points = as_columns(places);
     }
 
     void add_seams() {

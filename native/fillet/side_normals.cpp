@@ -8,6 +8,7 @@
 #include "boundary/creased.h"
 #include "boundary/surrounding_fit.h"
 #include "geometry/angle.h"
+#include "geometry/area_vector.h"
 #include "mesh/edges.h"
 
 namespace fairing {
@@ -32,9 +33,7 @@ SideNormals::SideNormals(const SeamMesh& mesh, const std::vector<VertexPair>& pa
 }
 
 Vector3 SideNormals::face_normal(int triangle) const {
-    const Vector3 a = points_.col(copies_(0, triangle));
-    const Vector3 across =
-        (points_.col(copies_(1, triangle)) - a).cross(Vector3(points_.col(copies_(2, triangle))) - a);
+    const Vector3 across = area_vector(points_, copies_.col(triangle));
     const double size = across.norm();
     return size > 0.0 ? Vector3(across / size) : Vector3::Zero();
 }

@@ -9,6 +9,7 @@
 #include "base/direction.h"
 #include "base/parallel.h"
 #include "geometry/angle.h"
+#include "geometry/area_vector.h"
 
 namespace fairing {
 
@@ -72,9 +73,7 @@ DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
     Indices cursor(begin_.begin(), begin_.end() - 1);
     for (int t = 0; t < triangles.cols(); ++t) {
         for (int v : triangles.col(t)) at_vertex_[cursor[v]++] = t;
-        const Vector3 a = points.col(triangles(0, t));
-        const Vector3 side = points.col(triangles(1, t)) - a;
-        normals_.col(t) = direction(side.cross(Vector3(points.col(triangles(2, t)) - a)));
+        normals_.col(t) = direction(area_vector(points, triangles.col(t)));
     }
     measure_edges();
 }
@@ -114,7 +113,7 @@ Vector3 DihedralBands::normal_beyond(int side) const {
         const Vector3 b = points_.col(corners[1]) - apex;
         const Vector3 c = points_.col(corners[2]) - apex;
         const double cosine = onwards.dot(direction(a + b + c));
-        if (cosine > 0.0) sum += cosine * (b - a).cross(c - a);
+        if (cosine > 0.0) sum += cosine * area_vector(a, b, c);
     }
     return sum.isZero(0.0) ? Vector3(normals_.col(side / 3)) : sum;
 }
@@ -198,11 +197,7 @@ double DihedralBands::mean_height(int edge) const {
     return lengths_[edge] > 0.0 ? sum / (lengths_[edge] * edges_.side_count(edge)) : 0.0;
 }
 
-double DihedralBands::area(int triangle) const {
-    const auto corners = triangles_.col(triangle);
-    const Vector3 a = points_.col(corners[0]);
-    return 0.5 * (points_.col(corners[1]) - a).cross(Vector3(points_.col(corners[2]) - a)).norm();
-}
+double DihedralBands::area(int triangle) const { return 0.5 * area_vector(points_, triangles_.col(triangle)).norm(); }
 
 double DihedralBands::weight_across(int edge, const Vector3& along) const {
     const auto [a, b] = edges_.ends[edge];

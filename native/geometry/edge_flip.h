@@ -1,8 +1,7 @@
 // Whether the edge that two triangles share should be replaced by the other diagonal.
 #pragma once
 
-#include <Eigen/Geometry>
-
+#include "geometry/area_vector.h"
 #include "geometry/cotangent.h"
 #include "geometry/limits.h"
 
@@ -23,12 +22,11 @@ struct Diagonal {
 
     // A flip may not bend the mesh by more than 60°, or further than it is bent.
     [[nodiscard]] bool flips_without_fold() const {
-        const double after = cos_of_bend(normal(c, d, b), normal(d, c, a));
-        return after >= cos_of_widest_turn || after >= cos_of_bend(normal(a, b, c), normal(b, a, d));
+        const double after = cos_of_bend(area_vector(c, d, b), area_vector(d, c, a));
+        return after >= cos_of_widest_turn || after >= cos_of_bend(area_vector(a, b, c), area_vector(b, a, d));
     }
 
 private:
-    static Vector3 normal(const Vector3& p, const Vector3& q, const Vector3& r) { return (q - p).cross(r - p); }
     static double cos_of_bend(const Vector3& n, const Vector3& m) { return n.dot(m) / (n.norm() * m.norm() + 1e-300); }
 };
 

@@ -6,13 +6,14 @@
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
+#include "geometry/area_vector.h"
 #include "geometry/cotangent.h"
 
 namespace fairing {
 
 double triangle_shape(const Vector3& a, const Vector3& b, const Vector3& c) {
     const double squared = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
-    return squared > 0.0 ? 2.0 * std::numbers::sqrt3 * (b - a).cross(c - a).norm() / squared : 0.0;
+    return squared > 0.0 ? 2.0 * std::numbers::sqrt3 * area_vector(a, b, c).norm() / squared : 0.0;
 }
 
 void FaceGeometry::update(const Points& points, const Triangles& triangles) {
@@ -85,10 +86,7 @@ double Stiffness::diagonal(const Patch& patch, int vertex) const {
 double total_area(const Points& points, const Triangles& triangles) {
     return sum_over_ranges(static_cast<int>(triangles.cols()), coarse_grain, [&](int begin, int end) {
         double sum = 0.0;
-        for (int t = begin; t < end; ++t) {
-            const Vector3 a = points.col(triangles(0, t));
-            sum += 0.5 * (points.col(triangles(1, t)) - a).cross(Vector3(points.col(triangles(2, t)) - a)).norm();
-        }
+        for (int t = begin; t < end; ++t) sum += 0.5 * area_vector(points, triangles.col(t)).norm();
         return sum;
     });
 }
@@ -96,8 +94,7 @@ double total_area(const Points& points, const Triangles& triangles) {
 Points summed_normals(const Points& points, const Triangles& triangles) {
     Points sums = Points::Zero(3, points.cols());
     for (const auto t : triangles.colwise()) {
-        const Vector3 a = points.col(t[0]);
-        const Vector3 cross = (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
+        const Vector3 cross = area_vector(points, t);
         for (int v : t) sums.col(v) += cross;
     }
     return sums;

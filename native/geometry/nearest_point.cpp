@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/BVH>
 
 #include "base/direction.h"
+#include "geometry/area_vector.h"
 
 namespace fairing {
 
@@ -24,9 +25,7 @@ double segment_weight(const Vector3& p, const Vector3& a, const Vector3& b) {
     return squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
 }
 
-Vector3 cross_product(const Corners& corners) {
-    return (corners[1] - corners[0]).cross(Vector3(corners[2] - corners[0]));
-}
+Vector3 area_of(const Corners& corners) { return area_vector(corners[0], corners[1], corners[2]); }
 
 // What Eigen's search asks for: the nearest triangle to a point.
 class Nearest {
@@ -77,7 +76,7 @@ struct SideNormals {
         for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
             const auto at = triangles.col(t);
             const Corners three{points.col(at[0]), points.col(at[1]), points.col(at[2])};
-            const Vector3 normal = direction(cross_product(three));
+            const Vector3 normal = direction(area_of(three));
             for (int k = 0; k < 3; ++k) {
                 const int next = (k + 1) % 3;
                 const Vector3 ahead = three[next] - three[k];
@@ -111,7 +110,7 @@ struct SideNormals {
 
 Vector3 plane_weights(const Vector3& p, const Corners& corners) {
     const auto& [a, b, c] = corners;
-    const Vector3 n = cross_product(corners);
+    const Vector3 n = area_of(corners);
     const double squared = n.squaredNorm();
     if (!(squared > 0.0)) return Vector3::Constant(1.0 / 3.0);
     const double u = n.dot((c - b).cross(p - b)) / squared;
@@ -137,7 +136,7 @@ Vector3 border_weights(const Vector3& p, const Corners& corners) {
 
 Vector3 nearest_weights(const Vector3& p, const Corners& corners) {
     const Vector3 weights = plane_weights(p, corners);
-    const bool has_area = cross_product(corners).squaredNorm() > 0.0;
+    const bool has_area = area_of(corners).squaredNorm() > 0.0;
     return has_area && weights.minCoeff() >= 0.0 ? weights : border_weights(p, corners);
 }
 
@@ -156,7 +155,7 @@ VectorX signed_distances(const Points& at, const Points& points, const Triangles
     for (Eigen::Index k = 0; k < at.cols(); ++k) {
         Nearest nearest(at.col(k), points, triangles);
         Eigen::BVMinimize(tree, nearest);
-        const Vector3 face = cross_product(nearest.corners_of(nearest.triangle()));
+        const Vector3 face = area_of(nearest.corners_of(nearest.triangle()));
         const Vector3 normal = sides.at(triangles.col(nearest.triangle()), nearest.weights(), face);
         const Vector3 offset = nearest.offset();
         result[k] = std::copysign(offset.norm(), offset.dot(normal));

@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/BVH>
 
 #include "base/parallel.h"
+#include "geometry/area_vector.h"
 #include "geometry/box_tree.h"
 
 namespace fairing {
@@ -19,12 +20,9 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 using Corners = std::array<Vector3, 3>;
 
-// Twice the area of a triangle along its normal.
-Vector3 area_vector(const Corners& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
-
 // Six times the signed volume of a tetrahedron.
 double volume(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
-    return area_vector({a, b, c}).dot(d - a);
+    return area_vector(a, b, c).dot(d - a);
 }
 
 Corners corners_of(const Triangles& triangles, const Points& points, int t) {
@@ -107,7 +105,7 @@ private:
     // Whether some cross.
     bool test(int t, std::span<const int> others) {
         const Face a = face(t);
-        const Vector3 area = area_vector(a.corners);
+        const Vector3 area = area_vector(a.corners[0], a.corners[1], a.corners[2]);
         bool found = false;
         for (const int other : others) {
             if (!asked_[t] && !asked_[other]) continue;
@@ -126,7 +124,7 @@ private:
         if (lie_beside(above_a)) return false;
         const auto shared = std::count_if(b.vertices.begin(), b.vertices.end(), [&](int v) { return a.has(v); });
         if (shared > 1) return false;
-        const Heights above_b = heights(a, b, area_vector(b.corners));
+        const Heights above_b = heights(a, b, area_vector(b.corners[0], b.corners[1], b.corners[2]));
         if (lie_beside(above_b)) return false;
         constexpr double round_off = 1e-12;
         const double size = std::max(box_around(a.corners).diagonal().norm(), box_around(b.corners).diagonal().norm());

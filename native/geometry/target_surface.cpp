@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/area_vector.h"
 #include "geometry/nearest_point.h"
 
 namespace fairing {
@@ -100,9 +101,7 @@ Vector3 TargetSurface::position(const SurfacePoint& where) const {
 }
 
 Vector3 TargetSurface::face_normal(int triangle) const {
-    const auto corners = patch_.triangles.col(triangle);
-    const Vector3 a = points_.col(corners[0]);
-    return (points_.col(corners[1]) - a).cross(points_.col(corners[2]) - a).normalized();
+    return area_vector(points_, patch_.triangles.col(triangle)).normalized();
 }
 
 // Of a flat triangle, or of the nearest one that has an area.

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 
+#include "geometry/area_vector.h"
+
 namespace fairing {
 
 namespace {
@@ -20,7 +22,7 @@ int side_of_cap(const Points& points, const Triangles& triangles, int t, double 
     const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
     const double height = std::max(least, flattest * *longest);
     if (!(*shortest > height)) return none;
-    const double twice_area = (at[1] - at[0]).cross(at[2] - at[0]).norm();
+    const double twice_area = area_vector(at[0], at[1], at[2]).norm();
     return twice_area < height * *longest ? static_cast<int>(longest - lengths.begin()) : none;
 }
 

@@ -1,5 +1,7 @@
 #include "mesh/surface_mesh.h"
 
+#include "base/columns.h"
+
 namespace fairing {
 
 SurfaceMesh surface_mesh(const Patch& patch) {
@@ -12,6 +14,16 @@ SurfaceMesh surface_mesh(const Patch& patch) {
         mesh.add_face(corner(0), corner(1), corner(2));
     }
     return mesh;
+}
+
+Triangles triangles_of(const SurfaceMesh& mesh, const Indices& number) {
+    std::vector<Eigen::Vector3i> triangles;
+    for (const SurfaceMesh::FaceHandle f : mesh.faces()) {
+        Eigen::Vector3i& corners = triangles.emplace_back();
+        int k = 0;
+        for (const SurfaceMesh::VertexHandle v : mesh.fv_ccw_range(f)) corners[k++] = number[v.idx()];
+    }
+    return as_columns(triangles);
 }
 
 }  // namespace fairing

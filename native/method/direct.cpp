@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "base/direction.h"
 #include "base/stopwatch.h"
-#include "geometry/face_geometry.h"
+#include "geometry/averages.h"
 #include "geometry/surface_fit.h"
 #include "iteration/continuation.h"
 #include "operators/workspace.h"
@@ -39,9 +38,7 @@ Points settled(const Problem& problem, const Workspace& work, const Points& poin
 Points boundary_normals(const Problem& problem, const Points& points) {
     const Patch& patch = problem.patch;
     if (!problem.conduct.start_only) return one_sided_normals(patch, points);
-    Points normals = summed_normals(points, patch.triangles).rightCols(patch.vertex_count() - patch.free_count);
-    for (auto normal : normals.colwise()) normal = direction(normal);
-    return normals;
+    return averaged_normals(points, patch.triangles).rightCols(patch.vertex_count() - patch.free_count);
 }
 
 // The start of the accurate iteration and what is reported about it.

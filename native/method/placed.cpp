@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/averages.h"
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "fairness/ring_weights.h"
+#include "geometry/area_vector.h"
 #include "geometry/cotangent.h"
 #include "mesh/surface_mesh.h"
 #include "paper/vertex_update.h"
@@ -19,7 +20,7 @@ constexpr int curvature_sweeps = 3;  // of H in each round of step (3)
 
 // Zero where the triangle is degenerate, as in FaceGeometry.
 Vector3 unit_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
-    const Vector3 cross = (b - a).cross(c - a);
+    const Vector3 cross = area_vector(a, b, c);
     const double length = cross.norm();
     return length > 0.0 ? Vector3(cross / length) : Vector3(Vector3::Zero());
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
+#include "geometry/area_vector.h"
 #include "geometry/flips.h"
 
 namespace fairing {
@@ -19,20 +20,13 @@ Indices numbers(const std::vector<char>& mask) {
 
 }  // namespace
 
-Vector3 area_vector(const Patch& patch, const Points& points, int t) {
-    const auto corners = patch.triangles.col(t);
-    const Vector3 ab = points.col(corners[1]) - points.col(corners[0]);
-    const Vector3 ac = points.col(corners[2]) - points.col(corners[0]);
-    return ab.cross(ac);
-}
-
 bool is_folded(const Problem& problem, const TargetSurface& target, const Placement& placement, int t) {
     const auto corners = problem.patch.triangles.col(t);
     Vector3 around = Vector3::Zero();
     for (const int v : corners) {
         if (problem.patch.is_free(v)) around += target.face_normal(placement.where[v].triangle);
     }
-    return area_vector(problem.patch, placement.points, t).dot(around) < 0.0;
+    return area_vector(placement.points, corners).dot(around) < 0.0;
 }
 
 std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement) {

@@ -9,9 +9,6 @@ namespace fairing {
 // over.
 inline constexpr std::size_t few_folds = 20;
 
-// Twice the area of triangle `t` along its normal. `points`: 3 × local vertices.
-Vector3 area_vector(const Patch& patch, const Points& points, int t);
-
 // Whether the normal of triangle `t` of the problem's patch points against the surface that its free corners lie on
 // (the triangles of the target, so that noise of the boundary's normals doesn't matter). False without a free corner:
 // no placement turns such a triangle.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "placement/folds.h"
+#include "geometry/area_vector.h"
 
 namespace fairing {
 
@@ -51,7 +51,8 @@ Indices turned_inside(const Patch& patch, const Points& before, const Points& af
     Indices result;
     for (int t = 0; t < patch.triangle_count(); ++t) {
         if (patch.triangles.col(t).maxCoeff() >= patch.free_count) continue;
-        if (area_vector(patch, after, t).dot(area_vector(patch, before, t)) < 0.0) result.push_back(t);
+        const auto corners = patch.triangles.col(t);
+        if (area_vector(after, corners).dot(area_vector(before, corners)) < 0.0) result.push_back(t);
     }
     return result;
 }

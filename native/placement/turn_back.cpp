@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "geometry/averages.h"
 #include "geometry/flips.h"
 #include "geometry/frame.h"
 #include "mesh/corners.h"
@@ -67,7 +68,7 @@ private:
         const SurfacePoint old = placement_.where[v];
         const Vector3 centre = placement_.points.col(v);
         const Frame frame(target_.normal(old));
-        const double reach = ring_radius(v);
+        const double reach = mean_spoke(patch_, placement_.points, v);
         std::optional<SurfacePoint> best;
         for (const double radius : radii) {
             for (int k = 0; k < directions && least > 0; ++k) {
@@ -88,28 +89,10 @@ private:
 
     // Those that a vertex may turn, itself or by its neighbours' normals.
     [[nodiscard]] Indices triangles_around(int v) const {
-        Indices result;
-        add_triangles_at(v, result);
-        for (const int w : patch_.ring(v).vertices) add_triangles_at(w, result);
-        std::sort(result.begin(), result.end());
-        result.erase(std::unique(result.begin(), result.end()), result.end());
-        return result;
-    }
-
-    // Those with a free corner.
-    void add_triangles_at(int v, Indices& list) const {
-        for (const int edge : patch_.ring(v).spokes) {
-            for (const int t : patch_.edge_triangles[edge]) {
-                if (t != none && has_free_corner(patch_, t)) list.push_back(t);
-            }
-        }
-    }
-
-    [[nodiscard]] double ring_radius(int v) const {
-        double sum = 0.0;
         const auto ring = patch_.ring(v).vertices;
-        for (const int w : ring) sum += (placement_.points.col(w) - placement_.points.col(v)).norm();
-        return sum / static_cast<double>(ring.size());
+        Indices near(ring.begin(), ring.end());
+        near.push_back(v);
+        return with_free_corner(patch_, triangles_at(patch_, near));
     }
 
     // As folded_triangles has it.

@@ -10,6 +10,7 @@
 
 #include "base/limits.h"
 #include "base/progress.h"
+#include "geometry/area_vector.h"
 #include "geometry/frame.h"
 #include "linear/limits.h"
 #include "placement/folds.h"
@@ -218,7 +219,7 @@ private:
 
     [[nodiscard]] double mean_area(const Region& where) const {
         double sum = 0.0;
-        for (const int t : where.triangles) sum += 0.5 * area_vector(patch_, placement_.points, t).norm();
+        for (const int t : where.triangles) sum += 0.5 * area_vector(placement_.points, patch_.triangles.col(t)).norm();
         return std::max(sum / static_cast<double>(where.triangles.size()), std::numeric_limits<double>::min());
     }
 
@@ -228,7 +229,8 @@ private:
         double most_negative = 0.0;
         for (const int t : where.triangles) {
             if (!is_folded(problem_, target_, placement_, t)) continue;
-            most_negative = std::max(most_negative, 0.5 * area_vector(patch_, placement_.points, t).norm() / area);
+            most_negative =
+                std::max(most_negative, 0.5 * area_vector(placement_.points, patch_.triangles.col(t)).norm() / area);
         }
         return std::hypot(least, share * most_negative);
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/averages.h"
 #include "geometry/flips.h"
 #include "geometry/self_intersection.h"
 #include "mesh/corners.h"
@@ -20,13 +21,6 @@ Indices moved_between(const Patch& patch, const Points& before, const Points& no
         if (before.col(v) != now.col(v)) moved.push_back(v);
     }
     return moved;
-}
-
-double ring_radius(const Patch& patch, const Points& points, int v) {
-    const auto ring = patch.ring(v).vertices;
-    double sum = 0.0;
-    for (const int w : ring) sum += (points.col(w) - points.col(v)).norm();
-    return sum / static_cast<double>(ring.size());
 }
 
 // The torn ones around one vertex, wherever that moves.
@@ -58,7 +52,7 @@ bool improve(const Patch& patch, int v, Points& points) {
     const Around around(patch, v);
     std::ptrdiff_t least = around.torn(points);
     const Vector3 centre = points.col(v);
-    const double reach = ring_radius(patch, points, v);
+    const double reach = mean_spoke(patch, points, v);
     Vector3 best = centre;
     for (const double radius : radii) {
         for (int k = 0; k < 27 && least > 0; ++k) {  // of a cube's surface

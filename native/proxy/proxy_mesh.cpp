@@ -8,6 +8,7 @@
 
 #include "base/progress.h"
 #include "geometry/angle.h"
+#include "geometry/area_vector.h"
 #include "geometry/edge_flip.h"
 #include "geometry/face_geometry.h"
 #include "geometry/limits.h"
@@ -20,8 +21,6 @@ namespace {
 constexpr unsigned highest_valence = 9;
 constexpr double cos_of_turned = 0.2;   // normals of a triangle before and after a collapse
 constexpr double collapse_below = 0.7;  // of the local length
-
-Vector3 cross_product(const Vector3& a, const Vector3& b, const Vector3& c) { return (b - a).cross(c - a); }
 
 struct QueuedEdge {
     double length;
@@ -125,8 +124,8 @@ bool ProxyMesh::keeps_shape(Halfedge h) const {
         before = std::min(before, triangle_shape(point(gone), point(b), point(c)));
         if (b == kept || c == kept) continue;
         after = std::min(after, triangle_shape(point(kept), point(b), point(c)));
-        const Vector3 old_normal = cross_product(point(gone), point(b), point(c));
-        const Vector3 new_normal = cross_product(point(kept), point(b), point(c));
+        const Vector3 old_normal = area_vector(point(gone), point(b), point(c));
+        const Vector3 new_normal = area_vector(point(kept), point(b), point(c));
         if (old_normal.dot(new_normal) < cos_of_turned * old_normal.norm() * new_normal.norm()) return false;
     }
     return after >= poor_shape || after >= before;
@@ -284,17 +283,8 @@ ProxyMesh::Snapshot ProxyMesh::snapshot() const {
             members.pin.push_back(pin_[v.idx()]);
         }
     }
-    std::vector<Eigen::Vector3i> triangles;
-    for (const SurfaceMesh::FaceHandle f : mesh_.faces()) {
-        Eigen::Vector3i corners;
-        int k = 0;
-        for (const Vertex v : mesh_.fv_ccw_range(f)) corners[k++] = local[v.idx()];
-        members.input_triangle.push_back(f.idx());
-        triangles.push_back(corners);
-    }
-    members.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        members.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+    for (const SurfaceMesh::FaceHandle f : mesh_.faces()) members.input_triangle.push_back(f.idx());
+    members.triangles = triangles_of(mesh_, local);
     Points points(3, static_cast<Eigen::Index>(members.to_input.size()));
     for (Eigen::Index v = 0; v < points.cols(); ++v) {
         points.col(v) = mesh_.point(mesh_.vertex_handle(unsigned(members.to_input[static_cast<std::size_t>(v)])));

@@ -10,7 +10,6 @@
 #include "problem/surface_state.h"
 #include "start/globalisation.h"
 #include "start/membrane.h"
-#include "start/normal_fill.h"
 
 namespace fairing {
 
@@ -19,7 +18,6 @@ namespace {
 constexpr double finest_growth = 0.15;   // of edge lengths per distance from the outline
 constexpr double longest_coarse = 0.15;  // units of D
 constexpr double longest_fine = 0.03;
-constexpr double turn = 0.7;  // radians along an edge of the coarse proxy: nine edges around a pipe
 
 // Iterations of fine proxies. Of 191 over regions of scans that converged none stayed far from a surface so long, of 96
 // that did not 73.
@@ -106,16 +104,21 @@ public:
     }
 
     // A start for the fine proxy: the harmonic surface where the iteration finds it, the least bent one otherwise.
-    // Between loops the data may admit several surfaces: the one that follows their normals goes first, which keeps
-    // pipes straight, and the long way by descent is taken only where that fails.
+    // Pipes that a descent would lead away from have been solved on the user's own mesh (method/direct).
     CoarseProxy coarse(const Points& membrane, const Fineness& fineness) {
+        const Sizing sizing{fineness.growth, longest_coarse, free_limit_};
         ProxyMesh mesh(problem_.patch, membrane);
-        mesh.adapt({fineness.growth, longest_coarse, free_limit_});
-        if (problem_.patch.loop_count() > 1) {
-            auto along_normals = coarse_along_normals(mesh, fineness.growth);
-            if (along_normals && along_normals->end == CoarseEnd::converged) return std::move(*along_normals);
-        }
-        return coarse_by_descent(std::move(mesh), fineness.growth);
+        mesh.adapt(sizing);
+        descend(mesh);
+        mesh.adapt(sizing);
+        const auto snapshot = mesh.snapshot();
+        const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
+        Workspace work = make_workspace(problem, progress_);
+        const Points start = globalise(problem, work, snapshot.points, progress_.here());
+        const Solution solution = solve_equation(problem, work, start, progress_.here());
+        const CoarseEnd end = end_of(solution, problem_, shown_);
+        mesh.read_back(snapshot.patch, end == CoarseEnd::converged ? solution.points : start);
+        return {std::move(mesh), end};
     }
 
     SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
@@ -141,39 +144,6 @@ private:
         auto snapshot = mesh.snapshot();
         snapshot.points.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
         mesh.read_back(snapshot.patch, snapshot.points);
-    }
-
-    std::optional<CoarseProxy> coarse_along_normals(ProxyMesh mesh, double growth) {
-        constexpr int rounds = 3;  // of filling and meshing anew: the first mesh belongs to another surface
-        for (int k = 0; k < rounds; ++k) {
-            const auto snapshot = mesh.snapshot();
-            const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
-            const auto points = normal_fill(problem, progress_.here());
-            if (!points) return std::nullopt;
-            mesh.read_back(snapshot.patch, *points);
-            mesh.adapt({growth, longest_coarse, free_limit_, turn});
-        }
-        return iterate_coarse(std::move(mesh), [](const Problem&, Workspace&, const Points& points) { return points; });
-    }
-
-    CoarseProxy coarse_by_descent(ProxyMesh mesh, double growth) {
-        descend(mesh);
-        mesh.adapt({growth, longest_coarse, free_limit_});
-        return iterate_coarse(std::move(mesh), [&](const Problem& problem, Workspace& work, const Points& points) {
-            return globalise(problem, work, points, progress_.here());
-        });
-    }
-
-    template <typename MakeStart>
-    CoarseProxy iterate_coarse(ProxyMesh mesh, const MakeStart& make_start) {
-        const auto snapshot = mesh.snapshot();
-        const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
-        Workspace work = make_workspace(problem, progress_);
-        const Points start = make_start(problem, work, snapshot.points);
-        const Solution solution = solve_equation(problem, work, start, progress_.here());
-        const CoarseEnd end = end_of(solution, problem_, shown_);
-        mesh.read_back(snapshot.patch, end == CoarseEnd::converged ? solution.points : start);
-        return {std::move(mesh), end};
     }
 
     void descend(ProxyMesh& mesh) {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "base/direction.h"
+#include "geometry/area_vector.h"
 #include "geometry/surface_fit.h"
 #include "shape/knobs.h"
 #include "shape/limits.h"
@@ -26,11 +27,6 @@ constexpr double end_step = 0.2;                                        // how f
 // Triangles on either side and edges of the boundary that are enough.
 constexpr Eigen::Index most_triangles = 3000;
 constexpr std::size_t most_edges = 300;
-
-Vector3 area_vector(const Points& points, const Eigen::Vector3i& corners) {
-    const Vector3 a = points.col(corners[0]);
-    return (points.col(corners[1]) - a).cross(Vector3(points.col(corners[2]) - a));
-}
 
 // Edges of a boundary.
 struct Frames {

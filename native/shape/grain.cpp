@@ -5,6 +5,7 @@
 
 #include "base/direction.h"
 #include "geometry/angle.h"
+#include "geometry/averages.h"
 #include "geometry/dihedral_bands.h"
 #include "mesh/collapsed.h"
 #include "mesh/edges.h"
@@ -37,24 +38,9 @@ void grow(const EdgeTable& edges, int rings, Marks& marked) {
     }
 }
 
-Points unit_columns(Points vectors) {
-    for (auto column : vectors.colwise()) column = direction(Vector3(column));
-    return vectors;
-}
-
-Points vertex_normals(const Points& points, const Triangles& triangles) {
-    Points sums = Points::Zero(3, points.cols());
-    for (const auto corner : triangles.colwise()) {
-        const Vector3 a = points.col(corner[0]);
-        const Vector3 area = (points.col(corner[1]) - a).cross(Vector3(points.col(corner[2]) - a));
-        for (const int v : corner) sums.col(v) += area;
-    }
-    return unit_columns(std::move(sums));
-}
-
 // Degrees between each vertex's normal and the mean of those around it.
 VectorX deviations(const Points& points, const Triangles& triangles, const EdgeTable& edges) {
-    const Points normals = vertex_normals(points, triangles);
+    const Points normals = averaged_normals(points, triangles);
     VectorX valence = VectorX::Zero(points.cols());
     for (const auto& [a, b] : edges.ends) {
         valence[a] += 1.0;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/angle.h"
+#include "geometry/area_vector.h"
 #include "mesh/edges.h"
 #include "shape/limits.h"
 
@@ -12,18 +13,13 @@ namespace fairing {
 
 namespace {
 
-Vector3 area_vector(const Points& points, const Triangles& triangles, Eigen::Index t) {
-    const Vector3 a = points.col(triangles(0, t));
-    return (points.col(triangles(1, t)) - a).cross(Vector3(points.col(triangles(2, t)) - a));
-}
-
 bool is_needle(const Points& points, const Triangles& triangles, Eigen::Index t) {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k) {
         const Vector3 side = points.col(triangles((k + 1) % 3, t)) - points.col(triangles(k, t));
         longest = std::max(longest, side.squaredNorm());
     }
-    return !(area_vector(points, triangles, t).norm() > needle_height * longest);
+    return !(area_vector(points, triangles.col(t)).norm() > needle_height * longest);
 }
 
 // Of the triangles on the other sides of a triangle's edges.
@@ -33,7 +29,7 @@ std::vector<Vector3> normals_beside(const Points& points, const Triangles& trian
         const int edge = edges.edge_of_side[3 * t + k];
         for (int side = 0; side < edges.side_count(edge); ++side) {
             const int other = edges.side(edge, side) / 3;
-            if (other != t) normals.push_back(area_vector(points, triangles, other));
+            if (other != t) normals.push_back(area_vector(points, triangles.col(other)));
         }
     }
     return normals;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/direction.h"
+#include "geometry/averages.h"
 #include "shape/knobs.h"
 #include "shape/limits.h"
 
@@ -61,17 +62,6 @@ std::vector<Middle> middles(const Patch& patch, const Points& points, const Poin
     return found;
 }
 
-Points vertex_normals(const Patch& patch, const Points& points) {
-    Points sums = Points::Zero(3, points.cols());
-    for (const auto corner : patch.triangles.colwise()) {
-        const Vector3 a = points.col(corner[0]);
-        const Vector3 area = (points.col(corner[1]) - a).cross(Vector3(points.col(corner[2]) - a));
-        for (const int v : corner) sums.col(v) += area;
-    }
-    for (auto column : sums.colwise()) column = direction(Vector3(column));
-    return sums;
-}
-
 struct Below {
     double depth;  // of a line's length
     int vertex;    // nearest to where the surface is
@@ -105,7 +95,7 @@ Sunken sunken_of(const Patch& patch, const Points& points, const Points& normals
     if (lines.size() < fewest) return {};
     Indices vertices;
     for (int v = 0; v < patch.vertex_count(); v += patch.vertex_count() / most_vertices + 1) vertices.push_back(v);
-    const Points own = vertex_normals(patch, points);
+    const Points own = averaged_normals(points, patch.triangles);
     std::vector<Below> found;
     found.reserve(lines.size());
     for (const Middle& line : lines) found.push_back(below(line, points, own, vertices));

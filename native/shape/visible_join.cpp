@@ -10,6 +10,7 @@
 
 #include "base/direction.h"
 #include "base/parallel.h"
+#include "geometry/area_vector.h"
 #include "geometry/dihedral_bands.h"
 #include "mesh/collapsed.h"
 #include "mesh/strip.h"
@@ -43,9 +44,7 @@ std::vector<OutlineEdge> shared_edges(const EdgeTable& inside, const EdgeTable& 
 }
 
 Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
-    const auto corners = triangles.col(side / 3);
-    const Vector3 a = points.col(corners[0]);
-    return direction((points.col(corners[1]) - a).cross(Vector3(points.col(corners[2]) - a)));
+    return direction(area_vector(points, triangles.col(side / 3)));
 }
 
 double angle_at(const Points& points, const JoinedMesh& mesh, const OutlineEdge& edge) {

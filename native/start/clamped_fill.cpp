@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "base/errors.h"
+#include "operators/laplace_operator.h"
 
 namespace fairing {
 
@@ -18,6 +19,16 @@ Stiffness uniform_stiffness(const Patch& patch) {
         for (int v : patch.triangles.col(t)) stiffness.mass[v] += std::numbers::sqrt3 / 12.0;
     }
     return stiffness;
+}
+
+std::optional<Points> harmonic_between(const Patch& patch, Points field, const Progress& progress) {
+    const Stiffness even = uniform_stiffness(patch);
+    LaplaceOperator laplace(patch);
+    if (!laplace.update(even, progress)) return std::nullopt;
+    field.leftCols(patch.free_count).setZero();
+    const Points pull = even.apply(patch, field, patch.free_count);
+    field.leftCols(patch.free_count) = -laplace.solve(pull.transpose()).transpose();
+    return field;
 }
 
 namespace {

@@ -1,6 +1,8 @@
 // Clamped fills of the boundary, which depend on connectivity and boundary data only.
 #pragma once
 
+#include <optional>
+
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
 #include "operators/normal_operator.h"
@@ -9,6 +11,10 @@ namespace fairing {
 
 // S and M of a mesh whose triangles are all equilateral (edge weight 2/√3, half of it on the border).
 Stiffness uniform_stiffness(const Patch& patch);
+
+// A field (3 × local vertices) whose fixed values stay and whose free ones are harmonic on such triangles. Nothing
+// where there is no factor.
+std::optional<Points> harmonic_between(const Patch& patch, Points field, const Progress& progress);
 
 // Clamped bi-Laplacian membranes over the boundary: linear in the conormals, whose weight sigma decides how far the
 // surface bulges. positions(sigma) = flat + sigma · bulge, free vertices only.

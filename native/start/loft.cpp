@@ -33,14 +33,6 @@ double length_of(const Problem& problem, const Indices& loop) {
     return sum;
 }
 
-// A field on all vertices whose free values are harmonic.
-Points filled(const Patch& patch, const Stiffness& stiffness, const LaplaceOperator& laplace, Points field) {
-    field.leftCols(patch.free_count).setZero();
-    const Points pull = stiffness.apply(patch, field, patch.free_count);
-    field.leftCols(patch.free_count) = -laplace.solve(pull.transpose()).transpose();
-    return field;
-}
-
 // 0 on the longest outline, 1 on the others.
 Points levels(const Problem& problem, const std::vector<Indices>& loops) {
     const auto shorter = [&](const Indices& a, const Indices& b) {
@@ -101,10 +93,9 @@ std::optional<Loft> Loft::of(const Problem& problem, double roundness, const Pro
     const Patch& patch = problem.patch;
     if (!joins_outlines(problem)) return std::nullopt;
     Loft loft(patch);
-    const Stiffness even = uniform_stiffness(patch);
-    if (!loft.laplace_->update(even, progress)) return std::nullopt;
-    const Points across = filled(patch, even, *loft.laplace_, levels(problem, patch.loops()));
-    loft.stiffness_ = along_stream(patch, even, across, roundness);
+    const auto across = harmonic_between(patch, levels(problem, patch.loops()), progress);
+    if (!across) return std::nullopt;
+    loft.stiffness_ = along_stream(patch, uniform_stiffness(patch), *across, roundness);
     if (!loft.laplace_->update(loft.stiffness_, progress) || !loft.clamped_->update(loft.stiffness_, progress))
         return std::nullopt;
     return loft;
@@ -117,7 +108,8 @@ Fill Loft::over(const Problem& problem) const {
     const Patch& patch = problem.patch;
     Points lines = Points::Zero(3, patch.vertex_count());
     lines.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    lines = filled(patch, stiffness_, *laplace_, std::move(lines));
+    const Points pull = stiffness_.apply(patch, lines, patch.free_count);
+    lines.leftCols(patch.free_count) = -laplace_->solve(pull.transpose()).transpose();
     const Points derivatives =
         0.5 * stiffness_.apply(patch, lines, patch.vertex_count()).rightCols(problem.fixed_points.cols());
     const Points turned = turned_into_planes(problem, derivatives, trust_in_slopes(problem));

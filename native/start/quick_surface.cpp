@@ -5,7 +5,6 @@
 
 #include "base/errors.h"
 #include "operators/biharmonic_operator.h"
-#include "operators/laplace_operator.h"
 #include "operators/workspace.h"
 #include "problem/free_slopes.h"
 #include "problem/surface_state.h"
@@ -23,17 +22,10 @@ namespace {
 // it, .04 behind the second.
 constexpr int descent_steps = 2;
 
-// The harmonic map of the boundary from a mesh of equilateral triangles; nothing where that has no factor.
 std::optional<Points> harmonic_map(const Problem& problem, const Progress& progress) {
-    const Patch& patch = problem.patch;
-    const Stiffness even = uniform_stiffness(patch);
-    LaplaceOperator laplace(patch);
-    if (!laplace.update(even, progress)) return std::nullopt;
-    Points points = Points::Zero(3, patch.vertex_count());
+    Points points = Points::Zero(3, problem.patch.vertex_count());
     points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
-    points.leftCols(patch.free_count) =
-        -laplace.solve(even.apply(patch, points, patch.free_count).transpose()).transpose();
-    return points;
+    return harmonic_between(problem.patch, std::move(points), progress);
 }
 
 bool has_slopes(const Patch& patch) {

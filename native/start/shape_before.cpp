@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "geometry/flips.h"
-#include "operators/laplace_operator.h"
 #include "problem/willmore.h"
 #include "start/clamped_fill.h"
 #include "start/several_outlines.h"
@@ -31,12 +30,8 @@ std::optional<Points> over_outline(const Problem& problem, const Progress& progr
     Points moves = Points::Zero(3, patch.vertex_count());
     moves.rightCols(problem.fixed_points.cols()) = problem.fixed_points - before.rightCols(problem.fixed_points.cols());
     if (moves.isZero(0.0)) return before;
-    const Stiffness even = uniform_stiffness(patch);
-    LaplaceOperator laplace(patch);
-    if (!laplace.update(even, progress)) return std::nullopt;
-    moves.leftCols(patch.free_count) =
-        -laplace.solve(even.apply(patch, moves, patch.free_count).transpose()).transpose();
-    return Points(before + moves);
+    const auto everywhere = harmonic_between(patch, std::move(moves), progress);
+    return everywhere ? std::optional<Points>(before + *everywhere) : std::nullopt;
 }
 
 // Of ∫ |Δx|² at the shape itself, between the tangent planes wanted.

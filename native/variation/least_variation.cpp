@@ -314,9 +314,4 @@ std::optional<Solution> solve_less_varying(const Problem& problem, const Variati
     return solution;
 }
 
-double variation_energy(const Problem& problem, const Points& points) {
-    const Sheet sheet{points, fitted_normals(problem, points, Measure::scale_free, Progress())};
-    return VariationEnergy(problem, Moving::normals, Measure::scale_free).measured(sheet).merit;
-}
-
 }  // namespace fairing

@@ -32,7 +32,4 @@ struct VariationLimits {
 std::optional<Solution> solve_less_varying(const Problem& problem, const VariationLimits& limits,
                                            const Progress& progress);
 
-// The product for any surface of the problem's patch (3 × local vertices), with the normals that minimise it.
-double variation_energy(const Problem& problem, const Points& points);
-
 }  // namespace fairing

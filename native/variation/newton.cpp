@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 
 #include "base/limits.h"
+#include "geometry/area_vector.h"
+#include "geometry/averages.h"
 #include "geometry/vertex_normal.h"
 #include "linear/limits.h"
 #include "linear/sparse_cholesky.h"
@@ -36,17 +38,14 @@ Points layout_of(const VariationEnergy& energy, const Sheet& sheet) {
 VectorX mean_edges(const Patch& patch, const Points& points) {
     VectorX result(patch.vertex_count());
     for (int v = 0; v < patch.vertex_count(); ++v) {
-        double sum = 0.0;
-        for (int u : patch.ring(v).vertices) sum += (points.col(u) - points.col(v)).norm();
-        result[v] = sum / static_cast<double>(patch.ring(v).valence());
+        result[v] = mean_spoke(patch, points, v);
     }
     return result;
 }
 
 double lean(const Sheet& sheet, const Triangles& triangles, int t) {
     const auto corner = triangles.col(t);
-    const Vector3 cross = (sheet.points.col(corner[1]) - sheet.points.col(corner[0]))
-                              .cross(sheet.points.col(corner[2]) - sheet.points.col(corner[0]));
+    const Vector3 cross = area_vector(sheet.points, corner);
     const Vector3 sum = sheet.normals.col(corner[0]) + sheet.normals.col(corner[1]) + sheet.normals.col(corner[2]);
     return cross.dot(sum) / (cross.norm() * sum.norm() + 1e-300);
 }

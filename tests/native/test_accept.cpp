@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "accept/accept.h"
+#include "geometry/averages.h"
 #include "meshes.h"
 #include "placement/placement.h"
 #include "placement/tears.h"

@@ -17,17 +17,6 @@ PairedQuads pair_of(double x, double height = 0.0) {
     return paired_quads(points, triangles, {});
 }
 
-// A strip of n triangles, the rungs of which stand on whole numbers.
-Triangles strip(int n) {
-    Triangles triangles(3, n);
-    for (int t = 0; t < n; ++t)
-        if (t % 2 == 0)
-            triangles.col(t) << t, t + 2, t + 1;
-        else
-            triangles.col(t) << t, t + 1, t + 2;
-    return triangles;
-}
-
 }  // namespace
 
 TEST_CASE("quads: what is not convex, or bent, stays two triangles") {

@@ -129,14 +129,11 @@ TEST_CASE("a sphere comes back from its outline's points alone where the slope i
     CHECK((sheet.normals - sheet.points).cwiseAbs().maxCoeff() < 1e-7);
 }
 
-TEST_CASE("fitted normals are exact on spheres, and the energy of points alone is that of the best normals") {
+TEST_CASE("fitted normals are exact on spheres") {
     const Exact exact(test::grid(10, 0.3, test::sphere), [](const Vector3& p) { return p; });
     CHECK((fitted_normals(exact.problem, exact.sheet.points, Measure::plain, Progress()) - exact.sheet.points)
               .cwiseAbs()
               .maxCoeff() < 1e-6);
-    CHECK(variation_energy(exact.problem, exact.sheet.points) < 1e-9);
-    const Exact ring = torus_patch(16);
-    CHECK(variation_energy(ring.problem, ring.sheet.points) < 1.0001 * ring.merit(Measure::scale_free));
 }
 
 TEST_CASE("points between the vertices lie on spheres and cylinders exactly") {
