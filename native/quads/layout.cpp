@@ -16,7 +16,12 @@ QuadLayout::QuadLayout(const FlatMap& map, const Patch& patch, const Points& poi
     : map_(map), patch_(patch), points_(points), surface_(surface) {
     for (const Indices& loop : map.loops()) rim_.insert(rim_.end(), loop.begin(), loop.end());
     normals_.resize(3, patch.triangle_count());
-    for (int t = 0; t < patch.triangle_count(); ++t) normals_.col(t) = surface.face_normal(t);
+    Points at_vertex = Points::Zero(3, patch.vertex_count());
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        normals_.col(t) = surface.face_normal(t);
+        for (const int v : patch.triangles.col(t)) at_vertex.col(v) += normals_.col(t);
+    }
+    rim_normals_ = at_vertex(Eigen::all, rim_).colwise().normalized();
 }
 
 // On the flat triangle.
@@ -34,7 +39,7 @@ LaidOut QuadLayout::laid_out(const QuadPattern& pattern, const Effort& effort) c
     result.points.resize(3, pattern.vertex_count);
     result.points.leftCols(rim) = points_(Eigen::all, rim_);
     result.normals.resize(3, pattern.vertex_count);
-    for (int k = 0; k < rim; ++k) result.normals.col(k) = surface_.normal(surface_.at_vertex(rim_[k]));
+    result.normals.leftCols(rim) = rim_normals_;
     result.where.resize(static_cast<std::size_t>(pattern.vertex_count - rim));
     for (int v = rim; v < pattern.vertex_count; ++v) put(result, v, map_.located(flat.col(v)));
     SquareSteps steps(pattern);

@@ -45,8 +45,9 @@ private:
     const Patch& patch_;
     const Points& points_;
     const TargetSurface& surface_;
-    Indices rim_;     // the boundary's local vertices, loop after loop
-    Points normals_;  // of the patch's triangles
+    Indices rim_;         // the boundary's local vertices, loop after loop
+    Points normals_;      // of the patch's triangles,
+    Points rim_normals_;  // and their means at the boundary: those that it is to have may lean far from them
 };
 
 }  // namespace fairing
