@@ -19,6 +19,8 @@ NAME = re.compile(
     r"^(?:template <.*> )?(?:(?:struct|class|enum class|using) (\w+)|[A-Za-z].*?\b(\w+)(?: = |[({;[]))", re.MULTILINE
 )
 SAID = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"')  # comments and strings, names of headers among them
+OPENMESH = ROOT / "native/mesh/surface_mesh.h"
+GIVEN = frozenset(("dot", "cross", "norm", "sqrnorm", "normalize", "vectorize"))  # what it declares for Eigen's types
 SIZE = 16  # sources
 
 
@@ -57,8 +59,10 @@ class Words:
 def words(path: Path) -> Words:
     own = "".join(PRIVATE.findall(path.read_text(encoding="utf-8")))
     private = frozenset(name for pair in NAME.findall(own) for name in pair if name)
-    text = "".join(SAID.sub("", each.read_text(encoding="utf-8")) for each in closure(path))
-    return Words(private, frozenset(re.findall(r"\w+", text)), path.parent.name)
+    read = closure(path)
+    text = "".join(SAID.sub("", each.read_text(encoding="utf-8")) for each in read)
+    given = GIVEN if OPENMESH in read else frozenset()
+    return Words(private, given.union(re.findall(r"\w+", text)), path.parent.name)
 
 
 def groups(paths: list[Path]) -> list[list[Path]]:
