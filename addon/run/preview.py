@@ -50,6 +50,11 @@ class Preview:
             self._shown.append(_Shown(name, vertices, task.mesh.positions[vertices], there))
 
     @property
+    def is_given(self) -> bool:
+        """Whether there is, or was, anything to show."""
+        return bool(self._given or self._shown)
+
+    @property
     def is_shown(self) -> bool:
         """Whether anything is."""
         return bool(self._shown)

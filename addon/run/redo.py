@@ -19,12 +19,13 @@ from ..core.outcome import Fairing
 from ..host.handlers import call_later, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from . import job
-from .background import TICK, Watched, has_events, under_way
+from .background import MOMENT, TICK, Watched, has_events, under_way
 from .finish import Asked, Say, finish, refuse
 from .preview import Preview
 from .report_properties import clear, store_first
 
 PROMPT = 0.06  # seconds from the begin of reading in which an answer needs no first surface
+SLICE = 0.005  # seconds between two looks at the thread
 BLINK = 0.02  # seconds that a change waits for the search before it to stop
 AWAITED = "Looking for a fair surface: a smooth one is shown meanwhile"
 KEPT = "A smooth surface was kept: the mesh changed before the fair one was found"
@@ -42,6 +43,17 @@ class Following:
         self.run: runner.Run[list[Fairing]] = runner.Run(
             partial(job.solve, asked.tasks, asked.options, give=self.preview.give)
         )
+
+    def is_there_soon(self) -> bool:
+        """Wait for the answer until PROMPT, or for the first surface until MOMENT.
+
+        Until then the thread makes arrays in Python. It shouldn't while Blender ends the operator, without Python.
+        """
+        while not self.run.wait(SLICE):
+            passed = time.perf_counter() - self.asked.begin
+            if passed > (PROMPT if self.preview.is_given else MOMENT):
+                return False
+        return True
 
     def begin(self, context: bpy.types.Context) -> None:
         """Let Blender go on, and look at the search from now on."""
@@ -135,7 +147,7 @@ class Redone(Watched):
     def _change(self, context: bpy.types.Context) -> set[str]:
         kept = context.window_manager.operators
         following = Following(self._asked(), kept[-1].as_pointer(), context.window.as_pointer())
-        if following.run.wait(max(0.0, following.asked.begin + PROMPT - time.perf_counter())):
+        if following.is_there_soon():
             following.settle(context, self.report)
         else:
             following.begin(context)
