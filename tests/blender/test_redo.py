@@ -47,6 +47,7 @@ class Panel:
         self.first_run = self.positions()
         monkeypatch.setattr(self.redo, "has_events", lambda _context: True)
         monkeypatch.setattr(self.redo, "PROMPT", 0.0)
+        monkeypatch.setattr(self.redo, "IS_ON", True)
         monkeypatch.setattr(job, "solve", slow)
         job.memory.clear()
 
