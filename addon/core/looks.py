@@ -76,12 +76,6 @@ def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
     return f"The surface forms a spike at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
 
 
-def _lifted(evidence: Evidence, options: FairOptions) -> Found:
-    if not len(evidence.lost.beyond) or not judges_join(options):
-        return NOTHING
-    return "The surface swells beyond the pins that lift it: Pull Locally keeps the rest", evidence.lost.beyond
-
-
 def _rounded(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.rounded):
         return NOTHING
@@ -249,7 +243,7 @@ def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
 
 # The first that finds something gives the reason.
 _LOOKS = (
-    *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _lifted, _swollen, _flanked),
+    *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
     *(_substituted, _uneven, _rougher, _sunken, _refused, _squeezed, _smoother),
 )
 

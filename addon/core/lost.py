@@ -15,10 +15,6 @@ from .harmonic import harmonic
 from .region import MeshArrays, Patch, nothing
 
 MOST_MOVED = 0.04  # of the selection's size: by how much an open border may move in the mean
-# Times the way of the pin that lifts most: by how much a surface may move for them. One pin in a sheet comes to 1.00,
-# three in a ball to 1.09, 1.24 and 2.72 where it swells.
-MOST_FOR_PINS = 1.2
-LEAST_LIFT = 1e-3  # of the selection's size
 MOST_OF_A_KEY = 0.05  # of the selection's size: by how much a key may stand off what its surroundings make of it
 
 
@@ -31,7 +27,6 @@ class Lost:
     is_smoother: bool = False  # than around, where the old surface was not
     is_rougher: bool = False  # than around: crumpled
     border: Ints = field(default_factory=nothing)  # of an open border that has moved far
-    beyond: Ints = field(default_factory=nothing)  # where it goes farther than the pins that lift it, the worst first
     key: Ints = field(default_factory=nothing)  # where a shape key that is shown has kept a shape of its own
 
 
@@ -65,21 +60,6 @@ def moved_border(problem: Problem, after: Floats) -> Ints:
     own = problem.own_points
     way = np.linalg.norm(after[border] - own[border], axis=1)
     return patch.vertices[border] if way.mean() > MOST_MOVED * np.ptp(own, axis=0).max() else nothing()
-
-
-def beyond_pins(problem: Problem, after: Floats, without: Floats | None) -> Ints:
-    """Return the mesh vertices that move more than their pins do, from the surface without these; both (q, 3)."""
-    if without is None:
-        return nothing()
-    patch = problem.patch
-    own = len(patch.vertices)
-    way = np.linalg.norm(after[:own] - without[:own], axis=1)
-    lift = way[patch.fixed].max(initial=0.0)
-    far = np.flatnonzero(way > MOST_FOR_PINS * lift)
-    if lift < LEAST_LIFT * np.ptp(problem.own_points, axis=0).max():
-        return nothing()
-    found: Ints = patch.vertices[far[np.argsort(-way[far], kind="stable")]]
-    return found
 
 
 def kept_key(problem: Problem, after: Floats, offsets: Floats | None) -> Ints:

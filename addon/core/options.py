@@ -197,11 +197,6 @@ class FairOptions:
         return self.pin_pull == "LOCAL" and may
 
     @property
-    def lifts_by_pins(self) -> bool:
-        """Whether what lone pins lift is compared with the surface without them."""
-        return bool(self.pin_group) and self.mesh == "KEEP" and not self.takes_base
-
-    @property
     def fairs_border(self) -> bool:
         """Whether open borders move."""
         return self.open_border == "FAIRED" and self.method == "GLOBAL"

@@ -15,7 +15,7 @@ from .arrays import Floats, Ints
 from .eaten import Eaten, eaten_edges
 from .engine import Problem, Progress, go_on, islands
 from .evidence import Evidence, Flank
-from .lost import Lost, beyond_pins, is_smoother, kept_key, moved_border, sunken
+from .lost import Lost, is_smoother, kept_key, moved_border, sunken
 from .moved_keys import MovedKey
 from .options import FairOptions
 from .piercing import Sheet, pierced, places
@@ -96,7 +96,7 @@ def outcome(
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
         flank=flank_of(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
-        lost=replace(_lost(mesh, matrix, problem, after), beyond=beyond_pins(problem, after, solved.released)),
+        lost=_lost(mesh, matrix, problem, after),
     )  # fmt: skip
     go_on(progress)
     verdict = judge(evidence, options.resolved(mesh.textured))
@@ -185,7 +185,7 @@ def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, 
     points = before.copy()
     points[problem.vertices] = after
     rounded = fairing.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
-    found: Ints = np.intersect1d(rounded, outside).astype(np.int64)
+    found: Ints = np.intersect1d(rounded, outside)
     return found
 
 

@@ -12,7 +12,7 @@ import fairing
 
 from . import engine
 from .around import numbered, outside_triangles, sample_triangles, wide_outside, wound_alike
-from .arrays import Floats, Mask
+from .arrays import Floats
 from .boundary import boundary
 from .engine import Progress
 from .feather import band_weights, refuse_options
@@ -39,7 +39,6 @@ class Solved:
     warnings: tuple[str, ...]
     failures: tuple[str, ...] = ()  # why there is no answer, where there is none
     hints: tuple[str, ...] = ()  # what may be the reason where the result is not good
-    released: Floats | None = None  # (q, 3): the surface without lone pins, where these lift a whole one
 
 
 @dataclass(frozen=True)
@@ -67,33 +66,12 @@ def solve(
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     options, mesh = options.resolved(mesh.textured), replace(mesh, textured=False)  # asked for by some options only
-    lone = lone_pins(mesh) if options.pulls_locally or options.lifts_by_pins else None
+    lone = lone_pins(mesh) if options.pulls_locally else None
     if lone is not None and lone.any():
-        return _lifted(mesh, matrix, options, progress, kept, lone)
-    return _solved_for(mesh, matrix, options, progress, kept)
-
-
-def _lifted(
-    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None, lone: Mask
-) -> Solved:
-    """Solve without the lone pins, and lift that surface to them; or also with them, as a whole."""
-    free = replace(mesh, pinned=mesh.pinned & ~lone)
-    if options.pulls_locally:
-        without = _solved_for(free, matrix, replace(options, pin_pull="SURFACE"), progress, kept)
+        released = replace(mesh, pinned=mesh.pinned & ~lone)
+        without = solve(released, matrix, replace(options, pin_pull="SURFACE"), progress, kept)
         vertices = pulled(without.problem, without.result.vertices, lone, options.pin_radius)
         return replace(without, result=replace(without.result, vertices=vertices))
-    whole = _solved_for(mesh, matrix, options, engine.sub_range(progress, 0.0, 0.5), kept)
-    try:
-        quiet = None if kept is None else replace(kept, preview=None)
-        without = _solved_for(free, matrix, options, engine.sub_range(progress, 0.5, 1.0), quiet)
-    except fairing.SolverError:
-        return whole
-    return replace(whole, released=without.result.vertices) if without.result.converged else whole
-
-
-def _solved_for(
-    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
-) -> Solved:
     share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
     place = digest(mesh, matrix) if kept is not None else ""

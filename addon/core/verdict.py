@@ -22,7 +22,7 @@ GRADES = (GOOD, LOOK, UNUSABLE)
 # What may help, each a change for another run.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
-ADD_LEFT_OUT, KEEP_DETAIL, ALL_KEYS, PULL_LOCALLY = "ADD_LEFT_OUT", "KEEP_DETAIL", "ALL_KEYS", "PULL_LOCALLY"
+ADD_LEFT_OUT, KEEP_DETAIL, ALL_KEYS = "ADD_LEFT_OUT", "KEEP_DETAIL", "ALL_KEYS"
 _OTHERS = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY")  # equations that Least Variation may do better than
 
 
@@ -90,7 +90,6 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     offered = {
         GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
         ALL_KEYS: len(evidence.lost.key) > 0,
-        PULL_LOCALLY: len(evidence.lost.beyond) > 0,
         KEEP_DETAIL: evidence.lost.is_smoother and options.detail == 0.0,
         ADD_LEFT_OUT: evidence.left_out.count > 0,
         GROW: has_outside and not len(evidence.problem.inward),  # over a hard edge a flat cap would become a dome

@@ -20,7 +20,6 @@ from ..core.verdict import (
     GROW_OVER,
     HOLD_BORDER,
     KEEP_DETAIL,
-    PULL_LOCALLY,
     SMOOTH_OUTLINE,
     WRITE,
 )
@@ -75,7 +74,6 @@ class MESH_OT_fair_reselect(bpy.types.Operator):
 CHANGES: dict[str, dict[str, Any]] = {
     ALL_KEYS: {"keys": "ALL"},
     KEEP_DETAIL: {"detail": 1.0},
-    PULL_LOCALLY: {"pin_pull": "LOCAL"},
     ADD_LEFT_OUT: {},
     GROW: {},
     GROW_OVER: {},
@@ -89,7 +87,6 @@ CHANGES: dict[str, dict[str, Any]] = {
 _WAYS = (
     (ALL_KEYS, "All Keys", "Fair every shape key as well, each from its own surroundings"),
     (KEEP_DETAIL, "Keep Detail", "Fair again, and put the old skin back on the new shape"),
-    (PULL_LOCALLY, "Pull Locally", "Fair again, with pins that lift only what is around them"),
     (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
     (GROW_OVER, "Grow Past Bump", "Select as many rings of faces more as the slope is wide, and fair again"),
@@ -103,7 +100,6 @@ _WAYS = (
 # What helps most where several are offered.
 _ORDER = (
     ALL_KEYS,
-    PULL_LOCALLY,
     ADD_LEFT_OUT,
     GROW_OVER,
     KEEP_DETAIL,
