@@ -123,4 +123,4 @@ def test_each_map_has_seams_of_its_own() -> None:
     assert fill_hole(obj, quads=True) == {"FINISHED"}
     assert parted(obj, "Box")
     assert not parted(obj, "Plain")
-    assert {len(polygon.vertices) for polygon in obj.data.polygons if polygon.select} == {3, 4}
+    assert {len(polygon.vertices) for polygon in obj.data.polygons if polygon.select} == {4}
