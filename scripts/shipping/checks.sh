@@ -18,9 +18,9 @@ make_checking_tools() {
 
 # Fails where the module needs more than manylinux_2_28 has.
 check_manylinux() {
-    local scratch=$cross/auditwheel
+    local scratch=$cross/auditwheel platform=${1##*-}
     rm -rf "$scratch"
-    quietly auditwheel "$python" -m auditwheel repair --plat manylinux_2_28_x86_64 --wheel-dir "$scratch" "$1"
+    quietly auditwheel "$python" -m auditwheel repair --plat "${platform%.whl}" --wheel-dir "$scratch" "$1"
     if "$python" -m zipfile --list "$scratch"/*.whl | grep -q '\.libs/'; then
         fail "$1 needs libraries of this machine"
     fi
@@ -134,7 +134,7 @@ alone() {
         exec "$@"' alone "$@"
 }
 
-# usage: install_sdist COMPILER: into build/venv-COMPILER, with build tools of known hashes
+# usage: install_sdist COMPILER [PIP-OPTION…]: into build/venv-COMPILER, with build tools of known hashes
 install_sdist() {
     local venv=$build/venv-$1
     rm -rf "$venv"
@@ -142,7 +142,7 @@ install_sdist() {
     quietly "pip-$1" "$venv/bin/python" -m pip install --progress-bar off \
         --require-hashes --only-binary :all: --requirement scripts/locked/sdist.txt
     CXX=$1 quietly "install-$1" alone "$venv/bin/python" -m pip install \
-        --no-index --no-deps --no-build-isolation "$packages"/*.tar.gz
+        --no-index --no-deps --no-build-isolation "${@:2}" "$packages"/*.tar.gz
     "$venv/bin/python" -c 'import fairing' # a static library doesn't ask whether all that it calls is there
     if ldd "$venv"/lib/python*/site-packages/fairing/_core.*.so | grep -q OpenMesh; then
         fail "the sdist's module was built with this machine's OpenMesh, not with the one that it brings"
