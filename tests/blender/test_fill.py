@@ -314,7 +314,6 @@ def test_escape_leaves_the_hole_open() -> None:
     class Stand:
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _is_current, _write = original._stop_watching, original._is_current, original._write
-        _show = original._show
         _signs, _begin, _options, _tasks = None, 0.0, options, tasks
 
         def report(self, _kinds: set[str], _text: str) -> None:

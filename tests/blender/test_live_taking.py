@@ -53,7 +53,7 @@ def clicked() -> Any:
         def _start_watching(self, context: Any) -> None:
             self._signs = module("run.background").Signs(context)
 
-    for name in ("invoke", "_begin_with", "_read", "_solve_or_start", "_start", "_is_current", "_apply", "_refuse"):
+    for name in ("invoke", "_begin_with", "_read", "_start_work", "_start", "_is_current", "_apply", "_refuse"):
         setattr(Stand, name, getattr(original, name))
     for name in ("modal", "cancel", "_collect", "_stop_watching"):
         setattr(Stand, name, getattr(original, name))

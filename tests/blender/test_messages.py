@@ -17,7 +17,7 @@ def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     said: list[str] = []
 
     class Stand:
-        execute, _begin_with, _solve_at_once = original.execute, original._begin_with, original._solve_at_once
+        execute, _begin_with, _work = original.execute, original._begin_with, original._work
         _read, _apply, _refuse, _leave = original._read, original._apply, original._refuse, original._leave
         _way, _tasks = "", ()
 

@@ -232,7 +232,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         return solve(*arguments, **rest)
 
     class Stand:
-        invoke, _begin_with, _solve_or_start = original.invoke, original._begin_with, original._solve_or_start
+        invoke, _begin_with, _start_work = original.invoke, original._begin_with, original._start_work
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _refuse = original._stop_watching, original._refuse
         _start, _read, _is_current, _way = original._start, original._read, original._is_current, ""
