@@ -31,7 +31,8 @@ def call(**options: Any) -> fairing.FairResult:
 
 def with_entry(array: Any, value: Any) -> Any:
     """A copy, of a wider type if need be, whose first entry is another."""
-    result = array.astype(np.result_type(array, type(value)))
+    kind = np.int64 if type(value) is int else type(value)  # numpy 1 on Windows takes an int for 32 bits
+    result = array.astype(np.result_type(array, kind))
     result.reshape(-1)[0] = value
     return result
 

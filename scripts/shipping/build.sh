@@ -2,7 +2,7 @@
 # Wheels, zips and the sdist; sourced by scripts/package after compile.sh.
 
 declare -A wheel_platform=(
-    [linux-x64]=manylinux_2_28_x86_64 [windows-x64]=win_amd64
+    [linux-x64]=manylinux_2_28_x86_64 [linux-arm64]=manylinux_2_28_aarch64 [windows-x64]=win_amd64
     [macos-arm64]=macosx_11_0_arm64 [macos-x64]=macosx_11_0_x86_64
 )
 

@@ -26,7 +26,7 @@ from macholib.SymbolTable import SymbolTable
 ROOT = Path(__file__).parents[2]
 ENTRY = {"PyInit__core"}
 LIBRARIES = {
-    "linux": re.compile(r"(libc|libm|libdl|libpthread|librt)\.so\.\d+|ld-linux-x86-64\.so\.2"),
+    "linux": re.compile(r"(libc|libm|libdl|libpthread|librt)\.so\.\d+|ld-linux-(x86-64\.so\.2|aarch64\.so\.1)"),
     "win": re.compile(r"python3\d+\.dll|(kernel32|ntdll|advapi32)\.dll|api-ms-win-crt-[a-z]+-l1-1-0\.dll", re.I),
     "macosx": re.compile(r"/usr/lib/libSystem\.B\.dylib"),
 }

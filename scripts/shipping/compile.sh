@@ -5,8 +5,8 @@ export ZIG_GLOBAL_CACHE_DIR=$build/zig-cache ZIG_LOCAL_CACHE_DIR=$build/zig-cach
 
 # One hash of all that a platform's modules are compiled from.
 inputs_of() {
-    fingerprint native CMakeLists.txt pyproject.toml scripts/shipping/compile.sh scripts/locked/{"bpy-$bpy",zig}.txt \
-        "$cross/openmesh" "$cross"/python*/unix /usr/include/eigen3 -- "$1" "$(dpkg-query -W "$lld" 2>/dev/null)"
+    fingerprint native CMakeLists.txt pyproject.toml scripts/source_groups.py scripts/shipping/compile.sh \
+        scripts/locked/{"bpy-$bpy",zig}.txt "$cross/openmesh" "$cross"/python*/unix /usr/include/eigen3 -- "$1" "$(dpkg-query -W "$lld" 2>/dev/null)"
 }
 
 # usage: build_module PLATFORM PYTHON: compiles and installs to build/cross/stage/PLATFORM-PYTHON.

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164
-# The golden set (benchmarks/golden.py) by every compiler here, on Windows' Python under wine, and by the module for
-# macOS; sourced by scripts/package after checks.sh.
+# The golden set (benchmarks/golden.py) by every compiler here, on Windows' Python under wine, on Debian's for ARM under
+# qemu, and by the module for macOS; sourced by scripts/package after checks.sh.
 
 golden=$build/golden
 wine=/usr/lib/wine/wine64 # Debian's wrapper wants 32-bit wine too
@@ -14,7 +14,7 @@ check_golden() {
     PYTHONPATH=$build/module solve_golden zig "$python"
     solve_golden g++ "$build/venv-g++/bin/python" && found+=("$golden/g++.npz")
     if get_debian clang++ clang; then
-        install_sdist clang++
+        install_sdist clang++ --config-settings=cmake.define.FAIRING_PRECOMPILE=OFF # each source asks for all it uses
         solve_golden clang++ "$build/venv-clang++/bin/python" && found+=("$golden/clang++.npz")
     fi
     if makes windows-x64 && get_debian "$wine" wine64; then
@@ -22,6 +22,10 @@ check_golden() {
             make_windows_python "$version"
             solve_golden_in_wine "$version" && found+=("$golden/windows-$version.npz")
         done
+    fi
+    if makes linux-arm64 && get_debian qemu-aarch64 qemu-user; then
+        make_arm_python
+        solve_golden linux-arm64 in_arm && found+=("$golden/linux-arm64.npz")
     fi
     if makes macos-x64; then solve_golden_as_on_macos && found+=("$golden/macos-x64.npz"); fi
     say "Golden set: largest distances over D"
@@ -76,6 +80,30 @@ solve_golden_in_wine() {
 }
 
 in_wine() { timeout --kill-after 10 900 "$wine" "$@" </dev/null 2>&1 | cat; }
+
+# Debian's Python 3.11 for 64-bit ARM in a folder, numpy and the wheel's module.
+make_arm_python() {
+    local folder=$build/arm wheel file
+    local -a debs=(python3.11-minimal libpython3.11-minimal libpython3.11-stdlib libc6 libexpat1 libffi8 libgcc-s1 zlib1g)
+    rm -rf "$folder/site"
+    if [[ ! -f $folder/.complete ]]; then
+        rm -rf "$folder"
+        download "$folder/debs" bookworm download "${debs[@]/%/:arm64}"
+        for file in "$folder"/debs/*.deb; do dpkg-deb -x "$file" "$folder/root"; done
+        quietly numpy-linux-arm64 "$python" -m pip download --no-deps --only-binary :all: \
+            --platform manylinux2014_aarch64 --python-version 3.11 --dest "$folder/download" \
+            --require-hashes --requirement scripts/locked/linux-arm64.txt
+        touch "$folder/.complete"
+    fi
+    mkdir "$folder/site"
+    readarray -t wheel < <(wheels_of linux-arm64 3.11)
+    for file in "$folder"/download/*.whl "${wheel[0]}"; do "$python" -m zipfile --extract "$file" "$folder/site"; done
+}
+
+# usage: in_arm ARGUMENT…: of Python
+in_arm() {
+    PYTHONPATH=$build/arm/site qemu-aarch64 -L "$build/arm/root" "$build/arm/root/usr/bin/python3.11" "$@"
+}
 
 # The module for macOS on Intel, with this machine's C library for Apple's.
 solve_golden_as_on_macos() {

@@ -26,14 +26,15 @@ mirror() {
 # apt-get on one release with lists of its own: neither root's rights nor the machine's lists are touched.
 # usage: apt_of SUITE ARGUMENT…
 apt_of() {
-    local suite=$1 apt=$cross/apt/$1 signed
+    local suite=$1 apt=$cross/apt/$1 options wanted
     shift
-    signed='[signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]'
-    if [[ ! -f $apt/.updated ]]; then
+    options='[arch=amd64,arm64 signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]'
+    wanted=$(printf "%s $options $(mirror) $suite main\n" deb deb-src)
+    if ! is_done "$apt/sources.list" "$wanted"; then
         mkdir -p "$apt/state/lists/partial" "$apt/cache/archives/partial"
-        printf "%s $signed $(mirror) $suite main\n" deb deb-src >"$apt/sources.list"
-        run_apt "$apt" update
-        touch "$apt/.updated"
+        printf '%s\n' "$wanted" >"$apt/sources.list.new"
+        run_apt "$apt" -o "Dir::Etc::sourcelist=$apt/sources.list.new" update
+        mv "$apt/sources.list.new" "$apt/sources.list"
     fi
     run_apt "$apt" "$@"
 }
@@ -42,7 +43,8 @@ run_apt() {
     local apt=$1
     shift
     apt-get -o "Dir::Etc::sourcelist=$apt/sources.list" -o Dir::Etc::sourceparts=- -o "Dir::State=$apt/state" \
-        -o "Dir::Cache=$apt/cache" -o "APT::Sandbox::User=$(id -un)" -o Dpkg::Use-Pty=0 "$@"
+        -o "Dir::Cache=$apt/cache" -o APT::Architectures::=amd64 -o APT::Architectures::=arm64 \
+        -o "APT::Sandbox::User=$(id -un)" -o Dpkg::Use-Pty=0 "$@"
 }
 
 # usage: download FOLDER SUITE APT-ARGUMENT…: into a new folder
