@@ -141,9 +141,9 @@ def _select(mode: tuple[bool, bool, bool], chosen: Any) -> None:
 
 
 def hopeless(radius: float = 6.0) -> int:
-    """150° of a thin coarse torus: the engine looks for a fair surface for seconds, once for each radius."""
+    """150° of a thin torus: the engine looks for a fair surface for seconds, once for each radius."""
     clear()
-    bpy.ops.mesh.primitive_torus_add(major_radius=radius, minor_radius=1.0)
+    bpy.ops.mesh.primitive_torus_add(major_segments=96, minor_segments=24, major_radius=radius, minor_radius=1.0)
     centres = [polygon.center for polygon in bpy.context.object.data.polygons]
     return start(np.array([abs(np.arctan2(centre.y, centre.x)) < np.radians(75.0) for centre in centres]))
 
