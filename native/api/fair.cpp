@@ -158,8 +158,8 @@ private:
             result_.mean_curvature.setZero(solved_sides_.size());
             return;
         }
-        const auto boundary =
-            options_.solver.equation == Equation::minimal ? BoundaryNormals::one_sided : BoundaryNormals::prescribed;
+        const auto boundary = options_.solver.equation == Equation::minimal ? NormalsAtBoundary::one_sided
+                                                                            : NormalsAtBoundary::prescribed;
         const NormalKind kind = options_.solver.normals;
         result_.mean_curvature =
             prepared_.is_all_patches

@@ -41,9 +41,9 @@ Eigen::Matrix2d planar_edges(const Points& points, const Eigen::Vector3i& triang
 
 // Fixed vertices whose normals nobody prescribed get the fit to their own side.
 Points normals_at_fixed(const Patch& patch, const Points& local, const FixedNormals& normals,
-                        BoundaryNormals boundary) {
-    return boundary == BoundaryNormals::prescribed ? normals.gather(fixed_vertices(patch))
-                                                   : one_sided_normals(patch, local);
+                        NormalsAtBoundary boundary) {
+    return boundary == NormalsAtBoundary::prescribed ? normals.gather(fixed_vertices(patch))
+                                                     : one_sided_normals(patch, local);
 }
 
 // H of input vertices, the mean of their sides.
@@ -52,7 +52,7 @@ public:
     CurvatureMeans(const FixedNormals& normals, Eigen::Index vertex_count)
         : normals_(normals), sum_(VectorX::Zero(vertex_count)), sides_(VectorX::Zero(vertex_count)) {}
 
-    void add(const Patch& patch, const Points& local, NormalKind kind, BoundaryNormals boundary) {
+    void add(const Patch& patch, const Points& local, NormalKind kind, NormalsAtBoundary boundary) {
         FaceGeometry faces;
         faces.update(local, patch.triangles);
         const Points at_fixed = normals_at_fixed(patch, local, normals_, boundary);
@@ -93,7 +93,8 @@ Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
 
 }  // namespace
 
-VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, NormalKind kind, BoundaryNormals boundary) {
+VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, NormalKind kind,
+                       NormalsAtBoundary boundary) {
     CurvatureMeans means(mesh.normals, points.cols());
     for_each_piece(mesh, points,
                    [&](const Patch& patch, const Points& local) { means.add(patch, local, kind, boundary); });
@@ -101,7 +102,7 @@ VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, Norm
 }
 
 VectorX mean_curvature(std::span<const Patch> pieces, const FixedNormals& normals, const View<Points>& points,
-                       NormalKind kind, BoundaryNormals boundary) {
+                       NormalKind kind, NormalsAtBoundary boundary) {
     CurvatureMeans means(normals, points.cols());
     for (const Patch& patch : pieces) means.add(patch, gather(points, patch.to_input), kind, boundary);
     return means.all();
@@ -124,7 +125,7 @@ Indices component_of_triangles(const Triangles& triangles, const std::optional<I
 }
 
 VectorX mean_curvature(const MeshInput& input, NormalKind kind) {
-    const auto boundary = input.fixed_normals ? BoundaryNormals::prescribed : BoundaryNormals::one_sided;
+    const auto boundary = input.fixed_normals ? NormalsAtBoundary::prescribed : NormalsAtBoundary::one_sided;
     return mean_curvature(check_mesh(input), input.vertices, kind, boundary);
 }
 

@@ -7,14 +7,15 @@
 namespace fairing {
 
 // Where the normals of fixed vertices come from: prescribed ones of the checked mesh, or fits to their own side.
-enum class BoundaryNormals { prescribed, one_sided };
+enum class NormalsAtBoundary { prescribed, one_sided };
 
 // H at each vertex of a checked mesh: the mean of the sides on cut curves, zero at vertices without triangles.
 // Positions may differ from those that were checked.
-VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, NormalKind kind, BoundaryNormals boundary);
+VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, NormalKind kind,
+                       NormalsAtBoundary boundary);
 // The same of a mesh that consists of these pieces.
 VectorX mean_curvature(std::span<const Patch> pieces, const FixedNormals& normals, const View<Points>& points,
-                       NormalKind kind, BoundaryNormals boundary);
+                       NormalKind kind, NormalsAtBoundary boundary);
 
 // Which component each input triangle belongs to: numbered by their lowest triangles, `none` where no vertex is free
 // and for triangles that name a vertex twice. The components are those that fair() solves, closed ones among them.

@@ -15,8 +15,8 @@ namespace {
 constexpr int most_for_each = 6;   // patterns for each set of corners,
 constexpr int most_laid_out = 12;  // of all of them,
 constexpr int most_tried = 4;      // and with all effort, until one has convex quads alone
-constexpr Effort enough_to_choose{40, 4};
-constexpr Effort all_effort{200, 60};
+constexpr Relaxation enough_to_choose{40, 4};
+constexpr Relaxation all_effort{200, 60};
 constexpr double weight_of_size = 0.15;
 constexpr double same_demerit = 1e-3;  // so that roundoff doesn't choose between patterns that mirror each other
 

@@ -66,7 +66,7 @@ bool spoilt(const DoubleArray& vertices, const IntArray& inside, const IntArray&
 
 py::array rounded_array(const DoubleArray& before, const DoubleArray& after, const IntArray& triangles,
                         const IntArray& moved, const std::optional<IntArray>& marked) {
-    const Change change{to_points(before), to_points(after), to_triangles(triangles), to_indices(moved)};
+    const MovedMesh change{to_points(before), to_points(after), to_triangles(triangles), to_indices(moved)};
     return from_indices(marked ? rounded_marks(change, to_pairs(*marked)) : rounded_edges(change));
 }
 

@@ -51,7 +51,7 @@ public:
         std::vector<CandidatePattern> result;
         for (const Candidate& each : candidates_) {
             if (static_cast<int>(result.size()) == count) break;
-            Front front = fronts_[each.front];
+            QuadFront front = fronts_[each.front];
             if (!front.place(each.closing.poles)) continue;
             std::optional<QuadPattern> filled = front.filled();
             if (!filled) continue;
@@ -91,7 +91,7 @@ private:
         } while (std::next_permutation(kinds.begin(), kinds.end()));
     }
 
-    void add(const Front& front, Closing closing) {
+    void add(const QuadFront& front, Closing closing) {
         fronts_.push_back(front);
         add(fronts_.size() - 1, std::move(closing));
     }
@@ -109,14 +109,14 @@ private:
         for (int at = 0; at < plain_.size() && corners <= most_sides; ++at) {
             if (plain_.faces()[at] == 1) add_rows(at, most);
         }
-        Front front = plain_;
+        QuadFront front = plain_;
         for (int ring = 1; (front.add_ring() || front.add_short_row()) && front.quad_count() <= most; ++ring) {
             if (ring <= 8 || ring % 2 == 0) fronts_.push_back(front);
         }
     }
 
     void add_rows(int at, double most) {
-        Front front = plain_;
+        QuadFront front = plain_;
         for (int corner = at; front.add_row(corner) && front.quad_count() <= most;) {
             fronts_.push_back(front);
             corner = 0;  // where a row begins, once it is there
@@ -126,8 +126,8 @@ private:
     double cells_;
     bool odd_;
     int quarters_ = 0;
-    Front plain_;
-    std::vector<Front> fronts_;
+    QuadFront plain_;
+    std::vector<QuadFront> fronts_;
     std::vector<Candidate> candidates_;
 };
 

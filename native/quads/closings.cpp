@@ -22,7 +22,7 @@ std::int64_t key_of(const Lattice& p) { return static_cast<std::int64_t>(p.x) * 
 
 class Search {
 public:
-    Search(const Front& front, const std::vector<PoleKind>& kinds, int count)
+    Search(const QuadFront& front, const std::vector<PoleKind>& kinds, int count)
         : front_(front), walk_(front.walk()), kinds_(kinds), count_(count) {
         int turned = 0;
         for (const PoleKind kind : kinds) {
@@ -92,7 +92,7 @@ private:
     void keep(int last);
     [[nodiscard]] double misfit(const std::vector<Lattice>& walk) const;
 
-    const Front& front_;
+    const QuadFront& front_;
     std::vector<Lattice> walk_;
     const std::vector<PoleKind>& kinds_;
     std::size_t count_;
@@ -202,7 +202,7 @@ void Search::keep(int last) {
 
 }  // namespace
 
-std::vector<Closing> closings(const Front& front, const std::vector<PoleKind>& kinds, int count) {
+std::vector<Closing> closings(const QuadFront& front, const std::vector<PoleKind>& kinds, int count) {
     checkpoint();
     return Search(front, kinds, count).found();
 }

@@ -18,6 +18,6 @@ struct Closing {
 // The `count` best places, by their misfit, at which poles of these kinds close the walk to a simple lattice polygon.
 // Each turns all that follows by a quarter, so that the end of the walk is a sum with one
 // term for each pole: those before the last two are tried at some places, the last two are looked up.
-std::vector<Closing> closings(const Front& front, const std::vector<PoleKind>& kinds, int count);
+std::vector<Closing> closings(const QuadFront& front, const std::vector<PoleKind>& kinds, int count);
 
 }  // namespace fairing

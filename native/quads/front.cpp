@@ -52,7 +52,7 @@ Lattice Lattice::turned(int quarters) const {
     }
 }
 
-Front::Front(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angles)
+QuadFront::QuadFront(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angles)
     : angles_(std::move(angles)), faces_(faces) {
     pattern_.boundary_count = pattern_.vertex_count = static_cast<int>(faces.size());
     for (int k = 0; k < pattern_.boundary_count; ++k) {
@@ -61,13 +61,13 @@ Front::Front(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angle
     }
 }
 
-int Front::quarters() const {
+int QuadFront::quarters() const {
     int sum = 0;
     for (const int count : faces_) sum += 2 - count;
     return sum;
 }
 
-std::optional<double> Front::cost_of_turning(int at, int quarters) const {
+std::optional<double> QuadFront::cost_of_turning(int at, int quarters) const {
     const int left = faces_[at] - quarters;
     if (left < 1 || left > regular) return std::nullopt;
     if (is_new(at)) return 0.0;
@@ -82,7 +82,7 @@ std::optional<double> Front::cost_of_turning(int at, int quarters) const {
     return angles_error(own, there - quarters) - angles_error(own, there);
 }
 
-std::vector<Lattice> Front::walk() const {
+std::vector<Lattice> QuadFront::walk() const {
     std::vector<Lattice> result{{0, 0}};
     int heading = 0;
     for (int k = 0; k < size(); ++k) {
@@ -92,13 +92,13 @@ std::vector<Lattice> Front::walk() const {
     return result;
 }
 
-int Front::new_vertex(const Eigen::Vector2d& place) {
+int QuadFront::new_vertex(const Eigen::Vector2d& place) {
     new_places_.push_back(place);
     return pattern_.vertex_count++;
 }
 
 // A place off the walk, as far as its edges are long, at this share of the angle from the edge after to that before.
-Eigen::Vector2d Front::inwards(int at, double share) const {
+Eigen::Vector2d QuadFront::inwards(int at, double share) const {
     const Eigen::Vector2d next = places_[after(at)] - places_[at];
     const Eigen::Vector2d last = places_[before(at)] - places_[at];
     double angle = std::atan2(next.x() * last.y() - next.y() * last.x(), next.dot(last));
@@ -109,7 +109,7 @@ Eigen::Vector2d Front::inwards(int at, double share) const {
 }
 
 // Sides of one or two edges between convex corners: their rows from both ends would meet.
-bool Front::ring_meets_itself() const {
+bool QuadFront::ring_meets_itself() const {
     for (int k = 0; k < size(); ++k) {
         if (faces_[k] != 1) continue;
         const int next = after(k);
@@ -120,7 +120,7 @@ bool Front::ring_meets_itself() const {
 
 // The new vertices at the walk's ones, in the order from the edge before to the edge after. Those beside a convex
 // corner are one.
-Front::Spokes Front::spokes_of_ring(int first_new) {
+QuadFront::Spokes QuadFront::spokes_of_ring(int first_new) {
     Spokes spokes(faces_.size());
     for (int k = 0; k < size(); ++k) {
         for (int j = faces_[k] - 1; j > 0; --j) spokes[k].push_back(new_vertex(inwards(k, double(j) / faces_[k])));
@@ -134,7 +134,7 @@ Front::Spokes Front::spokes_of_ring(int first_new) {
     return spokes;
 }
 
-bool Front::add_ring() {
+bool QuadFront::add_ring() {
     if (ring_meets_itself()) return false;
     const int first_new = pattern_.vertex_count;
     new_places_.clear();
@@ -165,7 +165,7 @@ bool Front::add_ring() {
 }
 
 // Goes on from this walk of new vertices, numbered as they are used. Each gets as many quads as are missing.
-void Front::take(const Indices& vertices, int first_new) {
+void QuadFront::take(const Indices& vertices, int first_new) {
     Indices faces(static_cast<std::size_t>(pattern_.vertex_count - first_new), regular);
     for (const auto& quad : pattern_.quads) {
         for (const int v : quad) {
@@ -192,7 +192,7 @@ void Front::take(const Indices& vertices, int first_new) {
     pattern_.vertex_count = count;
 }
 
-bool Front::add_row(int at) {
+bool QuadFront::add_row(int at) {
     const int count = size();
     if (faces_[at] != 1) return false;
     int length = 1;
@@ -228,7 +228,7 @@ bool Front::add_row(int at) {
     return true;
 }
 
-bool Front::add_short_row() {
+bool QuadFront::add_short_row() {
     for (int k = 0; k < size(); ++k) {
         const int next = after(k);
         const bool is_short = faces_[next] == 1 || (faces_[next] == 2 && faces_[after(next)] == 1);
@@ -237,7 +237,7 @@ bool Front::add_short_row() {
     return false;
 }
 
-bool Front::place(const std::vector<Pole>& poles) {
+bool QuadFront::place(const std::vector<Pole>& poles) {
     for (const Pole& pole : poles) {
         faces_[pole.at] -= pole.quarters;
         if (pole.triangle) --faces_[after(pole.at)];
@@ -255,7 +255,7 @@ bool Front::place(const std::vector<Pole>& poles) {
     return true;
 }
 
-std::optional<QuadPattern> Front::filled() const {
+std::optional<QuadPattern> QuadFront::filled() const {
     const std::vector<Lattice> places = walk();
     if (quarters() != 4 || !(places.back() == Lattice{})) return std::nullopt;
     QuadPattern result = pattern_;

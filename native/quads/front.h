@@ -48,11 +48,11 @@ inline constexpr double weight_of_angles = 0.2;  // of their mean over the bound
 // A closed walk around the open part, that part on its left. `faces`: how many quads each vertex still gets there, 1 at
 // a convex corner, 2 where it is straight, 3 at a concave corner. A part of a plane grid turns by Σ (2 − faces) = 4
 // quarters, and a walk along unit edges comes back to its begin.
-class Front {
+class QuadFront {
 public:
     // `faces` at the boundary, one or more each; `places`: (2 × n) where it lies in a plane, about; `angles` there in
     // degrees, or none.
-    Front(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angles);
+    QuadFront(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angles);
 
     [[nodiscard]] int size() const { return static_cast<int>(vertices_.size()); }
     [[nodiscard]] const Indices& faces() const { return faces_; }

@@ -32,7 +32,7 @@ void QuadLayout::put(LaidOut& laid, int vertex, const SurfacePoint& where) const
     laid.normals.col(vertex) = normals_.col(where.triangle);
 }
 
-LaidOut QuadLayout::laid_out(const QuadPattern& pattern, const Effort& effort) const {
+LaidOut QuadLayout::laid_out(const QuadPattern& pattern, const Relaxation& effort) const {
     const int rim = pattern.boundary_count;
     const FlatMap::Flat flat = map_.places(pattern);
     LaidOut result;

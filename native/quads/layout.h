@@ -15,7 +15,7 @@ struct QuadShapes {
 };
 
 // How long vertices are moved: together, and then one by one around angles that are still unfit.
-struct Effort {
+struct Relaxation {
     int sweeps = 0;
     int passes = 0;
 };
@@ -35,7 +35,7 @@ public:
 
     // Begins where the pattern's map and the surface's meet: no quad is turned over there. From there each vertex goes
     // to the mean of the places that the nearest squares and rectangles give it, and back onto the surface.
-    [[nodiscard]] LaidOut laid_out(const QuadPattern& pattern, const Effort& effort) const;
+    [[nodiscard]] LaidOut laid_out(const QuadPattern& pattern, const Relaxation& effort) const;
 
 private:
     void put(LaidOut& laid, int vertex, const SurfacePoint& where) const;

@@ -19,7 +19,7 @@ constexpr double least_straight = 0.85;  // cosine of the turn at which a chain 
 // Its edges before and after.
 class Comparison {
 public:
-    explicit Comparison(const Change& change)
+    explicit Comparison(const MovedMesh& change)
         : points_(change.before),
           triangles_(without_collapsed(change.triangles)),
           old_(change.before, triangles_),
@@ -131,7 +131,7 @@ bool stand_out(const Comparison& surface, const Indices& edges, const std::vecto
 
 }  // namespace
 
-Indices rounded_edges(const Change& change) {
+Indices rounded_edges(const MovedMesh& change) {
     const Comparison surface(change);
     const Indices hard = surface.places(hard_edges(change.before, change.triangles, {}));
     std::vector<char> is_hard(static_cast<std::size_t>(surface.edges().size()), 0);
@@ -150,7 +150,7 @@ Indices rounded_edges(const Change& change) {
     return surface.moved_ends(found);
 }
 
-Indices rounded_marks(const Change& change, const VertexPairs& marked) {
+Indices rounded_marks(const MovedMesh& change, const VertexPairs& marked) {
     const Comparison surface(change);
     Indices found = surface.places(marked);
     if (static_cast<double>(found.size()) > most_marked * surface.edges().size()) return {};

@@ -10,7 +10,7 @@ using namespace fairing;
 
 namespace {
 
-Front round_front(int count) {
+QuadFront round_front(int count) {
     Eigen::Matrix2Xd places(2, count);
     for (int k = 0; k < count; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / count;
@@ -22,7 +22,7 @@ Front round_front(int count) {
 }  // namespace
 
 TEST_CASE("a ring around a smooth hole leaves one like it") {
-    Front front = round_front(12);
+    QuadFront front = round_front(12);
     CHECK(front.quarters() == 0);
     REQUIRE(front.add_ring());
     CHECK(front.size() == 12);
@@ -33,7 +33,7 @@ TEST_CASE("a ring around a smooth hole leaves one like it") {
 }
 
 TEST_CASE("four poles close a smooth hole, best where they lie evenly") {
-    Front front = round_front(12);
+    QuadFront front = round_front(12);
     REQUIRE(front.add_ring());
     const std::vector<Closing> found = closings(front, std::vector<PoleKind>(4, PoleKind::three), 3);
     REQUIRE_FALSE(found.empty());
@@ -50,7 +50,7 @@ TEST_CASE("four poles close a smooth hole, best where they lie evenly") {
 TEST_CASE("a row along a side takes its corners on") {
     Eigen::Matrix2Xd places(2, 10);  // a rectangle of 3 × 2
     places << 0, 1, 2, 3, 3, 3, 2, 1, 0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 1;
-    Front front({1, 2, 2, 1, 2, 1, 2, 2, 1, 2}, places, {});
+    QuadFront front({1, 2, 2, 1, 2, 1, 2, 2, 1, 2}, places, {});
     CHECK_FALSE(front.add_row(1));
     REQUIRE(front.add_row(0));
     CHECK(front.quad_count() == 3);
@@ -61,7 +61,7 @@ TEST_CASE("a row along a side takes its corners on") {
 TEST_CASE("rings that would meet themselves are refused") {
     Eigen::Matrix2Xd places(2, 8);
     places << 0, 1, 2, 2, 2, 1, 0, 0, 0, 0, 0, 1, 2, 2, 2, 1;
-    Front front({1, 2, 1, 2, 1, 2, 1, 2}, places, {});
+    QuadFront front({1, 2, 1, 2, 1, 2, 1, 2}, places, {});
     CHECK_FALSE(front.add_ring());
     CHECK(front.quad_count() == 0);
     CHECK(front.filled()->quads.size() == 4);
@@ -71,7 +71,7 @@ TEST_CASE("corners of the boundary move only where their angles allow it") {
     VectorX angles = VectorX::Constant(8, 180.0);
     angles[3] = 125.0;
     Eigen::Matrix2Xd places = Eigen::Matrix2Xd::Random(2, 8);
-    const Front front(Indices(8, 2), places, angles);
+    const QuadFront front(Indices(8, 2), places, angles);
     CHECK_FALSE(front.cost_of_turning(0, 1).has_value());
     REQUIRE(front.cost_of_turning(3, 1).has_value());
     CHECK(*front.cost_of_turning(3, 1) < 0.5);
