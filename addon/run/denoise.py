@@ -5,7 +5,7 @@ from functools import partial
 import bpy
 
 from ..core.denoising import Denoised, DenoiseOptions, denoise_arrays
-from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..preferences import background_from
@@ -19,14 +19,7 @@ from .report_properties import clear, store_refusal
 
 def solve(tasks: list[job.Task], options: DenoiseOptions, progress: Progress) -> list[Denoised]:
     """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
-    outcomes = []
-    for k, task in enumerate(tasks):
-        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
-        try:
-            outcomes.append(denoise_arrays(task.mesh, task.matrix, options, part))
-        except REFUSALS as cause:
-            raise job.Refused(task.object_name, cause) from cause
-    return outcomes
+    return job.each_of(tasks, lambda task, part: denoise_arrays(task.mesh, task.matrix, options, part), progress)
 
 
 class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):

@@ -14,7 +14,7 @@ import numpy as np
 import fairing
 
 from ..core.arrays import Floats, Ints, Mask
-from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.rounding import NO_SEAM, FilletOptions, Rounded, round_arrays, seams_of
@@ -27,7 +27,7 @@ from ..mesh import mesh_io, remeshed, selecting
 from ..translations import translated
 from . import compare, last_run
 from .background import TICK, Work, at_once, has_events
-from .job import Refused, is_unchanged, objects_in_mode, show_vertices
+from .job import Refused, each_of, is_unchanged, objects_in_mode, show_vertices
 from .option_properties import FilletProperties
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
@@ -103,14 +103,7 @@ def read(context: bpy.types.Context, group: str) -> list[Task]:
 
 def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list[Rounded]:
     """Round the seams of every task; raises Refused, and what its cause is not."""
-    outcomes = []
-    for k, task in enumerate(tasks):
-        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
-        try:
-            outcomes.append(round_arrays(task.mesh, task.seams, task.matrix, options, part))
-        except REFUSALS as cause:
-            raise Refused(task.object_name, cause) from cause
-    return outcomes
+    return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.seams, task.matrix, options, part), progress)
 
 
 class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):

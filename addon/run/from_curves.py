@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Mask
-from ..core.engine import REFUSALS, Progress, sub_range
+from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.spanning import NO_WIRE, CurvesOptions, Spanned, span_arrays
@@ -18,7 +18,7 @@ from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
 from .background import Watched, Work
-from .job import Refused, is_unchanged, objects_in_mode, show_vertices
+from .job import Refused, each_of, is_unchanged, objects_in_mode, show_vertices
 from .option_properties import CurvesProperties
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
@@ -54,14 +54,7 @@ def read(context: bpy.types.Context) -> list[Task]:
 
 def solve(tasks: list[Task], options: CurvesOptions, progress: Progress) -> list[Spanned]:
     """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
-    outcomes = []
-    for k, task in enumerate(tasks):
-        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
-        try:
-            outcomes.append(span_arrays(task.mesh, task.wires, task.matrix, options, part))
-        except REFUSALS as cause:
-            raise Refused(task.object_name, cause) from cause
-    return outcomes
+    return each_of(tasks, lambda task, part: span_arrays(task.mesh, task.wires, task.matrix, options, part), progress)
 
 
 class MESH_OT_fair_from_curves(CurvesProperties, Watched, bpy.types.Operator):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol, TypeVar
 
 import bpy
 import numpy as np
@@ -24,6 +25,9 @@ from ..host.context import edited_objects
 from ..mesh import all_keys, mesh_io, remeshed, selecting
 from .fair_keys import fair_all_keys
 from .labels import reason_of
+
+Answer = TypeVar("Answer")
+Each = TypeVar("Each", bound="Named")
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
 solvers: Memory[RepeatedSolve | None] = Memory(2)  # likewise; larger, as they hold factorisations
@@ -116,6 +120,28 @@ def solve(
         except REFUSALS as cause:
             raise Refused(task.object_name, cause) from cause
         done += task.free_count
+    return outcomes
+
+
+class Named(Protocol):
+    """What is to be done for one object."""
+
+    @property
+    def object_name(self) -> str:
+        """Its name."""
+
+
+def each_of(
+    tasks: Sequence[Each], solve_one: Callable[[Each, Progress | None], Answer], progress: Progress
+) -> list[Answer]:
+    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
+    outcomes = []
+    for k, task in enumerate(tasks):
+        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
+        try:
+            outcomes.append(solve_one(task, part))
+        except REFUSALS as cause:
+            raise Refused(task.object_name, cause) from cause
     return outcomes
 
 
