@@ -64,7 +64,7 @@ void QuadLayout::mend(LaidOut& laid, const QuadPattern& pattern, int passes) con
     }
     const auto angle_at = [&](const std::array<int, 4>& quad, int k) {
         const auto at = [&](int j) -> Vector3 { return laid.points.col(quad[(k + j) % 4]); };
-        return corner_angle(at(3), at(0), at(1), normal_at(quad, laid.normals));
+        return angle_of_corner(at(3), at(0), at(1), normal_at(quad, laid.normals));
     };
     const auto error_around = [&](int v) {
         double sum = 0.0;

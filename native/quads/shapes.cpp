@@ -69,7 +69,7 @@ Points SquareSteps::wanted(const Points& points, const Points& normals) {
     return result;
 }
 
-double corner_angle(const Vector3& last, const Vector3& here, const Vector3& next, const Vector3& normal) {
+double angle_of_corner(const Vector3& last, const Vector3& here, const Vector3& next, const Vector3& normal) {
     const Vector3 ahead = next - here;
     const Vector3 back = last - here;
     const double angle = degrees_between(ahead, back);
@@ -86,7 +86,7 @@ QuadShapes shapes_of(const QuadPattern& pattern, const Points& points, const Poi
         for (int k = 0; k < 4; ++k) {
             const Vector3 here = points.col(quad[k]);
             const Vector3 next = points.col(quad[(k + 1) % 4]);
-            const double angle = corner_angle(points.col(quad[(k + 3) % 4]), here, next, n);
+            const double angle = angle_of_corner(points.col(quad[(k + 3) % 4]), here, next, n);
             const double size = std::log(std::max((next - here).norm(), 1e-9 * length) / length);
             result.angle_error += angle_error(angle) * angle_error(angle);
             result.size_error += size * size;

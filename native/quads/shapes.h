@@ -17,7 +17,7 @@ Vector3 normal_at(const Face& face, const Points& normals) {
 }
 
 // Degrees from the edge to `next` counter-clockwise to that to `last`, 0 … 360, seen from where the normal points.
-double corner_angle(const Vector3& last, const Vector3& here, const Vector3& next, const Vector3& normal);
+double angle_of_corner(const Vector3& last, const Vector3& here, const Vector3& next, const Vector3& normal);
 
 // From a right angle, in units of 45°.
 double angle_error(double angle);
