@@ -26,7 +26,7 @@ from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
 from .background import Watched, Work
-from .job import Refused, is_unchanged, objects_in_mode, show_vertices
+from .job import Refused, is_current, objects_in_mode, show_vertices
 from .option_properties import FillProperties
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
@@ -139,11 +139,7 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         return self._start(context, partial(solve, self._tasks, self._options), large)
 
     def _is_current(self, context: bpy.types.Context) -> bool:
-        objects = objects_in_mode(context)
-        return context.mode == "EDIT_MESH" and all(
-            task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
-            for task in self._tasks
-        )
+        return is_current(context, self._tasks)
 
     def _apply(self, context: bpy.types.Context, outcomes: list[Filled]) -> set[str]:
         named = [(task.object_name, filled) for task, filled in zip(self._tasks, outcomes, strict=True)]

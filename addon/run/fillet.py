@@ -27,7 +27,7 @@ from ..mesh import mesh_io, remeshed, selecting
 from ..translations import translated
 from . import compare, last_run
 from .background import TICK, Work, at_once, has_events
-from .job import Refused, each_of, is_unchanged, objects_in_mode, show_vertices
+from .job import Refused, each_of, is_current, objects_in_mode, show_vertices
 from .option_properties import FilletProperties
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
@@ -239,11 +239,7 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
 
     def _accept(self, context: bpy.types.Context) -> set[str]:
         self.cancel(context)
-        objects = objects_in_mode(context)
-        if not all(
-            task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
-            for task in self._tasks
-        ):
+        if not is_current(context, self._tasks):
             self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
             return {"CANCELLED"}
         try:

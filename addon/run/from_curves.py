@@ -18,7 +18,7 @@ from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
 from .background import Watched, Work
-from .job import Refused, each_of, is_unchanged, objects_in_mode, show_vertices
+from .job import Refused, each_of, is_current, objects_in_mode, show_vertices
 from .option_properties import CurvesProperties
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
@@ -95,11 +95,7 @@ class MESH_OT_fair_from_curves(CurvesProperties, Watched, bpy.types.Operator):
         return self._start(context, self._work(), large)
 
     def _is_current(self, context: bpy.types.Context) -> bool:
-        objects = objects_in_mode(context)
-        return context.mode == "EDIT_MESH" and all(
-            task.object_name in objects and is_unchanged(objects[task.object_name], task.mesh, task.key)
-            for task in self._tasks
-        )
+        return is_current(context, self._tasks)
 
     def _apply(self, context: bpy.types.Context, outcomes: list[Spanned]) -> set[str]:
         last_run.forget()  # there are no faces to fair again, and no two states to compare

@@ -169,7 +169,19 @@ def show_vertices(context: bpy.types.Context, name: str, vertices: Ints) -> None
         selecting.select_vertices(objects_in_mode(context)[name].data, vertices)
 
 
-def is_current(context: bpy.types.Context, tasks: list[Task]) -> bool:
+class AsRead(Named, Protocol):
+    """An object as it was read."""
+
+    @property
+    def mesh(self) -> MeshArrays:
+        """Its mesh."""
+
+    @property
+    def key(self) -> str:
+        """The shape key that was read, as mesh_io.writable_key names it."""
+
+
+def is_current(context: bpy.types.Context, tasks: Sequence[AsRead]) -> bool:
     """Return whether the objects are still in edit mode, with the vertices, faces and shape key that were read."""
     objects = objects_in_mode(context)
     return context.mode == "EDIT_MESH" and all(
