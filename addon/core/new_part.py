@@ -12,6 +12,7 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .engine import Problem
 from .faces import inner_edges
+from .pairs import pair_keys, places_of
 from .region import MeshArrays, Patch
 
 Edge = tuple[int, int]
@@ -224,12 +225,8 @@ def _first_wall(corner: int, triangles: Ints, stay: Ints, known: tuple[dict[Edge
 
 def _corner_numbers(mesh: MeshArrays, patch: Patch) -> Ints:
     """Return (3 m,): the mesh's corner at each corner of the patch's triangles."""
-    count = len(mesh.positions)
-    keys = mesh.corner_faces * count + mesh.corner_vertices
-    order = np.argsort(keys)
-    wanted = (patch.faces[:, None] * count + patch.vertices[patch.triangles]).ravel()
-    found: Ints = order[np.searchsorted(keys, wanted, sorter=order)]
-    return found
+    wanted = pair_keys(patch.faces[:, None], patch.vertices[patch.triangles]).ravel()
+    return places_of(wanted, pair_keys(mesh.corner_faces, mesh.corner_vertices))
 
 
 def _face_sources(patch: Patch, triangles: Ints, stay_count: int, places: Ints) -> Ints:

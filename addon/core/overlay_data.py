@@ -11,6 +11,7 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .curvatures import gaussian_curvature, largest_principal
 from .findings import Origin
+from .pairs import edge_keys
 from .region import MeshArrays
 from .sentences import in_mesh_words
 
@@ -92,8 +93,8 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Float
 
 def _edges_around(triangles: Ints) -> Ints:
     """Return the edges (e, 2) of one triangle alone."""
-    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    _, first, counts = np.unique(sides[:, 0] << 32 | sides[:, 1], return_index=True, return_counts=True)
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    _, first, counts = np.unique(edge_keys(sides), return_index=True, return_counts=True)
     around: Ints = sides[first[counts == 1]]
     return around
 

@@ -12,6 +12,7 @@ import fairing
 from .arrays import Floats, Ints
 from .faces import Faces
 from .new_part import NewPart, Stencil
+from .pairs import pair_keys, places_of
 from .region import MeshArrays
 
 FLAT = 1e-4  # of its size: how far the corners of a face may lie off its plane, or its pieces stay triangles
@@ -165,12 +166,8 @@ def _sides(twin: dict[Edge, int], parting: set[frozenset[int]]) -> dict[int, int
 
 def _corner_numbers(mesh: MeshArrays) -> Ints:
     """Return (3 t,): the mesh's corner at each corner of its triangles."""
-    count = len(mesh.positions)
-    keys = mesh.corner_faces * count + mesh.corner_vertices
-    order = np.argsort(keys)
-    wanted = (mesh.triangle_faces[:, None] * count + mesh.triangles).ravel()
-    found: Ints = order[np.searchsorted(keys, wanted, sorter=order)]
-    return found
+    wanted = pair_keys(mesh.triangle_faces[:, None], mesh.triangles).ravel()
+    return places_of(wanted, pair_keys(mesh.corner_faces, mesh.corner_vertices))
 
 
 def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, outside: int) -> tuple[Faces, int]:

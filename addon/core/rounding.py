@@ -20,6 +20,7 @@ from .new_part import NewPart
 from .option_table import fields_of, read_named
 from .options import CONTINUITIES
 from .outline import two_sided_edges
+from .pairs import edge_keys
 from .region import MeshArrays, nothing, to_local
 from .rounded_part import rounded_part
 from .sentences import in_mesh_words, sentences
@@ -119,9 +120,7 @@ def hard(mesh: MeshArrays) -> Mask:
     """Return the (e,) mask of hard edges: by the mesh's shape, or marked sharp."""
     marked = None if mesh.sharp is None else mesh.edges[mesh.sharp]
     found = fairing.hard_edges(mesh.positions, mesh.triangles, marked=marked)
-    count = len(mesh.positions)
-    ends = np.sort(mesh.edges, axis=1)
-    return np.isin(ends[:, 0] * count + ends[:, 1], found[:, 0].astype(np.int64) * count + found[:, 1])
+    return np.isin(edge_keys(mesh.edges), edge_keys(found))
 
 
 def round_arrays(

@@ -11,6 +11,7 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .lines import inner_curves
 from .outline import outline_edges
+from .pairs import edge_keys, places_of
 from .region import MeshArrays
 
 
@@ -109,11 +110,7 @@ def _subdivided(mesh: MeshArrays, places: Floats, pairs: Ints, lengths: Floats) 
 
 def _numbers(mesh: MeshArrays, pairs: Ints) -> Ints:
     """Return the (k,) numbers of edges (k, 2)."""
-    count = len(mesh.positions)
-    keys = mesh.edges.min(axis=1) * count + mesh.edges.max(axis=1)
-    order = np.argsort(keys)
-    found: Ints = order[np.searchsorted(keys, pairs.min(axis=1) * count + pairs.max(axis=1), sorter=order)]
-    return found
+    return places_of(edge_keys(pairs), edge_keys(mesh.edges))
 
 
 def _edges(mesh: MeshArrays, ends: Ints, of_edge: Ints) -> Ints:

@@ -162,7 +162,7 @@ def user_of(mesh: bpy.types.Mesh) -> bpy.types.Object | None:
 def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: FairOptions) -> MeshArrays:
     sizes = indices(mesh.polygons, "loop_total")
     corner_vertices = stored(mesh, ".corner_vert", (mesh.loops, "vertex_index"))
-    corner_faces = np.repeat(np.arange(len(sizes)), sizes)
+    corner_faces = np.repeat(np.arange(len(sizes), dtype=np.int64), sizes)
     hidden = flags(mesh, ".hide_poly", mesh.polygons)
     in_patch = selected & ~hidden
     edges = stored(mesh, ".edge_verts", (mesh.edges, "vertices"), 2)
@@ -194,7 +194,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
 def _triangles(mesh: bpy.types.Mesh, sizes: Ints, corner_vertices: Ints) -> tuple[Ints, Ints]:
     """Return the triangles (t, 3) that Blender makes of the faces, and the faces (t,) they are of."""
     if (sizes == 3).all():  # Blender's own list takes a while to read
-        return corner_vertices.reshape(-1, 3), np.arange(len(sizes))
+        return corner_vertices.reshape(-1, 3), np.arange(len(sizes), dtype=np.int64)
     mesh.calc_loop_triangles()
     return indices(mesh.loop_triangles, "vertices", 3), indices(mesh.loop_triangle_polygons, "value")
 
