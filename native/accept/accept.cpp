@@ -98,7 +98,7 @@ bool is_sharp(const Problem& problem, const Solution& solution) {
 // Whether the edges of a mesh are shorter than this everywhere, which their mean tells of even meshes only: pipes and
 // catenoids graded by 40 : 1 have 2.7 to 3.1 means at the 99th percentile, regions of scans 1.2 to 2.2.
 bool is_finer(const Patch& patch, const Points& points, double edge) {
-    constexpr double most_of_even = 2.5;
+    constexpr double most_of_even = 2.5;  // times the mean at the 99th percentile
     std::vector<double> lengths;
     lengths.reserve(patch.edge_ends.size());
     for (const auto& [a, b] : patch.edge_ends) lengths.push_back((points.col(a) - points.col(b)).norm());

@@ -49,7 +49,7 @@ std::vector<std::array<int, 2>> local_edges(const Patch& patch, const std::vecto
 
 // λ = 1/|q_i − q_j| on the reference (3 × local vertices, units of D).
 void weigh_by_distance(InnerWeights& weights, const Points& reference) {
-    constexpr double shortest = 1e-12;
+    constexpr double shortest = 1e-12;  // so that edges without length have a weight
     for (auto& [i, j, weight] : weights) {
         weight = 1.0 / std::max((reference.col(i) - reference.col(j)).norm(), shortest);
     }

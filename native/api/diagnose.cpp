@@ -35,7 +35,7 @@ void warn_of_flips(const Patch& patch, const Solution& solution, Diagnostics& wa
 }
 
 void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
-    constexpr double widest_turn = 20.0;
+    constexpr double widest_turn = 20.0;  // degrees: 18 edges to a circle are not worth a word
     Indices sharp;
     double widest = 0.0;
     for (int e = 0; e < patch.edge_count(); ++e) {
@@ -152,8 +152,8 @@ bool has_collapsed_fan(const Patch& patch, const Points& points) {
 }
 
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings) {
-    constexpr double needle = 0.02;  // a right triangle of 90 : 1
-    constexpr double tolerated_share = 0.1;
+    constexpr double needle = 0.02;          // a right triangle of 90 : 1
+    constexpr double tolerated_share = 0.1;  // of the triangles: fewer hang on what is around them
     Indices bad = input_numbers(patch, flipped_triangles(patch, reference));
     for (int t = 0; t < patch.triangle_count(); ++t) {
         const auto corners = patch.triangles.col(t);

@@ -188,8 +188,8 @@ void warn_of_normals(const MeshInput& input, CheckedMesh& mesh) {
 // strongly curved surface over a flat one may differ by more than a right angle (a cap of 140°): only many that are
 // nearly opposite count.
 void warn_of_opposed_normals(const CheckedMesh& mesh, const FixedNormals& averaged, Diagnostics& warnings) {
-    constexpr double cos_of_opposed = -0.8;
-    constexpr double least_share = 1.0 / 3.0;
+    constexpr double cos_of_opposed = -0.8;    // 143°: caps reach 140°
+    constexpr double least_share = 1.0 / 3.0;  // of the fixed vertices
     Indices opposed;
     for (int v : mesh.fixed) {
         if (mesh.normals(v).dot(averaged(v)) < cos_of_opposed) opposed.push_back(v);

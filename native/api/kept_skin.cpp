@@ -32,9 +32,9 @@ Indices places_at_rim(std::span<const int> fixed, const Triangles& outside, Eige
 // Whether normals (3 × k) at the rim are others than triangles outside show, detail included, at more than half of some
 // vertices: then somebody chose them.
 bool are_chosen(const Points& normals, const Indices& rim, SidedFits& outside) {
-    constexpr std::size_t most_samples = 12;
-    constexpr double same = 2.0;  // standard errors
-    constexpr double rounding = 1e-3;
+    constexpr std::size_t most_samples = 12;  // vertices of the rim
+    constexpr double same = 2.0;              // standard errors
+    constexpr double rounding = 1e-3;         // radians: an exact fit has no error to compare with
     const std::size_t step = 1 + (rim.size() - 1) / most_samples;
     int agree = 0;
     for (std::size_t k = 0; k < rim.size(); k += step) {

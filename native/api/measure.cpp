@@ -74,7 +74,7 @@ private:
 
 // Each triangle is scaled by a power of two, so that squares of its lengths are numbers: its angles stay the same.
 Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
-    constexpr int largest_exponent = 1000;
+    constexpr int largest_exponent = 1000;  // of two: doubles end at 1023
     Points corners(3, triangles.size());
     Triangles own(3, triangles.cols());
     for (Eigen::Index t = 0; t < triangles.cols(); ++t) {

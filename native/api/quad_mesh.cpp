@@ -12,12 +12,12 @@ namespace fairing {
 
 namespace {
 
-constexpr int most_for_each = 6;   // patterns for each set of corners,
-constexpr int most_laid_out = 12;  // of all of them,
-constexpr int most_tried = 4;      // and with all effort, until one has convex quads alone
-constexpr Relaxation enough_to_choose{40, 4};
-constexpr Relaxation all_effort{200, 60};
-constexpr double weight_of_size = 0.15;
+constexpr int most_for_each = 6;               // patterns for each set of corners,
+constexpr int most_laid_out = 12;              // of all of them,
+constexpr int most_tried = 4;                  // and with all effort, until one has convex quads alone
+constexpr Relaxation enough_to_choose{40, 4};  // while patterns are compared
+constexpr Relaxation all_effort{200, 60};      // for those that are kept
+constexpr double weight_of_size = 0.15;        // beside that of angles, which count most (seeds 11 to 13)
 constexpr double same_demerit = 1e-3;  // so that roundoff doesn't choose between patterns that mirror each other
 
 double demerit(const QuadShapes& shapes) {

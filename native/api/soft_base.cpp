@@ -13,8 +13,8 @@ namespace {
 
 // What the rounding takes away repeats within less than this: longer waves of a limb stay.
 double softened_length(const SoftBaseSizes& sizes, double detail) {
-    constexpr double widths = 2.0;
-    constexpr double most = 0.5;  // of D
+    constexpr double widths = 2.0;  // of the rounded band
+    constexpr double most = 0.5;    // of D
     return std::max(detail, std::min(widths * sizes.width / sizes.diameter, most));
 }
 

@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr auto last = Code::pins_not_spread;
+constexpr auto last = Code::pins_not_spread;  // of the codes
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names{
     "NONFINITE",

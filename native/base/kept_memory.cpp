@@ -19,8 +19,8 @@ void keep() {
 
 // Settings can't be read. These are the library's own once arrays of 32 MB have come and gone.
 void give_back() {
-    constexpr int most_mapped = 65536;
-    constexpr int largest_in_heap = 32 * 1024 * 1024;
+    constexpr int most_mapped = 65536;                 // of the C library's manual: arrays outside the heap
+    constexpr int largest_in_heap = 32 * 1024 * 1024;  // bytes
     mallopt(M_MMAP_MAX, most_mapped);
     mallopt(M_MMAP_THRESHOLD, largest_in_heap);
     mallopt(M_TRIM_THRESHOLD, 2 * largest_in_heap);

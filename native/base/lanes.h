@@ -15,7 +15,7 @@ class Lanes {
     using Mask = decltype(Pack() > Pack());
 
 public:
-    static constexpr int count = 2;
+    static constexpr int count = 2;  // doubles in a register of SSE2 and NEON
 
     Lanes() = default;
     Lanes(double value) : pack_{value, value} {}

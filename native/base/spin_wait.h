@@ -32,8 +32,8 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::chrono::microseconds longest{50};
-    static constexpr int looks = 32;  // between two readings of the clock
+    static constexpr std::chrono::microseconds longest{50};  // then the core is left to others
+    static constexpr int looks = 32;                         // between two readings of the clock
 
     static void pause() {
 #if defined(__x86_64__) || defined(_M_X64)

@@ -87,7 +87,7 @@ auto or_for_ever(const Python& python) noexcept {
 bool goes_on(const py::object& answer) {
     if (answer.is_none()) return true;
     py::detail::make_caster<bool> boolean;
-    constexpr bool convert = false;
+    constexpr bool convert = false;  // only True and False are an answer
     if (!boolean.load(answer, convert)) {
         throw py::type_error("progress: the callback returned " + std::string(py::repr(answer)) +
                              "; False cancels, None or True goes on");

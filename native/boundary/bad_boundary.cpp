@@ -10,9 +10,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_error = 0.15;  // radians
-constexpr double least_height = 0.3;  // edges
-constexpr double times_median = 4.0;
+constexpr double least_error = 0.15;    // radians
+constexpr double least_height = 0.3;    // edges
+constexpr double times_median = 4.0;    // what is usual along this boundary
 constexpr double largest_share = 0.15;  // of the outline
 
 // Of the places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.

@@ -14,7 +14,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int shortest_run = 6;
+constexpr int shortest_run = 6;  // moving vertices: third differences tell noise from shape on longer ones only
 constexpr double caution = 1.4;  // of the degrees of freedom: without, some noise is taken for shape (Kim & Gu 2004)
 
 // Consecutive columns: those that move, and for open runs the two that end them.
@@ -45,7 +45,7 @@ std::vector<Run> runs_of(const Indices& loop, const std::vector<char>& marked) {
 
 // Third differences of a run.
 SparseMatrix third_differences(const Run& run) {
-    constexpr std::array<double, 4> stencil{-1.0, 3.0, -3.0, 1.0};
+    constexpr std::array<double, 4> stencil{-1.0, 3.0, -3.0, 1.0};  // of a third difference
     const int rows = run.closed ? run.size() : run.size() - 3;
     std::vector<Eigen::Triplet<double>> entries;
     for (int r = 0; r < rows; ++r) {

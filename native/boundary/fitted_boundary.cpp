@@ -14,7 +14,7 @@ namespace {
 
 constexpr double least_noise = 0.02;  // edges
 constexpr double farthest = 0.25;     // edges
-constexpr int rings_outside = 2;
+constexpr int rings_outside = 2;      // that follow
 
 // How much of the way each vertex goes: 1 on the outline, ⅔ and ⅓ on the rings outside, 0 beyond.
 VectorX shares(const Triangles& triangles, const Indices& outline, Eigen::Index count) {

@@ -22,7 +22,7 @@ namespace {
 // of the length: that of degree k of each is a multiple of the Legendre polynomial. In these the functional is a sum of
 // squares, and circles are constants.
 constexpr int degree = 8;
-constexpr int shape_count = 2 * (degree + 1);
+constexpr int shape_count = 2 * (degree + 1);   // of both curvatures
 constexpr int unknown_count = shape_count + 1;  // the last: the length, in chords
 constexpr int step_count = 32;                  // of the integration
 
@@ -80,7 +80,7 @@ Twist<Scalar> twist_at(const Shape<Scalar>& shape, double share) {
 // The pose after a constant twist, by the exponential's series: exact to 1e-16 for half a radian.
 template <typename Scalar>
 Pose<Scalar> moved(const Pose<Scalar>& pose, const Twist<Scalar>& twist) {
-    constexpr int terms = 7;
+    constexpr int terms = 7;  // of the series
     const Scalar square = -dot<Scalar>(twist.turn, twist.turn);
     std::array<Scalar, 3> sums{Scalar(0.0), Scalar(0.0), Scalar(0.0)};  // sin θ/θ, (1 − cos θ)/θ², (θ − sin θ)/θ³
     for (int s = 0; s < 3; ++s) {
@@ -134,7 +134,7 @@ public:
     // Ends in this direction with the least variation; false where Newton's method does not lead there.
     bool end_in(const Vector3& direction) {
         const Across across = orthogonal(direction);
-        constexpr double small_step = 1e-12;
+        constexpr double small_step = 1e-12;  // rounding of a curve of length one
         const Shape<double> before = shape_;
         Condition multipliers = Condition::Zero();
         for (int k = 0; k < most_iterations; ++k) {
@@ -187,7 +187,7 @@ private:
     // By complex steps.
     [[nodiscard]] Eigen::Matrix<double, 5, unknown_count> slopes_of_conditions(const Across& across) const {
         using Complex = std::complex<double>;
-        constexpr double step = 1e-30;
+        constexpr double step = 1e-30;  // complex, so that nothing cancels
         Eigen::Matrix<double, 5, unknown_count> result;
         for (int k = 0; k < unknown_count; ++k) {
             Shape<Complex> there = shape_.cast<Complex>();
@@ -199,7 +199,7 @@ private:
 
     // Second derivatives of the conditions, weighted, by differences: Newton's method corrects their errors.
     [[nodiscard]] Square bend(const Across& across, const Condition& weights) const {
-        constexpr double step = 1e-4;
+        constexpr double step = 1e-4;  // about the fourth root of rounding: best for second differences
         const auto value = [&](int i, int k) {
             Shape<double> there = shape_;
             if (i >= 0) there[i] += step;
@@ -232,7 +232,7 @@ private:
 
     // Towards the stationary point of the functional under the conditions. Returns the largest change.
     double newton_step(const Across& across, Condition& multipliers) {
-        constexpr int size = unknown_count + 5;
+        constexpr int size = unknown_count + 5;  // with five multipliers
         const auto slopes = slopes_of_conditions(across);
         Eigen::Matrix<double, size, size> matrix = Eigen::Matrix<double, size, size>::Zero();
         matrix.topLeftCorner<unknown_count, unknown_count>() = energy();

@@ -32,7 +32,7 @@ SparseMatrix low_pass(int count, double wave) {
 
 // Unit vectors at right angles to the chords of a closed run's neighbours; `otherwise` where nothing is left.
 Points across(const Points& curve, const Points& normals, const Points& otherwise) {
-    constexpr double least = 1e-3;
+    constexpr double least = 1e-3;  // below, the normal lies along the curve and says nothing
     const Eigen::Index count = curve.cols();
     Points result = otherwise;
     for (Eigen::Index k = 0; k < count; ++k) {

@@ -11,8 +11,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double strength = 16.0;  // μ
-constexpr double accuracy = 1e-12;
+constexpr double strength = 16.0;   // μ
+constexpr double accuracy = 1e-12;  // of the linear solve
 
 struct Pair {
     int i;

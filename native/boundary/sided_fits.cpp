@@ -11,7 +11,7 @@ namespace fairing {
 // Those within so many rings of the vertices: fits reach Neighbourhood::most_rings, and what is usual around a hard
 // edge three more.
 Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Eigen::Index count) {
-    constexpr int rings = Neighbourhood::most_rings + 3;
+    constexpr int rings = Neighbourhood::most_rings + 3;  // see above
     std::vector<char> reached(static_cast<std::size_t>(count), 0);
     for (int v : vertices) reached[v] = 1;
     std::vector<Eigen::Index> near;
@@ -46,7 +46,7 @@ SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Ind
 
 void SidedFits::choose_sides(const Triangles& broken, const Indices& input_vertex, const Indices& at,
                              const VertexPairs& elsewhere) {
-    constexpr int several = none - 1;
+    constexpr int several = none - 1;  // beside `none`: more than one side
     const auto add = [&](int copy, Indices& sides) {
         int& side = sides[input_vertex[copy]];
         side = side == none || side == copy ? copy : several;

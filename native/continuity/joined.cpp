@@ -59,6 +59,7 @@ std::optional<Solution> acceptable(const Problem& problem, const KnownCurvature&
 // does not settle: long waves do, and meet what is smooth of H as well.
 std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
                                        const Progress& progress) {
+    // Slower waves where faster ones have no surface.
     constexpr std::array vertices_per_wave{fastest_wave, 2 * fastest_wave, 4 * fastest_wave};
     std::optional<Solution> found;
     for (std::size_t k = 0; k < vertices_per_wave.size() && !found; ++k) {

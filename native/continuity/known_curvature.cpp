@@ -10,7 +10,7 @@ namespace fairing {
 
 namespace {
 
-constexpr std::size_t widest_bridge = 3;
+constexpr std::size_t widest_bridge = 3;  // vertices: half a wave of the fastest that is kept
 
 // A loop, turned so that it begins with a known vertex after an unknown one, if it has both.
 Indices from_first_arc(Indices places, const VectorX& curvatures) {

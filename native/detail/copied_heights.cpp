@@ -16,11 +16,11 @@ namespace fairing {
 
 namespace {
 
-constexpr double between_discs = 0.6;  // of their radius; beyond that much of it a disc fades out
-constexpr int tried_discs = 12;
-constexpr std::size_t compared_vertices = 64;
-constexpr double wider = 1.25;  // a disc of the sample than one of the surface
-constexpr std::mt19937_64::result_type seed = 23;
+constexpr double between_discs = 0.6;              // of their radius; beyond that much of it a disc fades out
+constexpr int tried_discs = 12;                    // of the sample, for each disc of the surface
+constexpr std::size_t compared_vertices = 64;      // of a disc
+constexpr double wider = 1.25;                     // a disc of the sample than one of the surface
+constexpr std::mt19937_64::result_type seed = 23;  // any: the same input gives the same bits
 
 // Middles of discs that cover the surface, from what is known inwards.
 Indices middles(const BareSurface& surface, const VertexAdjacency& around, double distance) {

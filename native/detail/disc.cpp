@@ -8,7 +8,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double vertices_per_box = 2.0;
+constexpr double vertices_per_box = 2.0;  // in the mean
 
 }  // namespace
 

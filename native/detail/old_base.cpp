@@ -38,8 +38,8 @@ Points own_conormals(const Patch& patch, const OldPatch& old, double wavelength)
 }  // namespace
 
 double detail_wavelength(const Patch& patch, const Points& old) {
-    constexpr double edges = 12.0;
-    constexpr double share_of_patch = 0.45;
+    constexpr double edges = 12.0;           // of the mean: what is longer is shape
+    constexpr double share_of_patch = 0.45;  // of D: longer waves are the patch itself
     double length = 0.0;
     for (const auto& [a, b] : patch.edge_ends) length += (old.col(a) - old.col(b)).norm();
     return std::min(edges * length / patch.edge_count(), share_of_patch);

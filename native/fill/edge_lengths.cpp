@@ -140,8 +140,8 @@ double expected_count(const Patch& patch, const Points& points, const VectorX& l
 }
 
 VectorX edge_lengths(const Patch& patch, const Points& points, const WantedLengths& wanted, const KeptEdges& kept) {
-    constexpr int halvings = 12;
-    constexpr double smallest_scale = 1e-2;
+    constexpr int halvings = 12;             // of a range of 100: to a thousandth
+    constexpr double smallest_scale = 1e-2;  // of the wanted lengths
     const VectorX border = border_lengths(patch, points, kept);
     const VectorX inside = lengths_inside(patch, points, wanted, border);
     const double growth = enough_growth(patch, points, border, inside);

@@ -293,7 +293,7 @@ void EqualEdgeMesh::smooth(int sweeps) {
 }
 
 void EqualEdgeMesh::equalise() {
-    constexpr int most_sweeps = 20;
+    constexpr int most_sweeps = 20;  // a bound: sweeps end when they change little
     int settled = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();

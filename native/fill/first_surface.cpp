@@ -146,7 +146,7 @@ bool has_equal_edges(const FirstSurface& surface) {
 
 // Whether a mesh of some 400 vertices would have many more: what a solve in vain leaves may be as long as it likes.
 bool has_blown_up(const FirstSurface& surface) {
-    constexpr double most_per_fixed = 10.0;
+    constexpr double most_per_fixed = 10.0;  // times as many as there should be
     const Points& points = surface.solution.points;
     const double count = expected_count(surface.patch, points, equal_lengths(surface.patch, points));
     const int fixed_count = surface.patch.vertex_count() - surface.patch.free_count;

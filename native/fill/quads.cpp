@@ -13,10 +13,10 @@ namespace fairing {
 
 namespace {
 
-constexpr double widest = 165.0 * degree;  // of a quad's angles: short of 180°, from where on it is not convex
-constexpr double most_bent = 40.0 * degree;
-constexpr double step = 1e-6;         // costs nearer than that are equal, so that roundoff doesn't choose
-constexpr int most_visited = 20'000;  // triangles in the search for one path
+constexpr double widest = 165.0 * degree;    // of a quad's angles: short of 180°, from where on it is not convex
+constexpr double most_bent = 40.0 * degree;  // between both triangles
+constexpr double step = 1e-6;                // costs nearer than that are equal, so that roundoff doesn't choose
+constexpr int most_visited = 20'000;         // triangles in the search for one path
 
 struct Candidate {
     int edge;

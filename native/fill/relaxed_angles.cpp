@@ -84,7 +84,7 @@ std::vector<EqualEdgeMesh::Side> EqualEdgeMesh::star(Vertex v) const {
 
 // A pattern search in six directions of the surface. Returns the number of moves.
 int EqualEdgeMesh::relax_place(Vertex v) {
-    constexpr int most_halvings = 6;
+    constexpr int most_halvings = 6;  // of half the wanted edge: to a 64th of it
     const std::vector<Side> around = star(v);
     const auto penalty_at = [&](const Vector3& place) {
         double sum = 0.0;

@@ -13,8 +13,8 @@ namespace fairing {
 
 namespace {
 
-constexpr std::size_t largest_exact = 400;
-constexpr double share_of_edges = 1e-3;
+constexpr std::size_t largest_exact = 400;  // corners: n³ operations, n² of memory
+constexpr double share_of_edges = 1e-3;     // beside areas, which don't choose on flat polygons
 
 // Chord (i, k) of n corners, i < k.
 class Chords {
@@ -110,7 +110,7 @@ TriangleCost TriangleCost::along(const Points& normals) const {
 // How much a triangle's area counts more than where it faces as its corners do.
 double TriangleCost::lean(const Vector3& area, int a, int b, int c) const {
     if (normals_ == nullptr) return 0.0;
-    constexpr double weight = 10.0;
+    constexpr double weight = 10.0;  // times the area, at a right angle
     const Vector3 sum = normals_->col(a) + normals_->col(b) + normals_->col(c);
     return weight * (area.norm() - area.dot(sum) / 3.0);
 }

@@ -123,7 +123,7 @@ private:
 
     // Moved square to the line until it is on it: chords are not where that is curved.
     [[nodiscard]] LinePoint between(int a, int b, double share, int triangle) const {
-        constexpr int most_steps = 4;
+        constexpr int most_steps = 4;  // of a fixed point
         const int h = 3 * triangle;
         const Vector3 first = weights_in(a, triangle);
         const Vector3 second = weights_in(b, triangle);

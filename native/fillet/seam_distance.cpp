@@ -12,8 +12,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double right_angle = 0.5 * std::numbers::pi;
+constexpr double infinite = std::numeric_limits<double>::infinity();  // not reached yet
+constexpr double right_angle = 0.5 * std::numbers::pi;                // shortest ways leave the seam at one
 constexpr double roundoff = 1e-9;  // relative: neighbouring windows overlap by that, so that no crack is between them
 
 Vector2 turned_left(const Vector2& v) { return {-v[1], v[0]}; }

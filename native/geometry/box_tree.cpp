@@ -45,7 +45,7 @@ struct Cube {
 
     // Along Morton's curve, which numbers 2²¹ cells along each edge.
     [[nodiscard]] std::uint64_t place(const Vector3& point) const {
-        constexpr double last = (1U << 21U) - 1.0;
+        constexpr double last = (1U << 21U) - 1.0;  // cell of 21 bits in each direction
         std::uint64_t result = 0;
         for (int axis = 0; axis < 3; ++axis) {
             const double cell = last / edge * (point[axis] - corner[axis]);
@@ -57,9 +57,9 @@ struct Cube {
 
 // Counting sorts by eleven bits at a time, the lowest first; what has one place stays as it was.
 void sort_many(std::span<Key> keys) {
-    constexpr unsigned bits = 11;
-    constexpr unsigned passes = 6;  // an even number: the last one ends where the first began
-    constexpr std::size_t digits = 1U << bits;
+    constexpr unsigned bits = 11;               // in each pass
+    constexpr unsigned passes = 6;              // an even number: the last one ends where the first began
+    constexpr std::size_t digits = 1U << bits;  // that a pass tells apart
     const auto digit = [](const Key& key, unsigned pass) { return key.place >> pass * bits & (digits - 1); };
     std::vector<std::array<int, digits + 1>> begin(passes);
     for (const Key& key : keys) {
@@ -83,7 +83,7 @@ void sort_few(std::span<Key> keys) {
 
 // What falls into one cell is sorted in a cube of its own: small parts of a large mesh would be in disorder otherwise.
 void sort_along_curve(std::span<Key> keys, const Points& centres) {
-    constexpr std::size_t many = 1024;
+    constexpr std::size_t many = 1024;  // fewer are sorted by comparison
     const Cube cube(centres, keys);
     if (!(cube.edge > 0.0 && cube.edge < HUGE_VAL)) return;
     for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {

@@ -16,7 +16,7 @@ struct Diagonal {
 
     // cot α + cot β ≥ 0 of the angles at c and d, up to round-off.
     [[nodiscard]] bool is_delaunay() const {
-        constexpr double slack = -1e-9;
+        constexpr double slack = -1e-9;  // rounding of two cotangents
         return !(cotangent(a - c, b - c) + cotangent(a - d, b - d) < slack);
     }
 

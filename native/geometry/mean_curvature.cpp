@@ -14,7 +14,7 @@
 namespace fairing {
 
 double CurvatureFit::rise(const Vector3& normal, const Vector3& d) const {
-    constexpr double steepest = 0.5;
+    constexpr double steepest = 0.5;  // of a chord: the fit says nothing about steeper ones
     const Frame frame(normal);
     const double a = frame.u.dot(d);
     const double b = frame.v.dot(d);

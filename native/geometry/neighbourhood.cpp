@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr std::size_t most_points = 60;
+constexpr std::size_t most_points = 60;  // of some rings: only fans have more
 
 }  // namespace
 

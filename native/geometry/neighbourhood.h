@@ -38,7 +38,7 @@ struct Reach {
 
 class Neighbourhood {
 public:
-    static constexpr int most_rings = 5;
+    static constexpr int most_rings = 5;  // however few points they have
 
     // Keeps references.
     Neighbourhood(const VertexAdjacency& adjacency, const Points& points, Reach reach);

@@ -126,7 +126,7 @@ private:
         if (shared > 1) return false;
         const Heights above_b = heights(a, b, area_vector(b.corners[0], b.corners[1], b.corners[2]));
         if (lie_beside(above_b)) return false;
-        constexpr double round_off = 1e-12;
+        constexpr double round_off = 1e-12;  // of a volume
         const double size = std::max(box_around(a.corners).diagonal().norm(), box_around(b.corners).diagonal().norm());
         const double slack = round_off * size * size * size;
         return edge_pierces(a, above_b, b, slack) || edge_pierces(b, above_a, a, slack);

@@ -13,10 +13,10 @@ namespace fairing {
 
 namespace {
 
-constexpr double width_of_weights = 0.6;  // over the distance of the farthest point: it counts for 6 % in each row
-constexpr double least_pivot = 1e-4;      // of the largest, where the columns are about of one size
-constexpr int most_rounds = 10;
-constexpr double settled = 1e-12;
+constexpr double width_of_weights = 0.6;   // over the distance of the farthest point: it counts for 6 % in each row
+constexpr double least_pivot = 1e-4;       // of the largest, where the columns are about of one size
+constexpr int most_rounds = 10;            // a bound: rounds end when they change nothing
+constexpr double settled = 1e-12;          // radians: rounding
 constexpr double settled_in_noise = 1e-3;  // standard errors
 
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
@@ -258,7 +258,7 @@ Vector3 SlopeFit::gradient(const Local& place) const {
 Vector3 SlopeFit::normal_at(const Vector3& offset) const { return gradient(local(offset)).normalized(); }
 
 Vector3 SlopeFit::foot(const Vector3& offset) const {
-    constexpr int newton_steps = 3;
+    constexpr int newton_steps = 3;  // each squares the error
     Vector3 result = offset;
     for (int k = 0; k < newton_steps; ++k) {
         const Local place = local(result);

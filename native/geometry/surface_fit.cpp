@@ -15,10 +15,10 @@ namespace fairing {
 
 namespace {
 
-constexpr int quadratic_rings = 2;
-constexpr int cubic_rings = 3;
-constexpr int wide_rings = 4;
-constexpr std::size_t wide_points = 40;
+constexpr int quadratic_rings = 2;       // see `candidates`
+constexpr int cubic_rings = 3;           // likewise
+constexpr int wide_rings = 4;            // only where the centre has noise as well
+constexpr std::size_t wide_points = 40;  // likewise
 
 struct Candidate {
     std::span<const Vector3> points;

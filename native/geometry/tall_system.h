@@ -11,7 +11,7 @@ class TallSystem {
 public:
     using Four = Eigen::Array4d;
     using Index = Eigen::Index;
-    static constexpr int most_columns = 11;
+    static constexpr int most_columns = 11;  // ten unknowns of a cubic with a free centre, and the heights
     using Row = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_columns, 1>;
 
     // rows ≥ columns

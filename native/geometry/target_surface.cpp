@@ -29,7 +29,7 @@ int TargetSurface::across(int edge, int triangle) const {
 }
 
 SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
-    constexpr int longest_walk = 500;
+    constexpr int longest_walk = 500;  // triangles: a bound
     int triangle = start;
     int previous = none;
     for (int step = 0; step < longest_walk; ++step) {

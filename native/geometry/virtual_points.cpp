@@ -15,7 +15,7 @@ namespace {
 template <typename Scalar>
 Scalar arc_slope(Scalar sine, Scalar cosine) {
     using std::sqrt;
-    constexpr double smallest_cosine = 0.1;
+    constexpr double smallest_cosine = 0.1;  // arcs end at 84°, or chords of folded triangles would blow up
     const Scalar b = select(cosine > smallest_cosine, cosine, smallest_cosine);
     return sine / (b + sqrt(sine * sine + b * b));
 }

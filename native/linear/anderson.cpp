@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int rows_at_once = 4096;
+constexpr int rows_at_once = 4096;  // one sum for each, in the same order for any number of threads
 
 // γ with least |A γ − b|, of least norm in the columns that are independent.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {

@@ -55,7 +55,7 @@ public:
     [[nodiscard]] int unfinished() const { return unfinished_; }
 
 private:
-    static constexpr std::size_t most = 40;
+    static constexpr std::size_t most = 40;  // directions kept; each takes two rows of the mesh's length
 
     struct Pair {  // pᵀ A p = 1
         Row direction;

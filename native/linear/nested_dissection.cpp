@@ -14,7 +14,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int shared_depth = 4;
+constexpr int shared_depth = 4;  // bisections whose 2⁴ parts threads share
 
 class Dissection {
 public:

@@ -23,7 +23,7 @@ public:
         : progress_(progress), what_(what), total_(total) {}
 
     void add(double operations) {
-        constexpr std::int64_t between_reports = 10'000'000;
+        constexpr std::int64_t between_reports = 10'000'000;  // multiplications
         const std::int64_t done = done_ += static_cast<std::int64_t>(operations);
         if (std::this_thread::get_id() != caller_) return throw_if_stopped();
         if (done - reported_ < between_reports) return;
@@ -206,6 +206,7 @@ VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from,
         using Stored = std::remove_const_t<std::remove_pointer_t<decltype(panels)>>;
         using Vector = Eigen::Vector<Stored, Eigen::Dynamic>;
         using Rows = Eigen::Map<Vector>;
+        // Single precision overflows where right sides aren't scaled.
         constexpr bool is_exact = std::is_same_v<Stored, double>;
         // In units of its own, far from the limits of single precision.
         const double unit = is_exact ? 1.0 : std::max(rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());

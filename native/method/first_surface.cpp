@@ -15,8 +15,8 @@ struct Fineness {
     int level;
     int largest_direct;
 };
-constexpr Fineness usual{coarsest_size, 900};
-constexpr Fineness with_limbs{1500, 2500};
+constexpr Fineness usual{coarsest_size, 900};  // one loop
+constexpr Fineness with_limbs{1500, 2500};     // several
 
 Problem with_shape_before(const Problem& level, const Points& before) {
     Problem result = level;

@@ -34,7 +34,7 @@ constexpr double share_of_start = 0.3;
 
 // Of a level's start: the iteration irons single ones out.
 std::size_t tolerated_folds(const Problem& problem) {
-    constexpr std::size_t share = 100;
+    constexpr std::size_t share = 100;  // one triangle in so many
     return problem.tolerated_folds + problem.patch.triangle_count() / share;
 }
 
@@ -153,8 +153,8 @@ private:
     // Levels between are good enough as starts where their steps shrink, even if single poor triangles keep them from
     // converging.
     [[nodiscard]] bool is_good(std::size_t k, const Solution& solution) const {
-        constexpr double shrinks = 1.0 / 3.0;
-        constexpr double small_step = 1e-3;  // units of D
+        constexpr double shrinks = 1.0 / 3.0;  // in all steps of the level
+        constexpr double small_step = 1e-3;    // units of D
         if (solution.termination == Termination::converged) return true;
         if (k == 0 || solution.iterations == 0) return false;
         return solution.iterations == most_between &&

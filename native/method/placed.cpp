@@ -26,7 +26,7 @@ Problem for_few_steps(const Problem& problem) {
 // too (a pipe of twelve radii whose ends lean by 30° grew to four). Between three loops and more it was the surface
 // in 20 of 20 blends, four times as fast as from the membrane and with fewer vertices off.
 bool OwnSurface::is_start(const Problem& problem) const {
-    constexpr int most_loops_of_tubes = 2;
+    constexpr int most_loops_of_tubes = 2;  // see above
     return solved || problem.patch.loop_count() > most_loops_of_tubes;
 }
 

@@ -23,7 +23,7 @@ std::vector<Step> on_the_users_mesh(const Problem& problem, const Traits& traits
 
 // Between real loops whose membrane is poor the old shape nearly always decides (method/traits).
 bool has_little_chance(const Traits& traits) {
-    constexpr double most_poor = 0.02;
+    constexpr double most_poor = 0.02;  // of its triangles
     return traits.has_old_shape && traits.is_jagged && traits.poor_share_of_membrane() > most_poor;
 }
 

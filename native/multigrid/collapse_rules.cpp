@@ -8,10 +8,10 @@ namespace fairing {
 
 namespace {
 
-constexpr int largest_valence = 9;
-constexpr int least_valence = 4;
-constexpr double weak = 3.0;      // what a collapse along an edge without weight costs, in units of (valence − 6)²
-constexpr double straight = 0.8;  // cosine of the turn that a thinned outline or its normals may make at a vertex
+constexpr int largest_valence = 9;  // that a collapse may make
+constexpr int least_valence = 4;    // inside; three triangles around a vertex carry no curvature
+constexpr double weak = 3.0;        // what a collapse along an edge without weight costs, in units of (valence − 6)²
+constexpr double straight = 0.8;    // cosine of the turn that a thinned outline or its normals may make at a vertex
 
 }  // namespace
 

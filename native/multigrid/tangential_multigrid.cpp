@@ -69,9 +69,9 @@ void MultigridStep::subtract_product(const SingleField& x, SingleField& r) const
 // as memory answers.
 template <typename Write>
 void MultigridStep::smooth(const SingleField& r, const Write& write) const {
-    constexpr float first = 4.0F / 3.0F / largest_eigenvalue;
-    constexpr float keep = 1.0F / 5.0F;
-    constexpr float add = 12.0F / 5.0F / largest_eigenvalue;
+    constexpr float first = 4.0F / 3.0F / largest_eigenvalue;  // coefficients of both steps
+    constexpr float keep = 1.0F / 5.0F;                        // likewise
+    constexpr float add = 12.0F / 5.0F / largest_eigenvalue;   // likewise
     const auto z = [&](int j) { return Eigen::Vector4f(first * inverse_diagonal_[j] * r.col(j)); };
     laplacian_.apply_singles(z, patch_.free_count, [&](int i, const Eigen::Vector4f& product) {
         write(i, (1.0F + keep) * z(i) + add * inverse_diagonal_[i] * (r.col(i) - product));
@@ -121,9 +121,9 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
 
 // What single precision leaves is solved for again.
 Points MultigridStep::harmonic_positions() const {
-    constexpr double tolerance = 1e-8;
-    constexpr Effort each_time{1e-3, 30};
-    constexpr int most_times = 8;
+    constexpr double tolerance = 1e-8;     // of the first residual
+    constexpr Effort each_time{1e-3, 30};  // accuracy and cycles in single precision
+    constexpr int most_times = 8;          // a bound
     Points points = Points::Zero(3, patch_.vertex_count());
     points.rightCols(fixed_points_.cols()) = fixed_points_;
     Points r = pull(points);

@@ -13,7 +13,7 @@ bool CollapseModule::joins_fixed(const CollapseInfo& info) {
 }
 
 float CollapseModule::collapse_priority(const CollapseInfo& info) {
-    constexpr auto illegal = static_cast<float>(Base::ILLEGAL_COLLAPSE);
+    constexpr auto illegal = static_cast<float>(Base::ILLEGAL_COLLAPSE);  // OpenMesh's own number
     if (joins_fixed(info)) return illegal;
     if (fan_vertex_ != info.v0.idx() || fan_made_ != collapses_.size()) look_at(info);
     const double priority = fan_.priority(info.p1);

@@ -7,15 +7,15 @@ namespace fairing {
 
 namespace {
 
-constexpr std::size_t fewest_steps = 4;
-constexpr double fastest = 0.8;  // contraction
+constexpr std::size_t fewest_steps = 4;  // for a contraction
+constexpr double fastest = 0.8;          // contraction
 
-constexpr std::size_t window = 10;  // cycles over which contraction, growth or rest shows
-constexpr double growth_of_alternation = 2.0;
-constexpr double hardly_falling = 0.97;  // lowest merit of a window over that of the window before
-constexpr double undone = 0.1;           // part of the moves that is left when two updates undo each other
-constexpr int undone_cycles = 5;
-constexpr int patience = 50;  // cycles without a hundredth less
+constexpr std::size_t window = 10;             // cycles over which contraction, growth or rest shows
+constexpr double growth_of_alternation = 2.0;  // of the moves, over a window
+constexpr double hardly_falling = 0.97;        // lowest merit of a window over that of the window before
+constexpr double undone = 0.1;                 // part of the moves that is left when two updates undo each other
+constexpr int undone_cycles = 5;               // one after the other
+constexpr int patience = 50;                   // cycles without a hundredth less
 
 }  // namespace
 

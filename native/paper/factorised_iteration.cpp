@@ -14,7 +14,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double smallest_damping = 0.05;
+constexpr double smallest_damping = 0.05;  // below, the iteration is lost
 
 // Mean edge length over that around each free vertex: the weight of its moves, so that crowded regions settle too.
 Eigen::RowVectorXd crowding(const Patch& patch, const Points& points) {

@@ -12,8 +12,8 @@ namespace fairing {
 
 namespace {
 
-constexpr int smallest_base = 40;
-constexpr double growth = 4.0;
+constexpr int smallest_base = 40;  // free vertices
+constexpr double growth = 4.0;     // of vertices from level to level
 
 // A copy of the patch's half-edge mesh with positions, status flags, and the fixed vertices locked.
 SurfaceMesh decimation_mesh(const Patch& patch, const Points& positions) {

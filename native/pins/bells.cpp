@@ -7,7 +7,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int steps = 8;
+constexpr int steps = 8;  // of heat
 
 // M + t S / 2, lower triangle: one implicit step of heat.
 SparseMatrix heat_matrix(const Patch& patch, const Stiffness& stiffness, double time) {

@@ -14,8 +14,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double longest_step = 0.05;  // of a pin, in units of D
-constexpr double shortest_step = 0.005;
+constexpr double longest_step = 0.05;    // of a pin, in units of D
+constexpr double shortest_step = 0.005;  // likewise: below, there is no way on
 constexpr double edge_of_radius = 0.35;  // so that bells have three edges to fall off
 
 class LedPins {

@@ -20,7 +20,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int first_surfaces = 4;
+constexpr int first_surfaces = 4;     // on which bells are measured; then they stay
 constexpr double least_pivot = 1e-8;  // of the largest: pins that act alike
 
 class SpreadPins {

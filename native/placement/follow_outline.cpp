@@ -23,8 +23,8 @@ Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, i
 
 // Of all vertices; each row moves half as far as the mean of what it touches in the row before.
 Points following(const Patch& patch, const Points& offsets) {
-    constexpr int rows = 3;
-    constexpr double share = 0.5;
+    constexpr int rows = 3;        // the last moves by an eighth
+    constexpr double share = 0.5;  // of the row before
     Points moves = Points::Zero(3, patch.vertex_count());
     moves.rightCols(offsets.cols()) = offsets;
     Indices row(patch.vertex_count(), none);

@@ -112,7 +112,7 @@ Placed place_settled(const Problem& problem, const TangentialStep& tangential, c
 }
 
 void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution) {
-    constexpr double tolerated_share = 0.05;
+    constexpr double tolerated_share = 0.05;  // of the triangles
     const bool senseless = !is_uniform(problem.weights) && static_cast<double>(placed.folded_by_springs) >
                                                                tolerated_share * problem.patch.triangle_count();
     if (!senseless && placed.folded.size() <= problem.tolerated_folds) return;

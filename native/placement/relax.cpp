@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double done = 1e-7;
+constexpr double done = 1e-7;  // units of D
 
 class Relaxation {
 public:

@@ -62,7 +62,7 @@ private:
     // Nearer places come first; of those as near the first of the best.
     bool improve(int v) {
         constexpr std::array<double, 6> radii{0.1, 0.2, 0.3, 0.5, 0.7, 1.0};  // of the ring's
-        constexpr int directions = 16;
+        constexpr int directions = 16;                                        // of each radius
         const Indices around = triangles_around(v);
         std::ptrdiff_t least = count_turned(around);
         const SurfacePoint old = placement_.where[v];

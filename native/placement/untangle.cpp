@@ -174,8 +174,8 @@ private:
 
     // Until nothing has been folded for some sweeps, or as much as a window of sweeps before.
     void spread(const Region& where) {
-        constexpr int settling_sweeps = 3;
-        constexpr std::size_t window = 15;
+        constexpr int settling_sweeps = 3;  // without a fold
+        constexpr std::size_t window = 15;  // sweeps
         std::vector<double> folded{count_folded(where)};
         int settled = 0;
         for (int sweep = 0; sweep < most_iterations && settled < settling_sweeps; ++sweep) {
@@ -224,8 +224,8 @@ private:
     }
 
     [[nodiscard]] double smoothing(const Region& where, double area) const {
-        constexpr double least = 1e-3;
-        constexpr double share = 0.2;
+        constexpr double least = 1e-3;  // of the mean area: a barrier has a width
+        constexpr double share = 0.2;   // of the largest folded area, across which the barrier has to see
         double most_negative = 0.0;
         for (const int t : where.triangles) {
             if (!is_folded(problem_, target_, placement_, t)) continue;

@@ -79,7 +79,7 @@ bool take(const Patch& patch, Points trial, Points& points, Tears& tears) {
 
 // Wider and wider around what is torn, for as long as that leaves less of it.
 bool fill_anew(const Patch& patch, Points& points, Tears& tears) {
-    constexpr std::array rings{1, 2, 3, 4, 6};
+    constexpr std::array rings{1, 2, 3, 4, 6};  // around the tear
     return std::any_of(rings.begin(), rings.end(), [&](int reach) {
         return take(patch, refilled(patch, points, tears.triangles(), reach), points, tears);
     });

@@ -18,9 +18,9 @@ namespace fairing {
 
 namespace {
 
-constexpr unsigned highest_valence = 9;
-constexpr double cos_of_turned = 0.2;   // normals of a triangle before and after a collapse
-constexpr double collapse_below = 0.7;  // of the local length
+constexpr unsigned highest_valence = 9;  // that a collapse may leave
+constexpr double cos_of_turned = 0.2;    // normals of a triangle before and after a collapse
+constexpr double collapse_below = 0.7;   // of the local length
 
 struct QueuedEdge {
     double length;
@@ -255,7 +255,7 @@ int ProxyMesh::split_long(const std::vector<double>& target, int free_limit) {
 }
 
 void ProxyMesh::adapt(const Sizing& sizing) {
-    constexpr int most_rounds = 12;
+    constexpr int most_rounds = 12;      // a bound: rounds end when they change little
     constexpr int shapeless_rounds = 2;  // a crumpled start has no shapes worth keeping
     const int vertices_per_change = sizing.settles ? 50 : 100;
     for (int round = 0; round < most_rounds; ++round) {

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double finest_growth = 0.15;   // of edge lengths per distance from the outline
 constexpr double longest_coarse = 0.15;  // units of D
-constexpr double longest_fine = 0.03;
+constexpr double longest_fine = 0.03;    // likewise
 
 // Iterations of fine proxies. Of 191 over regions of scans that converged none stayed far from a surface so long, of 96
 // that did not 73.
@@ -77,8 +77,8 @@ struct Fineness {
 // one is the most accurate: its interior is fine, whatever the outline. Of 153 patches it leads to a surface
 // on 104, the second one on these and eleven more, the third one on thirteen of the others.
 constexpr Fineness first_fineness{0.5, 0.0};
-constexpr Fineness second_fineness{0.5, 0.35};
-constexpr Fineness third_fineness{0.12, 0.35};
+constexpr Fineness second_fineness{0.5, 0.35};  // likewise
+constexpr Fineness third_fineness{0.12, 0.35};  // likewise
 
 class ProxySolve {
 public:
@@ -218,9 +218,9 @@ private:
 }  // namespace
 
 int free_limit(int shown) {
-    constexpr int least = 3000;
-    constexpr int largest = 20'000;
-    constexpr int per_vertex = 3;
+    constexpr int least = 3000;      // vertices
+    constexpr int largest = 20'000;  // likewise
+    constexpr int per_vertex = 3;    // of the user's
     return std::clamp(per_vertex * shown, least, largest);
 }
 

@@ -13,7 +13,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int most_poles = 7;
+constexpr int most_poles = 7;       // whose orders are tried
 constexpr int most_sides = 8;       // of a boundary along whose sides rows are tried one by one
 constexpr int kept_each = 3;        // closings of each front and each order of poles
 constexpr double most_quads = 3.0;  // as many as there is room for, and one more row

@@ -19,9 +19,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;
-constexpr double inner_radius = 0.3;   // of the ring that a tube is mapped to
-constexpr double least_weight = 1e-3;  // obtuse angles would turn triangles over
+constexpr double turn = 2.0 * std::numbers::pi;  // a full one
+constexpr double inner_radius = 0.3;             // of the ring that a tube is mapped to
+constexpr double least_weight = 1e-3;            // obtuse angles would turn triangles over
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 

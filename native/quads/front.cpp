@@ -13,7 +13,7 @@ namespace {
 
 constexpr int regular = 4;           // quads around an inner vertex
 constexpr double least_soft = 50.0;  // degrees of each quad at a vertex of the boundary that takes more or less of them
-constexpr double most_soft = 145.0;
+constexpr double most_soft = 145.0;  // likewise
 
 struct Hash {
     std::size_t operator()(const Lattice& p) const {

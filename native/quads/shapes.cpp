@@ -12,7 +12,7 @@ namespace fairing {
 namespace {
 
 constexpr double of_squares = 0.3;  // their weight beside that of rectangles
-constexpr double momentum = 0.7;
+constexpr double momentum = 0.7;    // of the last move (Polyak's heavy ball)
 
 // The best square c ± a, c ± n × a and the rectangle with the quad's diagonals, made equally long.
 std::array<Vector3, 4> square_near(const std::array<Vector3, 4>& p, const Vector3& n) {

@@ -9,8 +9,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double farthest_move = 0.05;  // units of D
-constexpr double cos_of_widest_turn = 0.7;
+constexpr double farthest_move = 0.05;      // units of D
+constexpr double cos_of_widest_turn = 0.7;  // 45°
 
 // Of directions and places. Both are centred.
 Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
@@ -23,7 +23,7 @@ Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
 
 // Fixed points, and normals with a small weight: they decide where the points lie on a line.
 Points placed_and_turned(const Points& points, const Points& normals) {
-    constexpr double weight = 1e-2;
+    constexpr double weight = 1e-2;  // beside places
     Points both(3, points.cols() + normals.cols());
     both << points, weight * normals;
     return both;

@@ -21,12 +21,12 @@ struct Band {
     double from;
     double to;
 };
-constexpr Band inside_band{0.3, 0.7};
+constexpr Band inside_band{0.3, 0.7};                                   // neither the join nor the top
 constexpr std::array<Band, 2> outside_bands{{{0.5, 1.1}, {0.8, 1.8}}};  // a feature ends within one of them
 constexpr double end_step = 0.2;                                        // how finely its end is looked for
 // Triangles on either side and edges of the boundary that are enough.
 constexpr Eigen::Index most_triangles = 3000;
-constexpr std::size_t most_edges = 300;
+constexpr std::size_t most_edges = 300;  // see above
 
 // Edges of a boundary.
 struct Frames {

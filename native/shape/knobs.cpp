@@ -12,7 +12,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double full_turn = 2.0 * std::numbers::pi;  // around a vertex of a plane
 
 double angle_around(const Patch& patch, const Points& points, int vertex) {
     const RingView ring = patch.ring(vertex);

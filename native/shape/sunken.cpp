@@ -20,8 +20,8 @@ constexpr double across = 0.6;           // of the longest distance on the bound
 constexpr double straight = 0.8;         // cosine of the angle between a line and the tangent planes at its ends
 constexpr double same_side = 0.5;        // cosine between the normals at both ends
 constexpr double faces_it = 0.3;         // cosine between a line's normal and the surface's
-constexpr int corrections = 4;
-constexpr std::size_t fewest = 10;
+constexpr int corrections = 4;           // of a middle's foot on the surface
+constexpr std::size_t fewest = 10;       // lines across: fewer say nothing
 
 // A line's middle, and which way is up there.
 struct Middle {

@@ -87,7 +87,7 @@ bool is_accepted(const Solution& solution) { return end_of(solution) == Terminat
 // Where few triangles fold or cross, what lies around them is filled anew: of 134 tubes with noisy ends one has no loft
 // without.
 std::optional<Solution> repaired(const Problem& problem, const Candidate& candidate, const Solution& flawed) {
-    constexpr std::array rings{2, 3, 4};
+    constexpr std::array rings{2, 3, 4};  // around what folds, the fewest first
     if (flawed.bad_triangles.empty() || flawed.bad_triangles.size() > few_folds) return std::nullopt;
     Candidate trial = candidate;
     for (const int reach : rings) {

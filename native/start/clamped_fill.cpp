@@ -8,7 +8,7 @@
 namespace fairing {
 
 Stiffness uniform_stiffness(const Patch& patch) {
-    constexpr double side = 1.0 / std::numbers::sqrt3;
+    constexpr double side = 1.0 / std::numbers::sqrt3;  // half the cotangent of 60°
     Stiffness stiffness;
     stiffness.weights.resize(patch.edge_count());
     stiffness.mass.setZero(patch.vertex_count());

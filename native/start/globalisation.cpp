@@ -13,8 +13,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double largest_step = 0.25;  // units of D
-constexpr int most_fixed_point_steps = 12;
+constexpr double largest_step = 0.25;       // units of D
+constexpr int most_fixed_point_steps = 12;  // then it is a descent's turn
 // A fixed-point step may raise the energy for a while: tangential moves leave the surface to second order. Without a
 // bound an irregular cap of 300 vertices goes on to a mesh of the engine's own.
 constexpr double tolerated_factor = 2.0;

@@ -13,7 +13,7 @@ namespace fairing {
 namespace {
 
 constexpr double least_stream = 0.05;  // of the typical |∇u|²: below, ∇u is less and less of a direction
-constexpr double tiny = 1e-30;
+constexpr double tiny = 1e-30;         // instead of a division by zero
 
 using Vector2 = Eigen::Vector2d;
 using Hats = Eigen::Matrix<double, 2, 3>;

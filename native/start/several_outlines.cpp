@@ -9,7 +9,7 @@ namespace fairing {
 namespace {
 
 constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an outline edge
-constexpr double lost_turn = 60.0;
+constexpr double lost_turn = 60.0;     // likewise: no normal is trusted from here on
 
 // How often a loop comes back to a vertex of the input: two outlines joined by an edge are one loop that passes both
 // ends of the edge twice.

@@ -64,7 +64,7 @@ double distance(const TubeSection& a, const TubeSection& b, int samples) {
 
 // Begun where it lies best before the other one.
 std::size_t best_beginning(const Indices& loop, const Points& points, const TubeAxis& axis, const TubeSection& other) {
-    constexpr int samples = 32;
+    constexpr int samples = 32;  // places of a section that are compared
     double least = std::numeric_limits<double>::infinity();
     std::size_t best = 0;
     for (std::size_t first = 0; first < loop.size(); ++first) {

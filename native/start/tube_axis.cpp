@@ -10,7 +10,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int steps = 128;
+constexpr int steps = 128;  // chords for the curve
 
 Vector3 mirrored(const Vector3& v, const Vector3& n) { return v - 2.0 * n.dot(v) / n.squaredNorm() * n; }
 

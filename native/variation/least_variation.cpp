@@ -33,20 +33,20 @@ struct Fineness {
     double growth;
     double turn;
 };
-constexpr Fineness as_fine{0.3, 0.26};  // 24 edges around a tube
-constexpr Fineness as_rough{0.6, 0.35};
-constexpr int most_around = 24;
-constexpr double range_of_edges = 4.0;  // the proxy's own: edges that turn stop at a quarter of the longest ones
-constexpr double shortest = 0.05;       // of the longest edges
-constexpr double longest = 0.5;
-constexpr int most_coarse = 1200;     // free vertices
-constexpr int most_fine_steps = 100;  // most of those that converge take 30 at most, a thin U of 180° takes 85
+constexpr Fineness as_fine{0.3, 0.26};   // 24 edges around a tube
+constexpr Fineness as_rough{0.6, 0.35};  // see above
+constexpr int most_around = 24;          // see above
+constexpr double range_of_edges = 4.0;   // the proxy's own: edges that turn stop at a quarter of the longest ones
+constexpr double shortest = 0.05;        // of the longest edges
+constexpr double longest = 0.5;          // units of D
+constexpr int most_coarse = 1200;        // free vertices
+constexpr int most_fine_steps = 100;     // most of those that converge take 30 at most, a thin U of 180° takes 85
 
 struct Beginning {
     double share;    // of the outline's mean edge
     double damping;  // at first
 };
-constexpr Beginning rough_beginning{1.4, raised_damping};
+constexpr Beginning rough_beginning{1.4, raised_damping};  // from any start
 
 // From a surface that is near: elbows take half the steps that they take with the first beginning, or undamped.
 // The fine mesh mends what a rough end leaves: finer and sharper ones cost a third more.
@@ -86,11 +86,11 @@ double coarse_edge(const Problem& problem) {
 // where the merit is far above `most`.
 SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginning& beginning, const Progress& progress,
                          double most = HUGE_VAL) {
-    constexpr int most_rounds = 8;
-    constexpr double tolerance = 1e-3;
-    constexpr double enough = 1e-3;  // from one step to the next
-    constexpr double enough_for_fine = 0.01;
-    constexpr double hopeless = 1000.0;  // times what is too much: two meshes have shown it
+    constexpr int most_rounds = 8;            // a bound: meshes are made anew until the solve converges
+    constexpr double tolerance = 1e-3;        // units of D; the fine mesh does the rest
+    constexpr double enough = 1e-3;           // from one step to the next
+    constexpr double enough_for_fine = 0.01;  // likewise, on the last of the coarse meshes
+    constexpr double hopeless = 1000.0;       // times what is too much: two meshes have shown it
     const Sizing sizing = sizing_of(beginning.share * coarse_edge(problem),
                                     has_free_slopes(problem.patch) ? as_fine : as_rough, most_coarse);
     std::optional<SolvedSheet> last;

@@ -10,7 +10,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int most_steps = 4;
+constexpr int most_steps = 4;             // of Newton's method, from a foot on the flat triangle
 constexpr double at_vertex = 1.0 - 1e-9;  // barycentric weight
 constexpr double farthest = 0.1;          // of an edge, from the curved triangle
 

@@ -16,12 +16,12 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_damping = 1e-9;  // below, none
-constexpr double largest_damping = 1e3;
-constexpr double largest_turn = 0.7;  // tangent of the angle of a normal in one step
-constexpr double largest_rise = 0.5;  // of the mean edge at a vertex
-constexpr double folded = 0.1;        // cosine between a triangle and its vertices' normals
-constexpr int steps_until_more = 4;   // each factorisation in vain costs as much as one that is used
+constexpr double least_damping = 1e-9;   // below, none
+constexpr double largest_damping = 1e3;  // beyond, no step is found
+constexpr double largest_turn = 0.7;     // tangent of the angle of a normal in one step
+constexpr double largest_rise = 0.5;     // of the mean edge at a vertex
+constexpr double folded = 0.1;           // cosine between a triangle and its vertices' normals
+constexpr int steps_until_more = 4;      // each factorisation in vain costs as much as one that is used
 
 // The place of each unknown, for the order of elimination.
 Points layout_of(const VariationEnergy& energy, const Sheet& sheet) {
@@ -95,7 +95,7 @@ private:
     }
 
     [[nodiscard]] bool is_hopeless(int steps) const {
-        constexpr int patience = 10;
+        constexpr int patience = 10;  // steps, before a merit that stays too large is given up
         return steps >= patience && model_.merit > limits_.most_merit;
     }
 
@@ -159,7 +159,7 @@ private:
 
     // For the rank-one part of the second derivatives, by Sherman and Morrison.
     [[nodiscard]] VectorX area_correction(const VectorX& motions) const {
-        constexpr double least_pivot = 0.2;
+        constexpr double least_pivot = 0.2;  // of Sherman and Morrison's divisor: a smaller one blows the step up
         const VectorX response = factor_.solve_vector(model_.area);
         const double pivot = 1.0 - model_.area_factor * model_.area.dot(response);
         const double factor = model_.area_factor / std::max(pivot, least_pivot);
@@ -181,8 +181,8 @@ private:
 
     // The longest share of the step that lowers the merit and folds nothing.
     bool search(const VectorX& motions) {
-        constexpr double noise = 1e-13;  // of the merit, and where that is zero
-        constexpr double nothing = 1e-20;
+        constexpr double noise = 1e-13;    // of the merit, and where that is zero
+        constexpr double nothing = 1e-20;  // units of the merit
         measure(motions);
         const double slope = model_.gradient.dot(motions);
         if (!(slope <= 0.0)) return false;

@@ -10,7 +10,7 @@ namespace fairing {
 // Corners a, b, c of a triangle, then the vertices opposite to it across bc, ca, ab; `none` across a border edge.
 using Stencil = std::array<int, 6>;
 
-inline constexpr int stencil_size = 6;
+inline constexpr int stencil_size = 6;  // the triangle's corners and those across its edges
 
 // Pairs of stencil places along which the derivative of the normal curvature is known: the three edges, and each corner
 // with the vertex across its opposite edge. Edges alone leave one of the four coefficients of a cubic open.
