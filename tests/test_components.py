@@ -71,6 +71,12 @@ def test_a_closed_surface_on_a_face_or_two_points_does_not_count_as_solved() -> 
     far = np.array([0, len(closed_ball()[0]) - 1])
     for fixed in (edge, far, np.sort(triangles[0])):
         result = collapsing(fixed)
+        codes = [warning.code for warning in result.warnings]
+        if "NO_SOLUTION" in codes:  # on Windows another surface stands in over the face, and it is a whole one
+            radii = np.linalg.norm(result.vertices, axis=1)
+            assert result.equation != "harmonic"
+            assert radii.min() > 0.7
+            continue
         assert not result.converged, fixed
         assert result.termination == "stalled"
         (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
