@@ -45,6 +45,7 @@ class PaperOptions:
 
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int32]
+_Flags = npt.NDArray[np.bool_]
 
 class Solver:
     def __init__(
@@ -185,6 +186,11 @@ def remesh(
 ) -> dict[str, Any]: ...
 def interpolate(vertices: _Floats, triangles: _Ints, fixed: _Ints, values: _Floats) -> _Floats: ...
 def conformal_map(vertices: _Floats, triangles: _Ints, fixed: _Ints, places: _Floats) -> _Floats: ...
+def graded_mesh(
+    vertices: _Floats, triangles: _Ints, chosen: _Flags, finest: float
+) -> tuple[_Floats, _Ints, _Ints, _Floats, _Flags]: ...
+def harmonic_extension(vertices: _Floats, triangles: _Ints, known: _Ints, values: _Floats) -> _Floats: ...
+def texel_owners(corners: _Floats, width: int, height: int) -> tuple[_Ints, int]: ...
 def expected_count(
     vertices: _Floats,
     triangles: _Ints,
