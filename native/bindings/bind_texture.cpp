@@ -47,12 +47,24 @@ py::tuple owners(const DoubleArray& corners, int width, int height) {
     return py::make_tuple(py::array_t<int>({height, width}, found.owner.data()), found.count);
 }
 
+py::array colours(const DoubleArray& corners, const DoubleArray& values, int width, int height) {
+    PythonRun run;
+    const Eigen::Matrix2Xd places = Eigen::Map<const Eigen::Matrix2Xd>(corners.data(), 2, corners.size() / 2);
+    const Eigen::MatrixXd own =
+        Eigen::Map<const Eigen::MatrixXd>(values.data(), values.shape(2), values.shape(0) * values.shape(1));
+    const Eigen::MatrixXf found =
+        run.without_gil([&](const ProgressCallback&) { return texel_values(places, own, {width, height}); });
+    return py::array_t<float>({static_cast<py::ssize_t>(height), static_cast<py::ssize_t>(width), values.shape(2)},
+                              found.data());
+}
+
 }  // namespace
 
 void bind_texture(py::module_& module) {
     module.def("graded_mesh", &graded, py::arg("vertices"), py::arg("triangles"), py::arg("chosen"), py::arg("finest"));
     module.def("harmonic_extension", &extended, py::arg("vertices"), py::arg("triangles"), py::arg("known"),
                py::arg("values"));
+    module.def("texel_values", &colours, py::arg("corners"), py::arg("values"), py::arg("width"), py::arg("height"));
     module.def("texel_owners", &owners, py::arg("corners"), py::arg("width"), py::arg("height"));
 }
 

@@ -62,7 +62,7 @@ from fairing._shape import (
 )
 from fairing._solver import Solver
 from fairing._subdivided import SubdividedEdges, subdivide_edges
-from fairing._texture import GradedMesh, graded_mesh, harmonic_extension, texel_owners
+from fairing._texture import GradedMesh, graded_mesh, harmonic_extension, texel_owners, texel_values
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 from fairing.objects import Made, fair_faces, fill_holes, fillet_edges
 
@@ -151,6 +151,7 @@ __all__ = [
     "surface_from_curves",
     "surrounding_normals",
     "texel_owners",
+    "texel_values",
     "vertex_normals",
     "visible_join",
 ]

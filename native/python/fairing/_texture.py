@@ -69,10 +69,28 @@ def texel_owners(corners: npt.ArrayLike, width: int, height: int) -> tuple[IntAr
     corners: (t, 3, 2) in texels; the first texel's centre is (½, ½). Triangles that share an edge share no texel and
     leave none out. What lies beyond the image comes in on its other side.
     """
+    found: tuple[IntArray, int] = _core.texel_owners(_places(corners, width, height), width, height)
+    return found
+
+
+def texel_values(
+    corners: npt.ArrayLike, values: npt.ArrayLike, width: int, height: int
+) -> npt.NDArray[np.float32]:
+    """(height, width, c): values (t, 3, c) of triangles' corners (t, 3, 2), linear in between; NaN where none is.
+
+    As :func:`texel_owners` says.
+    """
+    places = _places(corners, width, height)
+    given = np.ascontiguousarray(values, dtype=np.float64)
+    if given.ndim != 3 or given.shape[:2] != places.shape[:2]:
+        raise ValueError(f"values: expected shape ({len(places)}, 3, c), got {given.shape}")
+    return _core.texel_values(places, given, width, height)
+
+
+def _places(corners: npt.ArrayLike, width: int, height: int) -> FloatArray:
     places = np.ascontiguousarray(corners, dtype=np.float64)
     if places.ndim != 3 or places.shape[1:] != (3, 2):
         raise ValueError(f"corners: expected shape (t, 3, 2), got {places.shape}")
     if width < 1 or height < 1:
         raise ValueError(f"width, height: expected at least one texel, got {width} × {height}")
-    found: tuple[IntArray, int] = _core.texel_owners(places, width, height)
-    return found
+    return places
