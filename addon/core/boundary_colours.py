@@ -8,7 +8,7 @@ import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints, Mask
+from .arrays import Floats, Ints, Mask, Pixels
 from .colours import Coding
 from .textured_mesh import TexturedMesh, pieces
 
@@ -20,7 +20,7 @@ NO_SLOPE = 1e-9  # of the colours' weights: where all texels lie on one line, co
 class Picture:
     """An image."""
 
-    pixels: Floats  # (h, w, 4) as it stores them, of single precision
+    pixels: Pixels  # as it stores them
     coding: Coding
 
     @property

@@ -15,8 +15,8 @@ COARSER = (1, 2, 4)  # a harmonic colour looks the same with fewer texels
 DOUBLED = 0.01  # of a chart's texels that may lie in one place with others of it, or be taken by its own neighbours
 
 NO_SPACE = (
-    "The image has no free part of {0} × {1} texels, nor of a quarter of that, for the new faces: enlarge it, or lay them "
-    "out by hand in the UV editor"
+    "The image has no free part of {0} × {1} texels, nor one a quarter as wide, for the new faces: enlarge it, or lay "
+    "them out by hand in the UV editor"
 )
 
 
@@ -27,6 +27,7 @@ class Chart:
     rows: Ints  # (k,) of the new triangles
     corners: Floats  # (k, 3, 2) in texels
     moved: bool = False
+    coarser: int = 1  # how many times longer its texels are on the surface than those around
 
 
 @dataclass(frozen=True)
@@ -48,9 +49,7 @@ class Taken:
         at = window.of(self.all)
         count = np.count_nonzero(covered)
         over = np.count_nonzero(covered & self.all[at])
-        return bool(
-            doubled + over <= DOUBLED * count and not (grown(covered) & self.others[at]).any()
-        )
+        return bool(doubled + over <= DOUBLED * count and not (grown(covered) & self.others[at]).any())
 
     def add(self, chart: Chart) -> None:
         """Count a chart as taken."""
@@ -90,9 +89,9 @@ def lies_over_itself(chart: Chart, expected: float) -> bool:
 
 
 def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
-    """Give charts places with a margin around each, with fewer texels if they must; raises ValueError, charts unchanged.
+    """Give charts places with a margin around each, with fewer texels if they must.
 
-    taken: (h, w) texels of the image.
+    taken: (h, w) texels of the image. Raises ValueError where they have no room; charts are unchanged then.
     """
     height, width = taken.shape
     rows, columns = -(-height // CELL), -(-width // CELL)
@@ -102,7 +101,7 @@ def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
         placed = _placed([chart.corners / coarser for chart in charts], free.copy())
         if placed is not None:
             for chart, corners in zip(charts, placed, strict=True):
-                chart.corners, chart.moved = corners, True
+                chart.corners, chart.moved, chart.coarser = corners, True, coarser
             return
     sizes = np.array([np.ptp(chart.corners, axis=(0, 1)) for chart in charts])
     most = np.ceil(sizes[sizes.prod(axis=1).argmax()]).astype(int)
@@ -111,7 +110,7 @@ def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
 
 def _placed(charts: list[Floats], free: Mask) -> list[Floats] | None:
     """Return charts (·, 3, 2) in free cells, the largest first, or None; marks cells as taken."""
-    found: list[Floats] = [corners for corners in charts]
+    found: list[Floats] = list(charts)
     order = sorted(range(len(charts)), key=lambda k: -float(np.ptp(charts[k], axis=(0, 1)).prod()))
     for k in order:
         window = Window.around(charts[k], MARGIN)

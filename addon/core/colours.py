@@ -1,7 +1,7 @@
 """Stored values of images to colours that may be added up, and back. Plain numpy, no bpy.
 
-That is light (linear, not as sRGB stores it): what a renderer does when it filters, so that from afar the new part is as
-bright as the mean of what is around. Colours count by how opaque they are.
+That is light (linear, not as sRGB stores it), which renderers filter, too: from afar the new part is as bright as the
+mean of what is around. Colours count by how opaque they are.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .arrays import Floats
+from .arrays import Floats, Pixels
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Coding:
     straight: bool  # colours are not yet multiplied by their alpha
     clipped: bool  # bytes, between 0 and 1
 
-    def decoded(self, stored: Floats) -> Floats:
+    def decoded(self, stored: Pixels) -> Floats:
         """Return (…, 4) in double precision."""
         found = stored.astype(np.float64)
         if self.srgb:
@@ -30,17 +30,20 @@ class Coding:
             found[..., :3] *= found[..., 3:]
         return found
 
-    def encoded(self, colours: Floats) -> Floats:
+    def encoded(self, colours: Floats | Pixels) -> Pixels:
         """Return (…, 4) as the image stores them, of single precision."""
         found = colours.astype(np.float32)
         if self.straight:
             alpha = found[..., 3:]
             found[..., :3] = np.divide(found[..., :3], alpha, out=np.zeros_like(found[..., :3]), where=alpha > 0.0)
-        if self.clipped:
-            found = np.clip(found, 0.0, 1.0)
+        found = self.clip(found)
         if self.srgb:
             found[..., :3] = _from_light(found[..., :3])
         return found
+
+    def clip(self, stored: Pixels) -> Pixels:
+        """Return what can be stored."""
+        return np.clip(stored, 0.0, 1.0) if self.clipped else stored
 
 
 def _to_light(stored: Floats) -> Floats:
@@ -49,6 +52,6 @@ def _to_light(stored: Floats) -> Floats:
     return np.where(stored <= 0.04045, stored / 12.92, curved)
 
 
-def _from_light(light: Floats) -> Floats:
+def _from_light(light: Pixels) -> Pixels:
     curved = 1.055 * np.maximum(light, 0.0031308) ** (1.0 / 2.4) - 0.055
     return np.where(light <= 0.0031308, 12.92 * light, curved)

@@ -11,7 +11,7 @@ import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints, Mask
+from .arrays import Floats, Ints, Mask, Pixels
 
 MARGIN = 4  # texels around new faces that get colours, too: two levels of a renderer's smaller copies need no more
 
@@ -33,18 +33,18 @@ class Window:
         return cls(int(low[0]), int(low[1]), int(high[0] - low[0]), int(high[1] - low[1]))
 
     def owners(self, corners: Floats) -> tuple[Ints, int]:
-        """Return (height, width): the triangle of (t, 3, 2) at each texel, −1 for none; and how many lie over others."""
+        """Return (height, width): the triangle of (t, 3, 2) at each texel, −1: none; how many lie over others."""
         found, count = fairing.texel_owners(corners - [self.x, self.y], self.width, self.height)
         return found.astype(np.int64), int(count - np.count_nonzero(found >= 0))
 
-    def of(self, image: Mask | Floats | Ints) -> tuple[Ints, Ints]:
+    def of(self, image: Mask | Pixels) -> tuple[Ints, Ints]:
         """Return rows and columns to index an image (h, w, …) with; what lies beyond comes in on its other side."""
         height, width = image.shape[:2]
         rows = (self.y + np.arange(self.height)) % height
         columns = (self.x + np.arange(self.width)) % width
         return rows[:, None], columns[None]
 
-    def values(self, corners: Floats, values: Floats) -> Floats:
+    def values(self, corners: Floats, values: Floats) -> Pixels:
         """Return (height, width, c): values (t, 3, c) of corners (t, 3, 2), NaN where no triangle is."""
         return fairing.texel_values(corners - [self.x, self.y], values, self.width, self.height)
 
@@ -61,7 +61,7 @@ def grown(mask: Mask, steps: int = 1) -> Mask:
     return inside
 
 
-def spread(colours: Floats, known: Mask, taken: Mask) -> Mask:
+def spread(colours: Pixels, known: Mask, taken: Mask) -> Mask:
     """Give colours (h, w, 4) around those that are known the mean of these, in place; return what is known then.
 
     MARGIN steps far, but not beyond half of the way to what is taken.

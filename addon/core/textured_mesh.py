@@ -21,6 +21,7 @@ class TexturedMesh:
     places: Floats  # (t, 3, 2) of their corners, in texels of their image
     image: Ints  # (t,) number of it, −1 for none
     new: Mask  # (t,)
+    sample: Mask | None = None  # (t,) those whose detail is copied; None: those around the new part
 
     @cached_property
     def chosen(self) -> Ints:
@@ -53,6 +54,17 @@ class TexturedMesh:
             reached[self.triangles[touched]] = True
         return np.flatnonzero(touched & ~self.new & (self.image >= 0))
 
+    @property
+    def sampled(self) -> Mask:
+        """(t,): the old triangles whose detail is copied; by themselves those as near as the new part is wide."""
+        if self.sample is not None:
+            return self.sample & ~self.new
+        middles = self.points[self.triangles].mean(axis=1)
+        middle = middles[self.chosen].mean(axis=0)
+        away = np.linalg.norm(middles - middle, axis=1)
+        near: Mask = (away <= 2.0 * away[self.chosen].max()) & ~self.new
+        return near
+
     def texel_length(self) -> float:
         """Return how long a texel is on the surface around; 0 where nothing around has an area on its image."""
         around = np.unique(self.sides_around[self.sides_around >= 0] // 3)
@@ -74,7 +86,7 @@ def flat_areas(corners: Floats) -> Floats:
 
 
 def pieces(triangles: Ints, places: Floats | None = None) -> Ints:
-    """Return (t,): equal numbers, from 0 on, for triangles that hang together by vertices, at equal places (t, 3, 2)."""
+    """Return (t,): equal numbers for triangles that hang together by vertices, at equal places (t, 3, 2)."""
     rows = triangles.reshape(-1, 1).astype(np.float64)
     if places is not None:
         rows = np.concatenate([rows, places.reshape(-1, 2)], axis=1)
@@ -88,8 +100,8 @@ def pieces(triangles: Ints, places: Floats | None = None) -> Ints:
         label = label[label]
         if (label == before).all():
             break
-    _, found = np.unique(label[corners[:, 0]], return_inverse=True)
-    return found.ravel()
+    found: Ints = np.unique(label[corners[:, 0]], return_inverse=True)[1].ravel()
+    return found
 
 
 def _side_keys(triangles: Ints, count: int) -> Ints:

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints, Mask
+from .arrays import Floats, Ints, Mask, Pixels
 from .boundary_colours import Picture, Samples, colours_at
 from .charts import Chart, Taken, charts_of, flattened, lies_over_itself, move_to_free_space
+from .fill_options import TEXTURE
+from .grain import Grain
+from .option_table import fields_of
 from .texels import MARGIN, Window, spread
 from .textured_mesh import TexturedMesh
 
@@ -23,7 +28,7 @@ class Textured:
 
     places: Floats  # (m, 3, 2) in texels of their images
     moved: Mask  # (m,) whether they have other places than before
-    pixels: dict[int, Floats]  # (h, w, 4), by the number of the image
+    pixels: dict[int, Pixels]  # by the number of the image
     left: Mask  # (m,) those that hang together with no textured face
 
 
@@ -35,8 +40,21 @@ class _Coloured:
     colours: Floats  # (q, 4)
 
 
-def textured(mesh: TexturedMesh, pictures: list[Picture]) -> Textured:
-    """Continue the colours around over the new triangles.
+@dataclass(frozen=True)
+class TextureOptions:
+    """What the options of `mesh.fair_texture` (fill_options.py) come to."""
+
+    detail: float = 0.0  # 0 … 1
+    detail_from: str = ""  # name of a vertex group
+
+    @classmethod
+    def of(cls, properties: Any) -> TextureOptions:
+        """Read every option from an object that has them as attributes."""
+        return cls(**fields_of(TEXTURE, partial(getattr, properties)))
+
+
+def textured(mesh: TexturedMesh, pictures: list[Picture], detail: float = 0.0) -> Textured:
+    """Continue the colours around over the new triangles; detail: how much of the texture's fine part they get, 0 … 1.
 
     Raises ValueError where there are none, and where the image has no room.
     """
@@ -57,10 +75,15 @@ def textured(mesh: TexturedMesh, pictures: list[Picture]) -> Textured:
         taken = _taken(mesh, number, picture)
         charts = _laid_out(mesh, rows, taken, texel)
         pixels[number] = picture.pixels.copy()
+        grain = _grain(mesh, number, picture) if detail > 0.0 else None
         for chart in charts:
             places[chart.rows] = chart.corners
             moved[chart.rows] = chart.moved
-            _paint(coloured, chart, taken.all, pixels[number], picture)
+            window, stored, written = _painted(coloured, chart, taken.all, picture)
+            if grain is not None:
+                stored[..., :3] += detail * grain.on(window, chart.coarser)
+            y, x = np.broadcast_arrays(*window.of(picture.pixels))
+            pixels[number][y[written], x[written]] = picture.coding.clip(stored[written])
     return Textured(places, moved, pixels, left)
 
 
@@ -102,8 +125,8 @@ def _laid_out(mesh: TexturedMesh, rows: Ints, taken: Taken, texel: float) -> lis
     return stay + move
 
 
-def _paint(coloured: _Coloured, chart: Chart, taken: Mask, pixels: Floats, picture: Picture) -> None:
-    """Write the colours of a chart, and a margin around, where nothing is taken."""
+def _painted(coloured: _Coloured, chart: Chart, taken: Mask, picture: Picture) -> tuple[Window, Pixels, Mask]:
+    """Return a window around a chart, what the image is to store there, and where: not on what is taken."""
     graded = coloured.graded
     number = np.full(int(graded.parent.max()) + 1, -1)
     number[chart.rows] = np.arange(len(chart.rows))
@@ -111,8 +134,14 @@ def _paint(coloured: _Coloured, chart: Chart, taken: Mask, pixels: Floats, pictu
     corners = np.einsum("skw,swx->skx", graded.weights[rows], chart.corners[number[graded.parent[rows]]])
     window = Window.around(chart.corners, MARGIN)
     colours = window.values(corners, coloured.colours[graded.triangles[rows]])
-    at = window.of(pixels)
-    free = ~taken[at]
+    free = ~taken[window.of(taken)]
     written = spread(colours, np.isfinite(colours[..., 0]) & free, ~free)
-    y, x = np.broadcast_arrays(*at)
-    pixels[y[written], x[written]] = picture.coding.encoded(colours[written])
+    stored = np.zeros_like(colours)
+    stored[written] = picture.coding.encoded(colours[written])
+    return window, stored, written
+
+
+def _grain(mesh: TexturedMesh, number: int, picture: Picture) -> Grain:
+    of = mesh.sampled & (mesh.image == number)
+    owners, _ = fairing.texel_owners(mesh.places[of], picture.width, picture.height)
+    return Grain.of(picture.pixels, owners >= 0)

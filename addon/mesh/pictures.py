@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
+from ..core.arrays import Pixels
 from ..core.boundary_colours import Picture
 from ..core.colours import Coding
 
@@ -92,7 +92,7 @@ def picture_of(image: bpy.types.Image) -> Picture:
     stored = np.empty(width * height * image.channels, dtype=np.float32)
     image.pixels.foreach_get(stored)
     stored = stored.reshape(height, width, image.channels)
-    pixels = stored
+    pixels: Pixels = stored
     if image.channels != 4:
         pixels = np.ones((height, width, 4), dtype=np.float32)
         pixels[..., : min(image.channels, 3)] = stored[..., :3]
@@ -103,7 +103,7 @@ def picture_of(image: bpy.types.Image) -> Picture:
     return Picture(pixels, Coding(srgb, is_bytes and image.alpha_mode == "STRAIGHT", is_bytes))
 
 
-def copy_with(image: bpy.types.Image, pixels: Floats) -> bpy.types.Image:
+def copy_with(image: bpy.types.Image, pixels: Pixels) -> bpy.types.Image:
     """Return a new image like this one with other pixels (h, w, 4), packed into the file."""
     name = _NUMBERED.sub("", image.name) + SUFFIX
     height, width = pixels.shape[:2]

@@ -8,13 +8,14 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
+from ..core.arrays import Floats, Ints, Mask
 from ..core.boundary_colours import Picture
 from ..core.textured_mesh import TexturedMesh
-from ..core.texturing import Textured
+from ..core.texturing import Textured, TextureOptions
 from .columns import column, flags, indices
 from .mesh_io import is_editable, snapshot
 from .pictures import Source, copy_with, picture_of, show_instead, source_of
+from .weights import faces_of_group
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class Read:
     pictures: list[Picture]
 
 
-def read(obj: bpy.types.Object) -> Read | None:
+def read(obj: bpy.types.Object, options: TextureOptions) -> Read | None:
     """Read an object in edit mode, None where no face is selected; raises ValueError where those can't get colours."""
     if not is_editable(obj.data):
         raise ValueError("The mesh is linked from another file: make it local first")
@@ -55,6 +56,7 @@ def read(obj: bpy.types.Object) -> Read | None:
             places,
             image,
             selected[face],
+            _sample(copy, obj, options, face),
         )
         faces = face[mesh.chosen]
         uv_maps = [sources[slot].uv_map for slot in slots[faces].tolist()]
@@ -75,6 +77,13 @@ def _sources(obj: bpy.types.Object, needed: list[int]) -> dict[int, Source]:
     return found
 
 
+def _sample(mesh: bpy.types.Mesh, obj: bpy.types.Object, options: TextureOptions, face: Ints) -> Mask | None:
+    """Return the (t,) mask of the triangles whose detail is copied, None for those around."""
+    if not (options.detail > 0.0 and options.detail_from):
+        return None
+    return faces_of_group(mesh, obj, options.detail_from)[face]
+
+
 def _places(mesh: bpy.types.Mesh, uv_map: str, corners: Ints) -> Floats:
     """Return (k, 3, 2); 0 for what is no number."""
     uv = column(mesh.uv_layers[uv_map].uv, "vector", 2, np.float32).astype(np.float64)
@@ -84,12 +93,15 @@ def _places(mesh: bpy.types.Mesh, uv_map: str, corners: Ints) -> Floats:
 
 def _world(obj: bpy.types.Object, positions: Floats) -> Floats:
     matrix = np.array(obj.matrix_world, dtype=np.float64)
-    return positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    points: Floats = positions.astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+    return points
 
 
 def write(obj: bpy.types.Object, before: Read, after: Textured) -> list[bpy.types.Image]:
     """Give the object copies of its images with the new colours, and its faces their new places; return the copies."""
-    copies = {before.images[number]: copy_with(before.images[number], pixels) for number, pixels in after.pixels.items()}
+    copies = {
+        before.images[number]: copy_with(before.images[number], pixels) for number, pixels in after.pixels.items()
+    }
     show_instead(obj, copies)
     if after.moved.any():
         _move(obj.data, before, after)

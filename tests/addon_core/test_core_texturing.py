@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +10,8 @@ from numpy.typing import NDArray
 
 from core.boundary_colours import Picture
 from core.colours import Coding
-from core.texturing import NOTHING_AROUND, Textured, textured
 from core.textured_mesh import TexturedMesh
+from core.texturing import Textured, textured
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -22,9 +22,7 @@ class GradedMesh:
     chosen: npt.NDArray[np.bool_]  # (s, 3): sides that lie on those chosen
 
 
-def graded_mesh(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, chosen: npt.ArrayLike, finest: float
-) -> GradedMesh:
+def graded_mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike, chosen: npt.ArrayLike, finest: float) -> GradedMesh:
     """Halve edges until none is longer than ``finest``, or than a quarter of its distance to the chosen sides.
 
     chosen: (m, 3) mask; side k of a triangle runs from corner k to the next. Where no side is chosen nothing is halved.
@@ -64,7 +62,7 @@ def harmonic_extension(
 
 
 def texel_owners(corners: npt.ArrayLike, width: int, height: int) -> tuple[IntArray, int]:
-    """(height, width): the last triangle over each texel's centre, −1 where there is none; and how many pairs there are.
+    """(height, width): the last triangle over each texel's centre, −1: none; and how many pairs there are.
 
     corners: (t, 3, 2) in texels; the first texel's centre is (½, ½). Triangles that share an edge share no texel and
     leave none out. What lies beyond the image comes in on its other side.
@@ -73,9 +71,7 @@ def texel_owners(corners: npt.ArrayLike, width: int, height: int) -> tuple[IntAr
     return found
 
 
-def texel_values(
-    corners: npt.ArrayLike, values: npt.ArrayLike, width: int, height: int
-) -> npt.NDArray[np.float32]:
+def texel_values(corners: npt.ArrayLike, values: npt.ArrayLike, width: int, height: int) -> npt.NDArray[np.float32]:
     """(height, width, c): values (t, 3, c) of triangles' corners (t, 3, 2), linear in between; NaN where none is.
 
     As :func:`texel_owners` says.
