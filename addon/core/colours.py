@@ -23,7 +23,7 @@ class Coding:
 
     def decoded(self, stored: Pixels) -> Floats:
         """Return (…, 4) in double precision."""
-        found = stored.astype(np.float64)
+        found: Floats = stored.astype(np.float64)
         if self.srgb:
             found[..., :3] = _to_light(found[..., :3])
         if self.straight:

@@ -103,7 +103,7 @@ def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: Fa
 
 
 def faces_of_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, name: str) -> Mask:
-    """Return the (f,) mask of the faces inside the vertex group of *Detail From*; raises ValueError without such a group."""
+    """Return the (f,) mask of the faces inside the vertex group of *Detail From*; raises ValueError without it."""
     group = group_index(obj, name, "detail_from")
     chosen = np.zeros(len(mesh.polygons), dtype=bool)
     if group is not None:
