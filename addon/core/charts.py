@@ -14,11 +14,6 @@ CELL = 2 * MARGIN  # texels: free space is looked for in such squares
 COARSER = (1, 2, 4)  # a harmonic colour looks the same with fewer texels
 DOUBLED = 0.01  # of a chart's texels that may lie in one place with others of it, or be taken by its own neighbours
 
-NO_SPACE = (
-    "The image has no free part of {0} × {1} texels, nor one a quarter as wide, for the new faces: enlarge it, or lay "
-    "them out by hand in the UV editor"
-)
-
 
 @dataclass
 class Chart:
@@ -105,7 +100,10 @@ def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
             return
     sizes = np.array([np.ptp(chart.corners, axis=(0, 1)) for chart in charts])
     most = np.ceil(sizes[sizes.prod(axis=1).argmax()]).astype(int)
-    raise ValueError(NO_SPACE.format(*most))
+    raise ValueError(
+        f"The image has no free part of {most[0]} × {most[1]} texels, nor one a quarter as wide, for the new faces: enlarge "
+        "it, or lay them out by hand in the UV editor"
+    )
 
 
 def _placed(charts: list[Floats], free: Mask) -> list[Floats] | None:

@@ -15,12 +15,7 @@ from ..core.colours import Coding
 
 SUFFIX = ".faired"
 _NUMBERED = re.compile(re.escape(SUFFIX) + r"(\.\d+)?$")
-_KINDS = {
-    "TILED": "is of several tiles (UDIM)",
-    "SEQUENCE": "is a sequence of images",
-    "MOVIE": "is a movie",
-    "VIEWER": "is a result of rendering or compositing",
-}
+_SINGLE = ("FILE", "GENERATED")  # sources of images that are no tiles, sequences, movies or results
 
 
 @dataclass(frozen=True)
@@ -33,20 +28,22 @@ class Source:
 
 def source_of(material: Any, mesh: bpy.types.Mesh) -> Source:
     """Return what colours faces of a material; raises ValueError where no image with a UV map does."""
-    name = "" if material is None else material.name
     if material is None or material.node_tree is None:
-        raise ValueError("The new faces have no material with an image: give them the one of the faces around")
+        raise ValueError("The selected faces have no material with an image: give them the one of the faces around")
     node = _image_node(material)
     if node is None:
-        raise ValueError(f"No image gives the material {name!r} its colour (images in node groups don't count)")
+        raise ValueError(f"No image gives the material {material.name!r} its colour; those in node groups don't count")
     image = node.image
-    if image.source in _KINDS:
-        raise ValueError(f"The image {image.name!r} {_KINDS[image.source]}: only single images can be continued")
+    if image.source not in _SINGLE:
+        raise ValueError(
+            f"The image {image.name!r} is no single one: tiles (UDIM), sequences, movies and results of rendering can't "
+            "be continued"
+        )
     uv_map = _uv_map(node, mesh)
     if uv_map is None:
-        raise ValueError(f"The image {image.name!r} does not lie on the faces by a UV map alone")
+        raise ValueError(f"The image {image.name!r} lies on the faces by something else than a UV map")
     if not image.size[0] or not len(image.pixels):
-        raise ValueError(f"The file of the image {image.name!r} can't be read: {image.filepath}")
+        raise ValueError(f"The file of the image {image.name!r} can't be read")
     return Source(image, uv_map)
 
 
@@ -83,7 +80,7 @@ def _uv_map(node: Any, mesh: bpy.types.Mesh) -> str | None:
         wanted = before.uv_map or shown
     else:
         wanted = shown if before.bl_idname == "ShaderNodeTexCoord" and socket.name == "UV" else None
-    return wanted if wanted in mesh.uv_layers else None
+    return wanted if wanted and wanted in mesh.uv_layers else None
 
 
 def picture_of(image: bpy.types.Image) -> Picture:
@@ -129,6 +126,10 @@ def show_instead(obj: bpy.types.Object, copies: dict[bpy.types.Image, bpy.types.
                 slot.material = own
         for node in _image_nodes(own):
             node.image = copies.get(node.image, node.image)
+    for image in copies:
+        # What no one shows is not saved, and an original may be in this file alone.
+        if not (image.users or image.library or _NUMBERED.search(image.name)) and (image.packed_file or not image.filepath):
+            image.use_fake_user = True
 
 
 def _image_nodes(material: Any) -> list[Any]:
