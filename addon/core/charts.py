@@ -33,18 +33,15 @@ class Taken:
     others: Mask  # what is not near the new faces
 
     def accepts(self, chart: Chart) -> bool:
-        """Return whether a chart may stay: inside the image, nearly nowhere twice, not over or next to others."""
+        """Return whether a chart may stay: inside the image, nearly nowhere over old faces, not next to others."""
         height, width = self.all.shape
-        corners = chart.corners
-        if corners.min() < 0.0 or (corners.max(axis=(0, 1)) > [width, height]).any():
+        if chart.corners.min() < 0.0 or (chart.corners.max(axis=(0, 1)) > [width, height]).any():
             return False
-        window = Window.around(corners, 1)
-        owners, doubled = window.owners(corners)
-        covered = owners >= 0
-        at = window.of(self.all)
-        count = np.count_nonzero(covered)
-        over = np.count_nonzero(covered & self.all[at])
-        return bool(doubled + over <= DOUBLED * count and not (grown(covered) & self.others[at]).any())
+        window = Window.around(chart.corners, 1)
+        covered = window.owners(chart.corners)[0] >= 0
+        over = np.count_nonzero(covered & self.all[window.of(self.all)])
+        beside = grown(covered) & self.others[window.of(self.others)]
+        return bool(over <= DOUBLED * np.count_nonzero(covered) and not beside.any())
 
     def add(self, chart: Chart) -> None:
         """Count a chart as taken."""
@@ -101,8 +98,8 @@ def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
     sizes = np.array([np.ptp(chart.corners, axis=(0, 1)) for chart in charts])
     most = np.ceil(sizes[sizes.prod(axis=1).argmax()]).astype(int)
     raise ValueError(
-        f"The image has no free part of {most[0]} × {most[1]} texels, nor one a quarter as wide, for the new faces: enlarge "
-        "it, or lay them out by hand in the UV editor"
+        f"The image has no free part of {most[0]} × {most[1]} texels, nor one a quarter as wide, for the new faces: "
+        "enlarge it, or lay them out by hand in the UV editor"
     )
 
 

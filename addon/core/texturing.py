@@ -113,11 +113,11 @@ def _laid_out(mesh: TexturedMesh, rows: Ints, taken: Taken, texel: float) -> lis
     masks = Taken(taken.all.copy(), taken.others.copy())
     for chart in charts_of(triangles[rows], mesh.places[mesh.chosen][rows]):
         chart.rows = rows[chart.rows]
-        if masks.accepts(chart):
+        if lies_over_itself(chart, float(on_surface[chart.rows].sum()) / texel**2):
+            move += flattened(mesh.points, triangles, chart, texel)
+        elif masks.accepts(chart):
             masks.add(chart)
             stay.append(chart)
-        elif lies_over_itself(chart, float(on_surface[chart.rows].sum()) / texel**2):
-            move += flattened(mesh.points, triangles, chart, texel)
         else:
             move.append(chart)
     if move:

@@ -36,8 +36,8 @@ def source_of(material: Any, mesh: bpy.types.Mesh) -> Source:
     image = node.image
     if image.source not in _SINGLE:
         raise ValueError(
-            f"The image {image.name!r} is no single one: tiles (UDIM), sequences, movies and results of rendering can't "
-            "be continued"
+            f"The image {image.name!r} is no single one: tiles (UDIM), sequences, movies and render results can't be "
+            "continued"
         )
     uv_map = _uv_map(node, mesh)
     if uv_map is None:
@@ -128,7 +128,8 @@ def show_instead(obj: bpy.types.Object, copies: dict[bpy.types.Image, bpy.types.
             node.image = copies.get(node.image, node.image)
     for image in copies:
         # What no one shows is not saved, and an original may be in this file alone.
-        if not (image.users or image.library or _NUMBERED.search(image.name)) and (image.packed_file or not image.filepath):
+        is_only_here = image.packed_file is not None or not image.filepath
+        if is_only_here and not (image.users or image.library or _NUMBERED.search(image.name)):
             image.use_fake_user = True
 
 

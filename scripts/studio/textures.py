@@ -8,7 +8,7 @@ from rows import Chosen, Row, placed
 
 import demo_pictures as pictures
 
-SIZE = 1024  # texels
+SIZE, MARGIN = 1024, 3  # texels
 ROUND, UP = 96, 64  # faces
 
 
@@ -54,13 +54,16 @@ def _cut(obj: bpy.types.Object) -> None:
 
 
 def _painted(mesh: bpy.types.Mesh) -> bpy.types.Material:
-    """A glaze that runs from ochre to blue, with clouds and speckles; black between the islands, as scanners leave it."""
+    """A glaze that runs from ochre to blue, with clouds and speckles; black beyond a margin around the islands."""
     from bl_ext.user_default.intrinsic_fairing import fairing
 
     mesh.calc_loop_triangles()
     places = np.array([[mesh.uv_layers.active.uv[i].vector[:] for i in each.loops] for each in mesh.loop_triangles])
     corners = np.array([[mesh.vertices[i].co[:] for i in each.vertices] for each in mesh.loop_triangles])
     points = fairing.texel_values(places * SIZE, corners, SIZE, SIZE)
+    for _ in range(MARGIN):
+        for shift in ((0, 1), (0, -1), (1, 0), (-1, 0)):
+            points = np.where(np.isfinite(points), points, np.roll(points, shift, (0, 1)))
     image = bpy.data.images.new("Glaze", SIZE, SIZE)
     image.pixels.foreach_set(_glaze(points).astype(np.float32).ravel())
     image.pack()

@@ -10,10 +10,10 @@ import bpy
 import meshes
 import numpy as np
 import pytest
-from extension import module
-from test_fill import select_vertices
-
 import textured
+from extension import module
+
+from test_fill import select_vertices
 
 Floats = meshes.Floats
 SIZE = 256
