@@ -107,9 +107,12 @@ def wave(x: Floats, y: Floats) -> Floats:
 
 def test_a_ramp_goes_on() -> None:
     mesh = textured_sheet()
-    result = textured(mesh, [picture_of(ramp, mesh)])
+    picture = picture_of(ramp, mesh)
+    result = textured(mesh, [picture])
     assert not result.moved.any()
     assert error(result, ramp, mesh) < 1e-5
+    old = covered(mesh, ~mesh.new)
+    assert np.array_equal(result.pixels[0][old], picture.pixels[old])
 
 
 def test_a_ramp_of_light_goes_on_in_bytes() -> None:
