@@ -157,7 +157,7 @@ GradedMesh graded_mesh(const Points& points, const Triangles& triangles, const C
     GradedMesh mesh{points, triangles, Indices(triangles.cols()), Points(3, 3 * triangles.cols()), chosen};
     for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) {
         mesh.parent[t] = t;
-        mesh.weights.middleCols<3>(3 * t).setIdentity();
+        mesh.weights.middleCols(3 * t, 3).setIdentity();
     }
     while (true) {
         const EdgeTable edges = make_edges(mesh.triangles, static_cast<int>(mesh.points.cols()));

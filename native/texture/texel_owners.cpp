@@ -20,7 +20,8 @@ class Side {
 public:
     // One direction for both triangles at an edge: what is computed for one is the very negative for the other.
     Side(const Place& a, const Place& b)
-        : turned_(std::pair(b.x(), b.y()) < std::pair(a.x(), a.y())), from_(turned_ ? b : a),
+        : turned_(std::pair(b.x(), b.y()) < std::pair(a.x(), a.y())),
+          from_(turned_ ? b : a),
           along_(turned_ ? Place(a - b) : Place(b - a)),
           has_its_points_(b.y() < a.y() || (b.y() == a.y() && b.x() > a.x())) {}
 
@@ -48,7 +49,7 @@ void for_texels(const Eigen::Matrix2Xd& corners, const ImageSize& size, const Vi
     for (int t = 0; t < static_cast<int>(corners.cols() / 3); ++t) {
         checkpoint(t);
         std::array<Place, 3> of{corners.col(3 * t), corners.col(3 * t + 1), corners.col(3 * t + 2)};
-        if (!corners.middleCols<3>(3 * t).allFinite()) continue;
+        if (!corners.middleCols(3 * t, 3).allFinite()) continue;
         if (cross(of[1] - of[0], of[2] - of[0]) < 0.0) std::swap(of[1], of[2]);
         const Place least = of[0].cwiseMin(of[1]).cwiseMin(of[2]);
         Place most = of[0].cwiseMax(of[1]).cwiseMax(of[2]);
@@ -78,15 +79,14 @@ TexelOwners texel_owners(const Eigen::Matrix2Xd& corners, const ImageSize& size)
 }
 
 Eigen::MatrixXf texel_values(const Eigen::Matrix2Xd& corners, const Eigen::MatrixXd& values, const ImageSize& size) {
-    Eigen::MatrixXf result =
-        Eigen::MatrixXf::Constant(values.rows(), static_cast<Eigen::Index>(size.width) * size.height,
-                                  std::numeric_limits<float>::quiet_NaN());
+    Eigen::MatrixXf result = Eigen::MatrixXf::Constant(
+        values.rows(), static_cast<Eigen::Index>(size.width) * size.height, std::numeric_limits<float>::quiet_NaN());
     for_texels(corners, size, [&](int triangle, std::size_t at, const Place& p) {
-        const auto of = corners.middleCols<3>(3 * triangle);
+        const auto of = corners.middleCols(3 * triangle, 3);
         const double whole = cross(of.col(1) - of.col(0), of.col(2) - of.col(0));
         const double second = cross(p - of.col(0), of.col(2) - of.col(0)) / whole;
         const double third = cross(of.col(1) - of.col(0), p - of.col(0)) / whole;
-        const auto own = values.middleCols<3>(3 * triangle);
+        const auto own = values.middleCols(3 * triangle, 3);
         result.col(static_cast<Eigen::Index>(at)) =
             ((1.0 - second - third) * own.col(0) + second * own.col(1) + third * own.col(2)).cast<float>();
     });

@@ -22,8 +22,8 @@ struct TexelOwners {
 // whatever the rounding. Those that are not finite cover nothing, those larger than four images all. Throws Cancelled.
 TexelOwners texel_owners(const Eigen::Matrix2Xd& corners, const ImageSize& size);
 
-// The values (c × 3 t) of the triangles' corners, linear in between: c × (width × height), NaN where no triangle is. What
-// lies in several is the last one's.
+// The values (c × 3 t) of the triangles' corners, linear in between: c × (width × height), NaN where no triangle is.
+// What lies in several is the last one's.
 Eigen::MatrixXf texel_values(const Eigen::Matrix2Xd& corners, const Eigen::MatrixXd& values, const ImageSize& size);
 
 }  // namespace fairing
