@@ -451,3 +451,79 @@ def test_a_new_mesh_gets_new_colours_too() -> None:
     meshes.leave()
     v, u = (np.mgrid[:SIZE, :SIZE] + 0.5) / SIZE
     assert np.abs(textured.pixels(textured.shown(obj)) - ramp(u, v))[inside()].max() < 1.01 / 255.0
+
+
+def test_each_object_in_edit_mode_gets_a_copy_of_its_own() -> None:
+    """They share a material, which is parted; in one of them it is the object's, not the mesh's."""
+    image = textured.image_of(hidden(ramp), SIZE)
+    first = holed_grid(image)
+    second = first.copy()
+    second.data = first.data.copy()
+    second.name = "Second"
+    bpy.context.collection.objects.link(second)
+    second.material_slots[0].link = "OBJECT"
+    second.material_slots[0].material = first.data.materials[0]
+    for obj in (first, second):
+        one_face(obj)
+        meshes.leave()
+    meshes.edit(first, second)
+    assert run() == {"FINISHED"}
+    meshes.leave()
+    v, u = (np.mgrid[:SIZE, :SIZE] + 0.5) / SIZE
+    copies = {textured.shown(obj) for obj in (first, second)}
+    assert len(copies) == 2 and image not in copies
+    for copy in copies:
+        assert np.abs(textured.pixels(copy) - ramp(u, v))[inside()].max() < 1.01 / 255.0
+    assert second.data.materials[0] != second.material_slots[0].material
+
+
+def test_a_map_that_is_shifted_by_whole_images_is_read_as_it_shows() -> None:
+    """The new face is beyond the image, so that it moves inside."""
+    obj = holed_grid()
+    textured.lay_out(obj, lambda points, _: in_a_corner(points) + np.array([-2.0, 1.0]))
+    select_vertices(obj, lambda co: max(abs(co.x), abs(co.y)) < 0.9)
+    bpy.ops.mesh.edge_face_add()
+    assert run() == {"FINISHED"}
+    meshes.leave()
+    new = obj.data.polygons[-1]
+    uv = textured.places(obj)[list(new.loop_indices)]
+    assert uv.min() > 0.0 and uv.max() < 1.0
+    wanted = ramp(*in_a_corner(meshes.positions(obj)[list(new.vertices)]).T)
+    x, y = np.floor(uv * SIZE).astype(int).T
+    assert np.abs(textured.pixels(textured.shown(obj))[y, x] - wanted).max() < 3.0 / 255.0
+
+
+def test_the_named_map_is_read_and_the_other_one_stays() -> None:
+    obj = holed_grid(textured.image_of(hidden(ramp), SIZE))
+    obj.data.materials[0] = textured.material_of(textured.shown(obj), "Named", uv_map="Map")
+    textured.lay_out(obj, lambda points, _: 0.1 * points[:, :2], "Other")
+    obj.data.uv_layers["Other"].active = obj.data.uv_layers["Other"].active_render = True
+    one_face(obj)
+    meshes.leave()
+    before = textured.places(obj, "Other")
+    meshes.edit(obj)
+    assert run() == {"FINISHED"}
+    meshes.leave()
+    v, u = (np.mgrid[:SIZE, :SIZE] + 0.5) / SIZE
+    assert np.abs(textured.pixels(textured.shown(obj)) - ramp(u, v))[inside()].max() < 1.01 / 255.0
+    assert np.array_equal(textured.places(obj, "Other"), before)
+
+
+@pytest.mark.parametrize(("scale", "harmonic"), [(3.0, False), (1.0, False), (1.0 / 3.0, True)])
+def test_an_object_is_measured_in_world_space(scale: float, harmonic: bool) -> None:
+    """There x² − y² / 9 of the mesh is harmonic where y is a third as long; else another function goes on."""
+
+    def saddle(u: Floats, v: Floats) -> Floats:
+        x, y = (u - 0.5) / FLAT, (v - 0.5) / FLAT
+        level = 0.5 + 0.3 * (x**2 - y**2 / 9.0)
+        return np.stack([level, level, level, np.ones_like(u)], axis=-1)
+
+    obj = holed_grid(textured.image_of(hidden(saddle), SIZE, floats=True))
+    obj.scale = (1.0, scale, 1.0)
+    one_face(obj)
+    assert run() == {"FINISHED"}
+    meshes.leave()
+    v, u = (np.mgrid[:SIZE, :SIZE] + 0.5) / SIZE
+    error = np.abs(textured.pixels(textured.shown(obj)) - saddle(u, v))[inside()].max()
+    assert (error < 0.5 / 255.0) == harmonic
+    assert harmonic or error > 0.01
