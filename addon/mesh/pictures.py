@@ -128,7 +128,7 @@ def show_instead(obj: bpy.types.Object, copies: dict[bpy.types.Image, bpy.types.
             node.image = copies.get(node.image, node.image)
     for image in copies:
         # What no one shows is not saved, and an original may be in this file alone.
-        is_only_here = image.packed_file is not None or not image.filepath
+        is_only_here = image.packed_file is not None or image.is_dirty or not image.filepath
         if is_only_here and not (image.users or image.library or _NUMBERED.search(image.name)):
             image.use_fake_user = True
 

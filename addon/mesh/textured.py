@@ -24,7 +24,7 @@ class Read:
 
     mesh: TexturedMesh
     faces: Ints  # (m,) of the new triangles
-    corners: Ints  # (m, 3) likewise, as the mesh numbers them
+    corners: Ints  # (m, 3) likewise, as their faces number them
     uv_maps: list[str]  # (m,) that lie on the image
     images: list[bpy.types.Image]
     pictures: list[Picture]
@@ -60,7 +60,8 @@ def read(obj: bpy.types.Object, options: TextureOptions) -> Read | None:
         )
         faces = face[mesh.chosen]
         uv_maps = [sources[slot].uv_map for slot in slots[faces].tolist()]
-        return Read(mesh, faces, corners[mesh.chosen], uv_maps, images, pictures)
+        begins = indices(copy.polygons, "loop_start")[faces]
+        return Read(mesh, faces, corners[mesh.chosen] - begins[:, None], uv_maps, images, pictures)
 
 
 def _sources(obj: bpy.types.Object, needed: list[int]) -> dict[int, Source]:
@@ -110,12 +111,13 @@ def write(obj: bpy.types.Object, before: Read, after: Textured) -> list[bpy.type
 
 def _move(mesh: bpy.types.Mesh, before: Read, after: Textured) -> None:
     bm = bmesh.from_edit_mesh(mesh)
-    loops = [loop for face in bm.faces for loop in face.loops]
+    bm.faces.ensure_lookup_table()
     image = before.mesh.image[before.mesh.chosen]
     for row in np.flatnonzero(after.moved).tolist():
         layer = bm.loops.layers.uv[before.uv_maps[row]]
         picture = before.pictures[image[row]]
         uv = after.places[row] / [picture.width, picture.height]
+        loops = bm.faces[before.faces[row]].loops
         for corner, place in zip(before.corners[row].tolist(), uv.tolist(), strict=True):
             loops[corner][layer].uv = place
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)

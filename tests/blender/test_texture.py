@@ -300,6 +300,23 @@ def test_the_copy_is_packed_and_comes_back_from_the_file(floats: bool, tmp_path:
     assert np.array_equal(textured.pixels(bpy.data.images["Skin"]), original)
 
 
+def test_the_original_file_is_not_touched(tmp_path: Path) -> None:
+    """The copy has no file that one could save it over; the original's is enough to keep it."""
+    path = tmp_path / "skin.png"
+    made = textured.image_of(hidden(ramp), SIZE)
+    made.filepath_raw, made.file_format = str(path), "PNG"
+    made.save()
+    before = path.read_bytes()
+    image = bpy.data.images.load(str(path))
+    copy = filled_and_textured(holed_grid(image))
+    assert path.read_bytes() == before
+    assert not image.is_dirty and not image.use_fake_user
+    assert copy.packed_file is not None
+    assert bpy.path.abspath(copy.filepath) != str(path)
+    v, u = (np.mgrid[:SIZE, :SIZE] + 0.5) / SIZE
+    assert np.abs(textured.pixels(copy) - ramp(u, v))[inside()].max() < 1.01 / 255.0
+
+
 def test_a_second_run_has_a_copy_of_its_own() -> None:
     obj = holed_grid()
     first = filled_and_textured(obj)
