@@ -68,17 +68,17 @@ def _fine(pixels: Pixels, mask: Mask, edge: int) -> Floats:
     inside = mask.astype(np.float64)
     colours = pixels[..., :3] * inside[..., None]
     part = inside
-    for _ in range(3):  # as good as a Gaussian, of a standard deviation of a quarter of an edge
+    for _ in range(2):
         part = _sums(part, edge // 4)
-        colours = np.stack([_sums(channel, edge // 4) for channel in np.moveaxis(colours, 2, 0)], axis=2)
+        colours = _sums(colours, edge // 4)
     smooth = np.divide(colours, part[..., None], out=np.zeros_like(colours), where=part[..., None] > 0.0)
     return np.where(mask[..., None], pixels[..., :3] - smooth, 0.0)
 
 
 def _sums(values: Floats, reach: int) -> Floats:
-    """Return the sums over squares of so many texels to each side of (h, w)."""
+    """Return the sums over squares of so many texels to each side of (h, w, …)."""
     for axis in (0, 1):
-        padding = [(0, 0), (0, 0)]
+        padding = [(0, 0)] * values.ndim
         padding[axis] = (reach + 1, reach)
         total = np.cumsum(np.pad(values, padding), axis=axis)
         width = values.shape[axis]

@@ -56,13 +56,13 @@ class TexturedMesh:
 
     @property
     def sampled(self) -> Mask:
-        """(t,): the old triangles whose detail is copied; by themselves those as near as the new part is wide."""
+        """(t,): the old triangles whose detail is copied; by themselves those around, half as far as it is wide."""
         if self.sample is not None:
             return self.sample & ~self.new
         middles = self.points[self.triangles].mean(axis=1)
         middle = middles[self.chosen].mean(axis=0)
         away = np.linalg.norm(middles - middle, axis=1)
-        near: Mask = (away <= 2.0 * away[self.chosen].max()) & ~self.new
+        near: Mask = (away <= 1.5 * away[self.chosen].max()) & ~self.new
         return near
 
     def texel_length(self) -> float:
