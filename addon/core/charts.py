@@ -16,6 +16,11 @@ COARSER = (1, 2, 4)  # a harmonic colour looks the same with fewer texels
 # 520 charts (98 holes in nine meshes); those would move, or be cut in pieces, for some texels.
 DOUBLED = 0.01
 
+NO_SPACE = (
+    "The image has no free part for the new faces, not even with a quarter of the texels along each side: enlarge it, "
+    "or lay them out by hand in the UV editor"
+)
+
 
 @dataclass
 class Chart:
@@ -82,10 +87,10 @@ def lies_over_itself(chart: Chart, expected: float) -> bool:
     return bool(doubled > DOUBLED * count or (not count and expected >= 1.0))
 
 
-def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
-    """Give charts places with a margin around each, with fewer texels if they must.
+def move_to_free_space(charts: list[Chart], taken: Mask) -> bool:
+    """Give charts places with a margin around each, with fewer texels if they must; return whether there was room.
 
-    taken: (h, w) texels of the image. Raises ValueError where they have no room; charts are unchanged then.
+    taken: (h, w) texels of the image. Without room charts are unchanged.
     """
     height, width = taken.shape
     rows, columns = -(-height // CELL), -(-width // CELL)
@@ -96,13 +101,8 @@ def move_to_free_space(charts: list[Chart], taken: Mask) -> None:
         if placed is not None:
             for chart, corners in zip(charts, placed, strict=True):
                 chart.corners, chart.moved, chart.coarser = corners, True, coarser
-            return
-    sizes = np.array([np.ptp(chart.corners, axis=(0, 1)) for chart in charts])
-    most = np.ceil(sizes[sizes.prod(axis=1).argmax()]).astype(int)
-    raise ValueError(
-        f"The image has no free part of {most[0]} × {most[1]} texels, nor one a quarter as wide, for the new faces: "
-        "enlarge it, or lay them out by hand in the UV editor"
-    )
+            return True
+    return False
 
 
 def _placed(charts: list[Floats], free: Mask) -> list[Floats] | None:

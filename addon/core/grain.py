@@ -27,8 +27,8 @@ class Grain:
     edge: int
 
     @classmethod
-    def of(cls, pixels: Pixels, mask: Mask) -> Grain:
-        """Cut the grain out of an image (h, w, 4) where the mask is; raises ValueError where that is too narrow."""
+    def of(cls, pixels: Pixels, mask: Mask) -> Grain | None:
+        """Cut the grain out of an image (h, w, 4) where the mask is; None where that is too narrow."""
         rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
         part = np.s_[rows.min(initial=0) : rows.max(initial=0) + 1, columns.min(initial=0) : columns.max(initial=0) + 1]
         pixels, mask = pixels[part], mask[part]
@@ -36,7 +36,7 @@ class Grain:
             whole = _sums(mask.astype(np.float64), edge + 1) > (2 * edge + 3) ** 2 - 0.5
             if np.count_nonzero(whole) >= edge**2:
                 return cls(_fine(pixels, mask, edge), np.argwhere(whole)[:, ::-1], edge)
-        raise ValueError(TOO_NARROW)
+        return None
 
     def on(self, window: Window, coarser: int) -> Floats:
         """Return (height, width, 3) for a window of an image with so many times longer texels on the surface."""

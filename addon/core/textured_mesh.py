@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -54,16 +55,19 @@ class TexturedMesh:
             reached[self.triangles[touched]] = True
         return np.flatnonzero(touched & ~self.new & (self.image >= 0))
 
-    @property
-    def sampled(self) -> Mask:
-        """(t,): the old triangles whose detail is copied; by themselves those around, half as far as it is wide."""
+    def samples(self) -> Iterator[Mask]:
+        """Yield (t,) masks of old triangles whose detail is copied: those named, else what is around, ever further."""
         if self.sample is not None:
-            return self.sample & ~self.new
+            yield self.sample & ~self.new
+            return
         middles = self.points[self.triangles].mean(axis=1)
-        middle = middles[self.chosen].mean(axis=0)
-        away = np.linalg.norm(middles - middle, axis=1)
-        near: Mask = (away <= 1.5 * away[self.chosen].max()) & ~self.new
-        return near
+        away = np.linalg.norm(middles - middles[self.chosen].mean(axis=0), axis=1)
+        reach = 1.5 * away[self.chosen].max()
+        while True:
+            yield (away <= reach) & ~self.new
+            if reach >= away.max():
+                return
+            reach = 2.0 * reach if reach > 0.0 else away.max()
 
     def texel_length(self) -> float:
         """Return how long a texel is on the surface around; 0 where nothing around has an area on its image."""

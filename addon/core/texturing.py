@@ -12,9 +12,9 @@ import fairing
 
 from .arrays import Floats, Ints, Mask, Pixels
 from .boundary_colours import Picture, Samples, colours_at
-from .charts import Chart, Taken, charts_of, flattened, lies_over_itself, move_to_free_space
+from .charts import NO_SPACE, Chart, Taken, charts_of, flattened, lies_over_itself, move_to_free_space
 from .fill_options import TEXTURE
-from .grain import Grain
+from .grain import TOO_NARROW, Grain
 from .option_table import fields_of
 from .texels import MARGIN, Window, spread
 from .textured_mesh import TexturedMesh
@@ -120,8 +120,12 @@ def _laid_out(mesh: TexturedMesh, rows: Ints, taken: Taken, texel: float) -> lis
             stay.append(chart)
         else:
             move.append(chart)
-    if move:
-        move_to_free_space(move, masks.all)
+    if move and not move_to_free_space(move, masks.all):
+        move = [
+            part for chart in move for part in flattened(mesh.points, triangles, chart, texel)
+        ]  # no longer stretched
+        if not move_to_free_space(move, masks.all):
+            raise ValueError(NO_SPACE)
     return stay + move
 
 
@@ -142,6 +146,11 @@ def _painted(coloured: _Coloured, chart: Chart, taken: Mask, picture: Picture) -
 
 
 def _grain(mesh: TexturedMesh, number: int, picture: Picture) -> Grain:
-    of = mesh.sampled & (mesh.image == number)
-    owners, _ = fairing.texel_owners(mesh.places[of], picture.width, picture.height)
-    return Grain.of(picture.pixels, owners >= 0)
+    """Raises ValueError where all samples are too narrow."""
+    for sample in mesh.samples():
+        of = sample & (mesh.image == number)
+        owners, _ = fairing.texel_owners(mesh.places[of], picture.width, picture.height)
+        grain = Grain.of(picture.pixels, owners >= 0)
+        if grain is not None:
+            return grain
+    raise ValueError(TOO_NARROW)

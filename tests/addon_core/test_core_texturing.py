@@ -211,7 +211,7 @@ def test_where_room_is_short_new_faces_get_fewer_texels() -> None:
 
 def test_without_room_nothing_is_done() -> None:
     mesh = textured_sheet()
-    with pytest.raises(ValueError, match="no free part of"):
+    with pytest.raises(ValueError, match="no free part for"):
         textured(crowded(mesh, 24.0), [picture_of(ramp, mesh)])
 
 
@@ -339,7 +339,9 @@ def test_grain_has_the_spread_and_the_waves_of_its_source() -> None:
     pixels = np.concatenate([0.5 + 0.02 * smooth + x[..., None], np.ones((200, 200, 1))], axis=2).astype(np.float32)
     mask = np.zeros((200, 200), dtype=bool)
     mask[20:180, 30:190] = True
-    grain = Grain.of(pixels, mask).on(Window(3, 5, 150, 170), 1)
+    source = Grain.of(pixels, mask)
+    assert source is not None
+    grain = source.on(Window(3, 5, 150, 170), 1)
     assert grain.shape == (170, 150, 3)
     assert abs(grain.mean()) < 0.002
     assert grain.std() == pytest.approx(0.02 * np.sqrt(2.0), rel=0.1)
@@ -349,7 +351,7 @@ def test_grain_has_the_spread_and_the_waves_of_its_source() -> None:
 
     assert alike(1) == pytest.approx(0.5, abs=0.12)
     assert abs(alike(0)) < 0.12
-    assert np.array_equal(grain, Grain.of(pixels, mask).on(Window(3, 5, 150, 170), 1))
+    assert np.array_equal(grain, source.on(Window(3, 5, 150, 170), 1))
 
 
 def test_grain_comes_from_the_mask_alone() -> None:
@@ -358,8 +360,34 @@ def test_grain_comes_from_the_mask_alone() -> None:
     mask = np.zeros((100, 100), dtype=bool)
     mask[10:60, 10:60] = True
     pixels[mask, :3] = 0.5 + 0.01 * rng.normal(size=(2500, 3))
-    assert np.abs(Grain.of(pixels, mask).on(Window(0, 0, 90, 90), 1)).max() < 0.08
+    source = Grain.of(pixels, mask)
+    assert source is not None
+    assert np.abs(source.on(Window(0, 0, 90, 90), 1)).max() < 0.08
     mask[:] = False
     mask[10:20, 10:90] = True
-    with pytest.raises(ValueError, match="no square of"):
-        Grain.of(pixels, mask)
+    assert Grain.of(pixels, mask) is None
+
+
+def test_detail_is_looked_for_further_away_where_there_is_little_around() -> None:
+    """Around a small new part the images of old triangles are too narrow; those further away are wide."""
+    mesh = textured_sheet(48)
+    middle = np.linalg.norm(mesh.points[mesh.triangles].mean(axis=1) - [1.5, 1.5, 0.0], axis=1)
+    mesh = replace(mesh, new=middle <= np.sort(middle)[1])
+    noise = np.random.default_rng(2).normal(size=(SIZE, SIZE))
+    picture = picture_of(lambda x, y: 0.5 + 0.1 * noise, mesh)
+    assert not np.array_equal(textured(mesh, [picture], 1.0).pixels[0], textured(mesh, [picture]).pixels[0])
+    samples = [np.count_nonzero(sample) for sample in mesh.samples()]
+    assert len(samples) > 3 and sorted(samples) == samples and samples[-1] == np.count_nonzero(~mesh.new)
+
+
+def test_a_stretched_place_is_laid_out_anew_where_it_finds_no_room() -> None:
+    """One corner of the new part is thrown across the image; as large as on the surface there is room."""
+    mesh = textured_sheet()
+    places = mesh.places.copy()
+    corner = mesh.triangles == mesh.triangles[mesh.chosen[0], 0]
+    places[corner & mesh.new[:, None]] = [SIZE - 1.0, 3.0]
+    result = textured(replace(mesh, places=places), [picture_of(ramp, mesh)])
+    assert result.moved.all()
+    assert np.ptp(result.places, axis=(0, 1)).max() < 0.6 * (HIGH - LOW) * SIZE
+    at, colours = in_place(mesh, result)
+    assert np.abs(colours[:, 0] - ramp(*at.T)).max() < 0.02

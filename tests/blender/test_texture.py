@@ -391,7 +391,7 @@ def repeated(obj: bpy.types.Object) -> None:
         (movie, "is no single one"),
         (lost_file, "can't be read"),
         (generated_places, "something else than a UV map"),
-        (repeated, "no free part of"),
+        (repeated, "no free part for"),
     ],
 )
 def test_what_can_not_be_continued_is_refused(spoil: Any, text: str) -> None:
