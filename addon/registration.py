@@ -32,6 +32,7 @@ from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
 from .run.strokes import MESH_OT_fair_stroke
+from .run.texture import MESH_OT_fair_texture
 from .show import brush_preview, fillet_preview, gizmos, keymap, marks, menus, overlay, tab, tools, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
@@ -52,6 +53,7 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_fill,
     MESH_OT_fair_fillet,
     MESH_OT_fair_denoise,
+    MESH_OT_fair_texture,
     MESH_OT_fair_from_curves,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,

@@ -34,7 +34,7 @@ class Added:
             notes.append(f"{text} of UVs: each island at the boundary goes on by itself")
         if self.covering:
             text = counted(self.covering, "new triangle lies", "new triangles lie")
-            notes.append(f"{text} over other faces in the texture: move the islands apart before you paint")
+            notes.append(f"{text} over other faces in the texture: Fair Texture gives them a place of their own")
         if self.mixed:
             text = counted(self.mixed, "vertex of the boundary lies", "vertices of the boundary lie")
             notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")

@@ -32,7 +32,7 @@ FEW = 8  # times as many vertices as were moved: normals of the whole mesh take 
 
 
 @contextmanager
-def _snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
+def snapshot(mesh: bpy.types.Mesh) -> Iterator[bpy.types.Mesh]:
     """Give a temporary object-mode copy of a mesh in edit mode, active shape key included."""
     copy = bpy.data.meshes.new("fairing snapshot")
     try:
@@ -53,7 +53,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
     region: an integer face attribute that stands in for the selection.
     Raises ValueError where `options` name a vertex group that the object does not have.
     """
-    with _snapshot(obj.data) as mesh:
+    with snapshot(obj.data) as mesh:
         group = group_index(obj, options.pin_group, "pin_group")
         if region:
             selected = column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
@@ -119,14 +119,14 @@ def edit_face_count(mesh: bpy.types.Mesh) -> int:
 
 def edit_positions(mesh: bpy.types.Mesh) -> Floats:
     """Return the (n, 3) positions of a mesh in edit mode."""
-    with _snapshot(mesh) as now:
+    with snapshot(mesh) as now:
         positions: Floats = column(now.vertices, "co", 3, np.float32).astype(np.float64)
         return positions
 
 
 def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
     """Return whether a mesh in edit mode still has the positions and corners that were read from it."""
-    with _snapshot(mesh) as now:
+    with snapshot(mesh) as now:
         if len(now.vertices) != len(arrays.positions) or len(now.loops) != len(arrays.corner_vertices):
             return False
         positions = column(now.vertices, "co", 3, np.float32)

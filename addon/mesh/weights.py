@@ -90,10 +90,7 @@ def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: Fa
     """
     if not options.copies_detail:
         return None
-    group = group_index(obj, options.detail_from, "detail_from")
-    chosen = np.zeros(len(mesh.polygons), dtype=bool)
-    if group is not None:
-        chosen[faces_within(mesh, _group_weights(mesh, group) > 0.0)] = True
+    chosen = faces_of_group(mesh, obj, options.detail_from)
     sets = values(mesh, FACE_SET, np.int32)
     if options.detail_face_set and sets is not None:
         chosen |= sets == options.detail_face_set
@@ -102,6 +99,15 @@ def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: Fa
     chosen &= ~hidden
     if not chosen.any():
         raise ValueError(_no_sample(options))
+    return chosen
+
+
+def faces_of_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, name: str) -> Mask:
+    """Return the (f,) mask of the faces inside the vertex group of *Detail From*; raises ValueError without it."""
+    group = group_index(obj, name, "detail_from")
+    chosen = np.zeros(len(mesh.polygons), dtype=bool)
+    if group is not None:
+        chosen[faces_within(mesh, _group_weights(mesh, group) > 0.0)] = True
     return chosen
 
 

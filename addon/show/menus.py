@@ -15,6 +15,7 @@ from ..run.fillet import MESH_OT_fair_fillet
 from ..run.from_curves import MESH_OT_fair_from_curves
 from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
+from ..run.texture import MESH_OT_fair_texture
 
 
 def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
@@ -22,6 +23,7 @@ def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_region.bl_idname)
     menu.layout.operator(MESH_OT_fair_fill.bl_idname)
+    menu.layout.operator(MESH_OT_fair_texture.bl_idname)
 
 
 def draw_edge_menu(menu: Any, _context: bpy.types.Context) -> None:

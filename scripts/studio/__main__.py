@@ -20,6 +20,7 @@ import options
 import rivals
 import sheet
 import slopes
+import textures
 import wired
 from rows import Row, smooth
 
@@ -30,7 +31,8 @@ import tools
 
 WIDTH = 1200  # pixels of a sheet at least
 LEAST = 300  # of one picture
-SHEETS: dict[str, list[list[Row]]] = {**rivals.SHEETS, **hard.SHEETS, **options.SHEETS, **more.SHEETS, **slopes.SHEETS}
+MODULES = (rivals, hard, options, more, slopes, textures)
+SHEETS: dict[str, list[list[Row]]] = {name: lines for module in MODULES for name, lines in module.SHEETS.items()}
 
 
 def begun(row: Row) -> Any:

@@ -62,6 +62,7 @@ from fairing._shape import (
 )
 from fairing._solver import Solver
 from fairing._subdivided import SubdividedEdges, subdivide_edges
+from fairing._texture import GradedMesh, graded_mesh, harmonic_extension, texel_owners, texel_values
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 from fairing.objects import Made, fair_faces, fill_holes, fillet_edges
 
@@ -81,6 +82,7 @@ __all__ = [
     "Flank",
     "FromCurvesResult",
     "Girth",
+    "GradedMesh",
     "GrownOutline",
     "HoleLoops",
     "Layout",
@@ -124,8 +126,10 @@ __all__ = [
     "flank",
     "flipped_triangles",
     "girth",
+    "graded_mesh",
     "grown_outline",
     "hard_edges",
+    "harmonic_extension",
     "has_lost_grain",
     "hierarchy",
     "hole_loops",
@@ -146,6 +150,8 @@ __all__ = [
     "sunken",
     "surface_from_curves",
     "surrounding_normals",
+    "texel_owners",
+    "texel_values",
     "vertex_normals",
     "visible_join",
 ]
