@@ -121,9 +121,8 @@ def _laid_out(mesh: TexturedMesh, rows: Ints, taken: Taken, texel: float) -> lis
         else:
             move.append(chart)
     if move and not move_to_free_space(move, masks.all):
-        move = [
-            part for chart in move for part in flattened(mesh.points, triangles, chart, texel)
-        ]  # no longer stretched
+        # As large as on the surface: they may have been stretched.
+        move = [part for chart in move for part in flattened(mesh.points, triangles, chart, texel)]
         if not move_to_free_space(move, masks.all):
             raise ValueError(NO_SPACE)
     return stay + move
