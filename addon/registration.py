@@ -16,7 +16,7 @@ from .follow.live_operators import (
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, presets, redo_panel
+from .run import cli, compare, presets, redo, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.background import MESH_OT_fair_cancel
 from .run.brush import FairDab, MESH_OT_fair_brush
@@ -103,6 +103,7 @@ def register() -> None:
     keymap.register()
     tools.register()
     undone.register()
+    redo.register()
     file_owned.register()
     translations.register()
     bpy.utils.register_preset_path(_folder)
@@ -115,6 +116,7 @@ def unregister() -> None:
     bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
     file_owned.unregister()
+    redo.unregister()
     undone.unregister()
     tools.unregister()
     keymap.unregister()

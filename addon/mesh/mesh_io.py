@@ -255,12 +255,7 @@ def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats, nor
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
     moved = elements_of(bm.verts, vertices)
-    for vertex, position in zip(moved, positions.tolist(), strict=True):
-        vertex.co = position
-    if FEW * len(moved) < len(bm.verts):
-        _update_normals_at(moved)
-    else:
-        bm.normal_update()
+    _move(bm, moved, positions)
     if normals is None:
         renew_at(bm, moved)
     else:
@@ -273,9 +268,7 @@ def move_vertices(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> No
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
     moved = elements_of(bm.verts, vertices)
-    for vertex, position in zip(moved, positions.tolist(), strict=True):
-        vertex.co = position
-    _update_normals_at(moved)
+    _move(bm, moved, positions)
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
 
 
@@ -288,6 +281,16 @@ def move_vertices_back(mesh: bpy.types.Mesh, vertices: Ints, there: Floats, befo
     now = np.array([vertex.co[:] for vertex in elements_of(bm.verts, vertices)])
     same = (now == there).all(axis=1)
     move_vertices(mesh, vertices[same], before[same])
+
+
+def _move(bm: bmesh.types.BMesh, moved: list[Any], positions: Floats) -> None:
+    """Move these vertices (k,) to `positions` (k, 3), and update the normals around them."""
+    for vertex, position in zip(moved, positions.tolist(), strict=True):
+        vertex.co = position
+    if FEW * len(moved) < len(bm.verts):
+        _update_normals_at(moved)
+    else:
+        bm.normal_update()
 
 
 def _update_normals_at(moved: list[Any]) -> None:

@@ -19,6 +19,7 @@ from ..host.handlers import call_later
 from ..run import fillet, last_run
 from ..run.fillet import MESH_OT_fair_fillet
 from ..run.operators import MESH_OT_fair_region
+from ..run.repeat import may_call, placed, run_last_again
 from .tools import FairFilletTool, FairLassoTool, FairPaintTool
 
 LIFT = 0.25  # of the radius of a flat disc that a bulge of 1 lifts it by
@@ -44,17 +45,19 @@ def _tool(context: bpy.types.Context) -> str:
     return tool.idname if tool is not None else ""
 
 
-_wanted: list[Any] = []  # windows in which the last run is to be run again
+_wanted: list[int] = []  # windows in which the last run is to be run again, by where Blender has them
+SOON = 0.01  # seconds until the threads in the way are looked at again
 
 
-def _run_again() -> None:
+def _run_again() -> float | None:
     """Run the last operator again, outside of the arrow's own events: undo would take the arrow away under them."""
+    if not may_call():
+        return SOON
     window = _wanted[-1]
     _wanted.clear()
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+    with placed(window):
+        run_last_again()
+    return None
 
 
 class _Arrow:
@@ -110,7 +113,7 @@ class _Arrow:
         options = self.chosen(bpy.context)
         if options is not None:
             setattr(options, self.option, way / self.unit)
-            _wanted.append(bpy.context.window)
+            _wanted.append(bpy.context.window.as_pointer())
             call_later(_run_again, 0.0)
 
 

@@ -1,0 +1,237 @@
+"""Changes in the redo panel: another surface at once, the fair one in its place as soon as it is found.
+
+Blender takes the last run's step of undo back and calls `execute`. Small selections get PROMPT to be answered there.
+Otherwise the result before the change is shown, and a timer has a thread search, which begins and ends outside of
+Blender's operators (repeat.py says why). With its answer the timer has Blender repeat the operator: as ever there is
+one step of undo, with the answer in it.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+import bpy
+
+import fairing
+
+from ..core import runner
+from ..host.handlers import call_later, listen, unlisten
+from ..host.status import hide_following, redraw_sidebars, show_following
+from ..preferences import background_from
+from .background import TICK, Watched, Work, has_events, under_way
+from .finish import Say
+from .repeat import may_call, placed, run_last_again
+from .report_properties import clear, store_first
+
+PROMPT = 0.04  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
+BLINK = 0.02  # seconds that a change waits for the search before it to stop
+AWAITED = "Looking for the fair surface: another one is shown meanwhile"
+KEPT = "Another surface was kept: the mesh changed before the fair one was found"
+GIVEN_UP = "Another surface was kept: the search for the fair one was cancelled"
+NOT_TAKEN = "{reason}. The surface before was kept"
+
+
+class Change(Protocol):
+    """What a change in the panel asks for, and the meshes that it is about."""
+
+    names: tuple[str, ...]  # of the objects
+    size: int  # free vertices
+    work: Work  # gives the answer; any thread
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether another surface is shown meanwhile."""
+
+    def show_last(self) -> None:
+        """Show the result before the change, where it began from the same meshes."""
+
+    def show(self) -> None:
+        """Show the first surfaces that `work` has come by so far, where nothing is shown yet."""
+
+    def take_back(self) -> None:
+        """Let the meshes be as they were read."""
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the meshes are as they were read."""
+
+    def is_as_shown(self, context: bpy.types.Context) -> bool:
+        """Return whether they are as they were read, but for what is shown."""
+
+    def settle(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
+        """Write and report the answer, or report why it isn't written; return an operator's status."""
+
+
+class Following:
+    """One change whose answer is awaited while Blender goes on."""
+
+    def __init__(self, change: Change, operator: int, window: int) -> None:
+        """operator: where Blender keeps the one in its panel, maybe a macro; window: likewise."""
+        self.change, self.operator, self.window = change, operator, window
+        self.unwanted = False  # a button has asked for the end
+        self.settled = False  # the answer is written
+        self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
+
+    def begin(self, context: bpy.types.Context) -> None:
+        """Let Blender go on; the search begins as soon as it does."""
+        clear(context.window_manager.fairing_report)
+        under_way.append(self)
+        self.show(context)
+        call_later(_look, 0.0)
+
+    def show(self, context: bpy.types.Context) -> None:
+        """Show how far it is."""
+        report, change = context.window_manager.fairing_report, self.change
+        if change.is_shown and not report.written:
+            store_first(report, change.names, change.size, AWAITED)
+        show_following(context, 0.0 if self.run is None else self.run.fraction)
+
+    def end(self, reason: str = "") -> None:
+        """Await it no more; another surface stays, for which the report then gives this reason."""
+        if self in under_way:
+            under_way.remove(self)
+        if self.run is not None and not self.run.finished:
+            self.run.cancel()
+            self.run.wait(BLINK)  # what it has prepared is of use to the next one
+        hide_following(bpy.context)
+        if reason and self.change.is_shown:
+            bpy.context.window_manager.fairing_report.reason = reason
+
+    def is_last(self, context: bpy.types.Context) -> bool:
+        """Return whether it is this operator that Blender would repeat."""
+        kept = context.window_manager.operators
+        return len(kept) > 0 and kept[-1].as_pointer() == self.operator and bool(bpy.ops.ed.undo_redo.poll())
+
+    def settle(self, context: bpy.types.Context, say: Say) -> set[str]:
+        """Write and report the answer, where the meshes are as they were read; return an operator's status."""
+        assert self.run is not None
+        if not self.change.is_as_read(context):
+            return {"CANCELLED"}
+        status = self.change.settle(context, self.run.result, say)
+        self.settled = "FINISHED" in status
+        return status
+
+
+class _Repeat:
+    """The change that we have Blender repeat an operator for."""
+
+    now: Following | None = None
+
+
+class Redone(Watched):
+    """An operator whose changes in the redo panel don't hold Blender up."""
+
+    if TYPE_CHECKING:
+        options: Any
+        as_pointer: Callable[[], int]
+        _asked: Callable[[], Change]
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Return when done, but for a change in the redo panel.
+
+        Where that is not usable, Blender goes back to the result before it.
+        """
+        if _Repeat.now is not None:
+            return _Repeat.now.settle(context, self.report)
+        if has_events(context) and self._is_repeated(context):
+            return self._begin_with(context, self._change)
+        return super().execute(context)
+
+    def _is_repeated(self, context: bpy.types.Context) -> bool:
+        """Return whether the redo panel calls, of a macro as well: its steps are not told."""
+        if self.options.is_repeat:
+            return True
+        kept = context.window_manager.operators
+        steps = kept[-1].macros if len(kept) else ()
+        return any(step.as_pointer() == self.as_pointer() for step in steps)
+
+    def _change(self, context: bpy.types.Context) -> set[str]:
+        change = self._asked()
+        if change.size < background_from(context):
+            end = time.perf_counter() + PROMPT
+            try:
+                outcome = change.work(lambda *_: time.perf_counter() < end)
+            except fairing.Cancelled:
+                pass  # it takes longer
+            else:
+                return change.settle(context, lambda: outcome, self.report)
+        change.show_last()
+        change.show()
+        kept = context.window_manager.operators
+        Following(change, kept[-1].as_pointer(), context.window.as_pointer()).begin(context)
+        return {"FINISHED"}
+
+
+def _following() -> Following | None:
+    return next((each for each in under_way if isinstance(each, Following)), None)
+
+
+def is_being_edited(context: bpy.types.Context) -> bool:
+    """Return whether an operator that edits is under way: undo would take the mesh away from it."""
+    windows = context.window_manager.windows
+    return any("UNDO" in operator.bl_options for window in windows for operator in window.modal_operators)
+
+
+def _look() -> float | None:
+    """Look at the search; a timer calls this, again after so many seconds."""
+    following = _following()
+    if following is None:
+        return None
+    if following.run is None:
+        following.run = runner.Run(following.change.work)
+        return TICK
+    with placed(following.window) as context:
+        if following.unwanted:
+            following.end(GIVEN_UP)
+        elif is_being_edited(context):
+            following.show(context)
+        elif not following.run.finished:
+            following.change.show()
+            following.show(context)
+        elif may_call():
+            _collect(context, following)
+    return TICK if _following() is not None else None
+
+
+def _collect(context: bpy.types.Context, following: Following) -> None:
+    """Have the answer written in place of what is shown."""
+    change, report = following.change, context.window_manager.fairing_report
+    current = change.is_as_shown(context)
+    following.end(KEPT)
+    if current and following.is_last(context):
+        _Repeat.now = following
+        try:
+            run_last_again()
+        finally:
+            _Repeat.now = None
+    elif current:  # something else was selected meanwhile
+        change.take_back()
+        following.settle(context, lambda _kinds, _text: None)
+        if following.settled:
+            bpy.ops.ed.undo_push(message="Fair Region")
+        else:
+            change.show_last()
+    if not following.settled and not report.written and change.is_as_shown(context):
+        report.reason, report.written = NOT_TAKEN.format(reason=report.reason), True
+    redraw_sidebars(context)
+
+
+def _on_step(*_arguments: object) -> None:
+    """After an undo or a redo nothing is awaited any more: a change in the panel begins with an undo, too."""
+    following = _following()
+    if following is not None:
+        following.end()
+        clear(bpy.context.window_manager.fairing_report)
+
+
+def register() -> None:
+    """Hear of steps of undo."""
+    listen(bpy.app.handlers.undo_post, _on_step)
+    listen(bpy.app.handlers.redo_post, _on_step)
+
+
+def unregister() -> None:
+    """Hear of them no more."""
+    unlisten(bpy.app.handlers.redo_post, _on_step)
+    unlisten(bpy.app.handlers.undo_post, _on_step)
