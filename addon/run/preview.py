@@ -39,10 +39,12 @@ class Preview:
 
     def show(self) -> None:
         """Show what was given since the last call, where the mesh is as it was read; main thread."""
-        objects = _by_name()
+        objects = _by_name() if self._given else {}
         while self._given:
             name, vertices, positions = self._given.pop(0)
             task, obj = self._tasks[name], objects.get(name)
+            if name in {shown.name for shown in self._shown}:
+                continue
             if obj is None or not np.isfinite(positions).all() or not is_unchanged(obj, task.mesh, task.key):
                 continue
             mesh_io.move_vertices(obj.data, vertices, positions)

@@ -25,7 +25,7 @@ from .finish import Say
 from .repeat import may_call, placed, run_last_again
 from .report_properties import clear, store_first
 
-PROMPT = 0.04  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
+PROMPT = 0.06  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
 BLINK = 0.02  # seconds that a change waits for the search before it to stop
 AWAITED = "Looking for the fair surface: another one is shown meanwhile"
 KEPT = "Another surface was kept: the mesh changed before the fair one was found"

@@ -31,6 +31,7 @@ from live_chapters import (
 from long_run_chapters import (
     cancel_a_hopeless_run,
     cancel_a_long_run,
+    changes_in_the_redo_panel_do_not_wait,
     finish_a_long_run,
     redo_after_a_long_run,
 )
@@ -122,8 +123,8 @@ def adjust_in_redo_panel() -> Story:
     fair = scenes.positions()
     yield from open_redo_panel()
     screenshot("redo_open")
-    redo_with(factor=0.5)
-    yield 1.5
+    yield from redo_with(factor=0.5)
+    yield 1.0
     operator = bpy.context.window_manager.operators[-1]
     assert abs(operator.properties.factor - 0.5) < 1e-6, operator.properties.factor
     half = scenes.positions()
@@ -197,6 +198,7 @@ CHAPTERS = (
     cancel_a_long_run,
     finish_a_long_run,
     redo_after_a_long_run,
+    changes_in_the_redo_panel_do_not_wait,
     in_german,
     judge,
     marks_before_a_run,
