@@ -66,9 +66,10 @@ class Change(Protocol):
 class Following:
     """One change whose answer is awaited while Blender goes on."""
 
-    def __init__(self, change: Change, operator: int, window: int) -> None:
-        """operator: where Blender keeps the one in its panel, maybe a macro; window: likewise."""
-        self.change, self.operator, self.window = change, operator, window
+    def __init__(self, change: Change, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
+        """operator: the one in the panel, maybe a macro. Of both only where Blender keeps them: they may be freed."""
+        self.change, self.step = change, operator.name
+        self.operator, self.window = operator.as_pointer(), window.as_pointer()
         self.unwanted = False  # a button has asked for the end
         self.settled = False  # the answer is written
         self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
@@ -134,11 +135,11 @@ class Redone(Watched):
         """
         if _Repeat.now is not None:
             return _Repeat.now.settle(context, self.report)
-        if has_events(context) and self._is_repeated(context):
+        if has_events(context) and self.is_repeated(context):
             return self._begin_with(context, self._change)
         return super().execute(context)
 
-    def _is_repeated(self, context: bpy.types.Context) -> bool:
+    def is_repeated(self, context: bpy.types.Context) -> bool:
         """Return whether the redo panel calls, of a macro as well: its steps are not told."""
         if self.options.is_repeat:
             return True
@@ -159,7 +160,7 @@ class Redone(Watched):
         change.show_last()
         change.show()
         kept = context.window_manager.operators
-        Following(change, kept[-1].as_pointer(), context.window.as_pointer()).begin(context)
+        Following(change, kept[-1], context.window).begin(context)
         return {"FINISHED"}
 
 
@@ -209,7 +210,7 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
         change.take_back()
         following.settle(context, lambda _kinds, _text: None)
         if following.settled:
-            bpy.ops.ed.undo_push(message="Fair Region")
+            bpy.ops.ed.undo_push(message=following.step)
         else:
             change.show_last()
     if not following.settled and not report.written and change.is_as_shown(context):

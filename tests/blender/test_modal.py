@@ -141,6 +141,7 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
         stand = type("Stand", (), {**methods, "_start_watching": watching, "report": lambda *_: None})()
         give_options(stand)
         stand.source, stand.face_set, stand.group, stand.under_mouse = "MASK", 0, "", False
+        stand.is_repeated = lambda _context: False
         assert stand.invoke(bpy.context, event("LEFTMOUSE")) == {"RUNNING_MODAL"}
         return stand
 

@@ -360,3 +360,70 @@ def test_what_is_refused_after_another_selection_leaves_what_is_shown(panel: Pan
     assert panel.report.verdict == "UNUSABLE"
     assert "The surface before was kept" in panel.report.reason
     np.testing.assert_array_equal(panel.positions(), panel.first_run)
+
+
+@pytest.mark.parametrize(("mode", "source"), [("SCULPT", "MASK"), ("OBJECT", "VERTEX_GROUP")])
+def test_outside_edit_mode_nothing_waits_either(mode: str, source: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    redo, outside = module("run.redo"), module("run.outside")
+    scripted, obj = (masked() for _ in range(2))
+    before = meshes.positions(obj)
+    bpy.context.view_layer.objects.active = scripted
+    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source=source, shape="LEAST_VARIATION") == {"FINISHED"}
+    wanted, name = meshes.positions(scripted), obj.name
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.object.mode_set(mode=mode)
+    bpy.ops.ed.undo_push(message="Begin")
+    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", True, source=source) == {"FINISHED"}
+
+    def now() -> Any:
+        obj = bpy.data.objects[name]
+        with outside.in_object_mode(obj):
+            return meshes.positions(obj)
+
+    last, solve, gate, begun = now(), outside.solve, threading.Event(), threading.Event()
+
+    def slow(*arguments: Any) -> Any:
+        begun.set()
+        gate.wait()
+        return solve(*arguments)
+
+    monkeypatch.setattr(outside, "solve", slow)
+    monkeypatch.setattr(redo, "has_events", lambda _context: True)
+    monkeypatch.setattr(redo, "background_from", lambda _context: 0)
+    bpy.context.window_manager.operators[-1].properties.shape = "LEAST_VARIATION"
+    area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(area=area, region=region):
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
+    try:
+        assert "another one is shown meanwhile" in meshes.report().reason
+        redo._look()
+        assert begun.wait(10.0)  # beyond which it runs no Python
+        np.testing.assert_array_equal(now(), last)
+        gate.set()
+        end = time.perf_counter() + clocks.STUCK
+        while redo._look() is not None:
+            assert time.perf_counter() < end
+            time.sleep(0.01)
+        assert bpy.context.mode == mode
+        assert meshes.report().verdict == "GOOD"
+        np.testing.assert_array_equal(now(), wanted)
+        bpy.ops.ed.undo()
+        np.testing.assert_array_equal(now(), before)
+        bpy.ops.ed.redo()
+        np.testing.assert_array_equal(now(), wanted)
+    finally:
+        gate.set()
+        module("run.background").stop_all()
+        bpy.ops.object.mode_set(mode="OBJECT")
+
+
+def masked() -> bpy.types.Object:
+    """A grid whose dome is masked, and in a vertex group."""
+    obj, faces = meshes.domed_grid()
+    vertices = sorted({v for face in faces.nonzero()[0] for v in obj.data.polygons[face].vertices})
+    mask = np.zeros(len(obj.data.vertices), dtype=np.float32)
+    mask[vertices] = 1.0
+    obj.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", mask)
+    obj.vertex_groups.new(name="Dome").add(vertices, 1.0, "REPLACE")
+    return obj
