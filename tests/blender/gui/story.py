@@ -31,7 +31,6 @@ from live_chapters import (
 from long_run_chapters import (
     cancel_a_hopeless_run,
     cancel_a_long_run,
-    changes_in_the_redo_panel_do_not_wait,
     finish_a_long_run,
     redo_after_a_long_run,
 )
@@ -46,6 +45,7 @@ from panel import (
     set_options,
     wait_until,
 )
+from redo_chapters import changes_in_the_redo_panel_do_not_wait, changes_outside_edit_mode_do_not_wait
 from screen_chapters import SCREENS
 from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
 from tutorial_chapters import tutorial_as_written
@@ -212,6 +212,7 @@ CHAPTERS = (
     masked_in_sculpt_mode,
     face_set_by_a_click,
     brush_in_sculpt_mode,
+    changes_outside_edit_mode_do_not_wait,
     live_follows_a_drag,
     live_follows_a_pin,
     live_moves_the_far_side,
