@@ -29,6 +29,7 @@ from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.peek import MESH_OT_fair_peek
 from .run.pick_skin import MESH_OT_fair_pick_skin
+from .run.redo import MESH_OT_fair_follow
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
 from .run.strokes import MESH_OT_fair_stroke
@@ -61,6 +62,7 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_spots,
     MESH_OT_fair_reselect,
     MESH_OT_fair_cancel,
+    MESH_OT_fair_follow,
     MESH_OT_fair_peek,
     MESH_OT_fair_pick_skin,
     MESH_OT_fair_reset,

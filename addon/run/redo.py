@@ -1,9 +1,8 @@
 """Changes in the redo panel: another surface at once, the fair one in its place as soon as it is found.
 
 Blender takes the last run's step of undo back and calls `execute`. Small selections get PROMPT to be answered there.
-Otherwise the result before the change is shown, and a timer has a thread search, which begins and ends outside of
-Blender's operators (repeat.py says why). With its answer the timer has Blender repeat the operator: as ever there is
-one step of undo, with the answer in it.
+Otherwise the result before the change is shown, and a thread searches, which begins once the operator has ended. With
+its answer Blender is made to repeat the operator: as ever there is one step of undo, with the answer in it.
 """
 
 from __future__ import annotations
@@ -17,12 +16,11 @@ import bpy
 import fairing
 
 from ..core import runner
-from ..host.handlers import call_later, listen, unlisten
+from ..host.handlers import hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from ..preferences import background_from
 from .background import TICK, Watched, Work, has_events, under_way
 from .finish import Say
-from .repeat import may_call, placed, run_last_again
 from .report_properties import clear, store_first
 
 PROMPT = 0.06  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
@@ -66,23 +64,26 @@ class Change(Protocol):
 class Following:
     """One change whose answer is awaited while Blender goes on."""
 
-    def __init__(self, change: Change, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
-        """operator: the one in the panel, maybe a macro. Of both only where Blender keeps them: they may be freed."""
+    def __init__(self, change: Change, operator: bpy.types.Operator) -> None:
+        """operator: the one in the panel, maybe a macro."""
         self.change, self.step = change, operator.name
-        self.operator, self.window = operator.as_pointer(), window.as_pointer()
+        self.operator = operator.as_pointer()  # Blender may free it
         self.unwanted = False  # a button has asked for the end
         self.settled = False  # the answer is written
         self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
+        self.timer: bpy.types.Timer | None = None  # of the looks
 
     def begin(self, context: bpy.types.Context) -> None:
-        """Let Blender go on; the search begins as soon as it does."""
+        """Let Blender go on; the search begins at the first look."""
         clear(context.window_manager.fairing_report)
         under_way.append(self)
         self.show(context)
-        call_later(_look, 0.0)
+        watch()
 
     def show(self, context: bpy.types.Context) -> None:
-        """Show how far it is."""
+        """Show how far it is, and its first surface, unless that would move what is being edited."""
+        if not is_being_edited(context):
+            self.change.show()
         report, change = context.window_manager.fairing_report, self.change
         if change.is_shown and not report.written:
             store_first(report, change.names, change.size, AWAITED)
@@ -92,6 +93,9 @@ class Following:
         """Await it no more; another surface stays, for which the report then gives this reason."""
         if self in under_way:
             under_way.remove(self)
+        if self.timer is not None:
+            bpy.context.window_manager.event_timer_remove(self.timer)
+            self.timer = None
         if self.run is not None and not self.run.finished:
             self.run.cancel()
             self.run.wait(BLINK)  # what it has prepared is of use to the next one
@@ -100,9 +104,10 @@ class Following:
             bpy.context.window_manager.fairing_report.reason = reason
 
     def is_last(self, context: bpy.types.Context) -> bool:
-        """Return whether it is this operator that Blender would repeat."""
+        """Return whether it is this operator that Blender would repeat, for which it needs an area."""
         kept = context.window_manager.operators
-        return len(kept) > 0 and kept[-1].as_pointer() == self.operator and bool(bpy.ops.ed.undo_redo.poll())
+        is_same = len(kept) > 0 and kept[-1].as_pointer() == self.operator
+        return is_same and context.area is not None and bool(bpy.ops.ed.undo_redo.poll())
 
     def settle(self, context: bpy.types.Context, say: Say) -> set[str]:
         """Write and report the answer, where the meshes are as they were read; return an operator's status."""
@@ -158,9 +163,8 @@ class Redone(Watched):
             else:
                 return change.settle(context, lambda: outcome, self.report)
         change.show_last()
-        change.show()
         kept = context.window_manager.operators
-        Following(change, kept[-1], context.window).begin(context)
+        Following(change, kept[-1]).begin(context)
         return {"FINISHED"}
 
 
@@ -174,25 +178,68 @@ def is_being_edited(context: bpy.types.Context) -> bool:
     return any("UNDO" in operator.bl_options for window in windows for operator in window.modal_operators)
 
 
-def _look() -> float | None:
-    """Look at the search; a timer calls this, again after so many seconds."""
+def look(context: bpy.types.Context, may_write: bool = True) -> bool:
+    """Look at the search, and have its answer written where that is allowed; return whether to look again."""
     following = _following()
     if following is None:
-        return None
-    if following.run is None:
+        return False
+    if following.unwanted:
+        following.end(GIVEN_UP)
+    elif following.run is None:
         following.run = runner.Run(following.change.work)
-        return TICK
-    with placed(following.window) as context:
-        if following.unwanted:
-            following.end(GIVEN_UP)
-        elif is_being_edited(context):
-            following.show(context)
-        elif not following.run.finished:
-            following.change.show()
-            following.show(context)
-        elif may_call():
-            _collect(context, following)
-    return TICK if _following() is not None else None
+    elif following.run.finished and may_write and not is_being_edited(context):
+        _collect(context, following)
+    else:
+        following.show(context)
+    return _following() is not None
+
+
+def watch() -> None:
+    """Have looks taken from now on."""
+    bpy.ops.mesh.fair_follow("INVOKE_DEFAULT")
+
+
+def _is_held(event: bpy.types.Event) -> bool:
+    return bool(event.type == "LEFTMOUSE" and event.value not in ("RELEASE", "CLICK"))
+
+
+class MESH_OT_fair_follow(bpy.types.Operator):
+    """Waits for the answer to a change in the redo panel.
+
+    No timer of bpy.app: undo would take a field of the panel away while it is being pulled. Here events tell whether it
+    is, and operators have a context that is Blender's own: in one of `temp_override`, Blender crashes beside a thread
+    of Python.
+    """
+
+    bl_idname = "mesh.fair_follow"
+    bl_label = "Follow"
+    bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
+
+    _following: Following | None = None
+    _is_held = False  # the mouse button: a field may be pulled. If it is later, its handler lets no event through
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin."""
+        self._following = _following()
+        self._is_held = _is_held(event)
+        assert self._following is not None
+        self._following.timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        hear_events(context, self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Look at each event of the timer; all others are other operators' own."""
+        goes_on = self._following is _following()
+        if event.type == "LEFTMOUSE":
+            self._is_held = _is_held(event)
+        if goes_on and event.type == "TIMER":
+            goes_on = look(context, not self._is_held)
+        return {"PASS_THROUGH"} if goes_on else {"CANCELLED", "PASS_THROUGH"}
+
+    def cancel(self, _context: bpy.types.Context) -> None:
+        """Give it up; Blender calls this when it closes a window."""
+        if self._following is not None and self._following is _following():
+            self._following.end(GIVEN_UP)
 
 
 def _collect(context: bpy.types.Context, following: Following) -> None:
@@ -203,7 +250,7 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
     if current and following.is_last(context):
         _Repeat.now = following
         try:
-            run_last_again()
+            bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
         finally:
             _Repeat.now = None
     elif current:  # something else was selected meanwhile

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from ..core import runner
 from ..core.arrays import Floats
 from ..core.fair_options import FAIR
 from ..core.option_table import named
@@ -19,7 +20,6 @@ from ..host.handlers import call_later
 from ..run import fillet, last_run
 from ..run.fillet import MESH_OT_fair_fillet
 from ..run.operators import MESH_OT_fair_region
-from ..run.repeat import may_call, placed, run_last_again
 from .tools import FairFilletTool, FairLassoTool, FairPaintTool
 
 LIFT = 0.25  # of the radius of a flat disc that a bulge of 1 lifts it by
@@ -45,18 +45,24 @@ def _tool(context: bpy.types.Context) -> str:
     return tool.idname if tool is not None else ""
 
 
-_wanted: list[int] = []  # windows in which the last run is to be run again, by where Blender has them
+_wanted: list[Any] = []  # windows in which the last run is to be run again
 SOON = 0.01  # seconds until the threads in the way are looked at again
 
 
 def _run_again() -> float | None:
-    """Run the last operator again, outside of the arrow's own events: undo would take the arrow away under them."""
-    if not may_call():
+    """Run the last operator again, outside of the arrow's own events: undo would take the arrow away under them.
+
+    Beside none of our threads: while Python calls an operator inside `temp_override`, and a timer has no other context,
+    Blender reads the override without Python's lock as soon as another thread has it, and crashes.
+    """
+    if not runner.call_off_all():
         return SOON
     window = _wanted[-1]
     _wanted.clear()
-    with placed(window):
-        run_last_again()
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
     return None
 
 
@@ -113,7 +119,7 @@ class _Arrow:
         options = self.chosen(bpy.context)
         if options is not None:
             setattr(options, self.option, way / self.unit)
-            _wanted.append(bpy.context.window.as_pointer())
+            _wanted.append(bpy.context.window)
             call_later(_run_again, 0.0)
 
 

@@ -1,8 +1,8 @@
 """Changes in the redo panel: Blender goes on with another surface, and the fair one follows.
 
-Blender's own operator takes the last run back and repeats it, as the panel does; timers are called from here. The panel
-calls it from a window, without `temp_override`, which these tests need. Then no other thread may run Python meanwhile,
-or Blender crashes: threads wait at a gate, which takes no lock of Python.
+Blender's own operator takes the last run back and repeats it, as the panel does; looks are taken from here. Both are
+called from a window, without `temp_override`, which these tests need. Then no other thread may run Python meanwhile, or
+Blender crashes: threads wait at a gate, which takes no lock of Python.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterator
+from types import SimpleNamespace
 from typing import Any
 
 import bpy
@@ -27,12 +28,11 @@ class Panel:
     """The redo panel of one run, whose changes are searched for in threads that wait at gates."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.redo, job, repeat = module("run.redo"), module("run.job"), module("run.repeat")
+        self.redo, job = module("run.redo"), module("run.job")
         self.is_open = False
         self.gates: list[threading.Event] = []
         self.given = threading.Event()
-        self.beside: list[int] = []  # threads that were alive when a timer called an operator
-        solve, again = job.solve, self.redo.run_last_again
+        solve = job.solve
         import fairing
 
         def slow(tasks: Any, options: Any, progress: Any, ahead: bool = False, give: Any = None) -> Any:
@@ -49,11 +49,6 @@ class Panel:
                 raise fairing.Cancelled
             return found
 
-        def watched() -> None:
-            self.beside.append(len(self.threads()))
-            again()
-            self.beside.append(len(self.threads()))
-
         self.obj, self.faces = meshes.domed_grid()
         self.before = meshes.positions(self.obj)
         self.name = self.obj.name
@@ -63,9 +58,8 @@ class Panel:
         self.first_run = self.positions()
         monkeypatch.setattr(self.redo, "has_events", lambda _context: True)
         monkeypatch.setattr(self.redo, "background_from", lambda _context: 0)
-        monkeypatch.setattr(self.redo, "run_last_again", watched)
+        monkeypatch.setattr(self.redo, "watch", lambda: None)
         monkeypatch.setattr(job, "solve", slow)
-        assert repeat.may_call()
         job.memory.clear()
 
     @staticmethod
@@ -91,10 +85,8 @@ class Panel:
         operator = operator.macros[0] if len(operator.macros) else operator
         for name, value in options.items():
             setattr(operator.properties, name, value)
-        area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
-        region = next(region for region in area.regions if region.type == "WINDOW")
         before = self.threads()
-        with bpy.context.temp_override(area=area, region=region):
+        with in_view():
             bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
         assert set(self.threads()) <= set(before)  # none begins inside an operator
 
@@ -104,10 +96,15 @@ class Panel:
         self.open()  # for those that were cancelled
         self.given.clear()
         self.is_open, kept = False, self.is_open
-        self.redo._look()
+        self.look()
         assert not self.follows or self.given.wait(10.0)
-        self.redo._look()
+        self.look()
         self.is_open = kept
+
+    def look(self) -> bool:
+        """Take a look, and return whether another is to come."""
+        with in_view():
+            return bool(self.redo.look(bpy.context))
 
     def open(self) -> None:
         for gate in self.gates:
@@ -117,11 +114,17 @@ class Panel:
         """Let the answers come, and the timer look until none is awaited."""
         self.open()
         end = time.perf_counter() + clocks.STUCK
-        while self.redo._look() is not None:
+        while self.look():
             assert time.perf_counter() < end
             time.sleep(0.01)
         assert not self.follows
-        assert not any(self.beside)
+
+
+def in_view() -> Any:
+    """The context that an operator has in a 3D view."""
+    area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    return bpy.context.temp_override(area=area, region=region)
 
 
 def expected(**options: Any) -> Any:
@@ -278,7 +281,7 @@ def test_nothing_happens_while_vertices_are_being_moved(panel: Panel, monkeypatc
     with monkeypatch.context() as moved:
         moved.setattr(panel.redo, "is_being_edited", lambda _context: True)
         for _ in range(20):
-            assert panel.redo._look() is not None
+            assert panel.look()
             time.sleep(0.01)
     np.testing.assert_array_equal(panel.positions(), panel.first_run)
     assert not panel.redo.is_being_edited(bpy.context)
@@ -288,22 +291,63 @@ def test_nothing_happens_while_vertices_are_being_moved(panel: Panel, monkeypatc
     np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
 
 
-def test_a_timer_waits_until_no_other_thread_is_left(panel: Panel) -> None:
+@pytest.mark.parametrize("pulled", [True, False])
+def test_nothing_is_written_while_a_field_may_be_pulled(panel: Panel, pulled: bool) -> None:
+    """Undo would take the field away. The button is held from the begin on, or an answer may come at any time."""
+    panel.change(shape="LEAST_VARIATION")
+    operator = panel.redo.MESH_OT_fair_follow
+    stand = SimpleNamespace(
+        _following=panel.redo._following(), _is_held=panel.redo._is_held(event("LEFTMOUSE", "PRESS"))
+    )
+
+    def heard(kind: str, value: str = "NOTHING") -> set[str]:
+        with in_view():
+            return set(operator.modal(stand, bpy.context, event(kind, value)))
+
+    panel.open()
+    assert panel.redo._following().run.wait(clocks.STUCK)
+    if not pulled:
+        assert heard("LEFTMOUSE", "RELEASE") == {"PASS_THROUGH"}
+    for kind in ("MOUSEMOVE", "A", "TIMER"):
+        ended = not pulled and kind == "TIMER"
+        assert heard(kind) == ({"CANCELLED", "PASS_THROUGH"} if ended else {"PASS_THROUGH"})
+    assert panel.follows == pulled
+    assert heard("LEFTMOUSE", "RELEASE") == ({"PASS_THROUGH"} if pulled else {"CANCELLED", "PASS_THROUGH"})
+    assert heard("TIMER") == {"CANCELLED", "PASS_THROUGH"}
+    found = panel.positions()
+    meshes.leave()
+    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+
+
+def event(kind: str, value: str) -> Any:
+    return SimpleNamespace(type=kind, value=value)
+
+
+def test_the_tools_arrows_wait_until_no_thread_is_left(panel: Panel) -> None:
     """One that searches for a live region, say: Blender crashes where it runs beside an operator of a timer."""
-    run = module("core.runner").Run
+    gizmos, run = module("show.gizmos"), module("core.runner").Run
     panel.change(shape="LEAST_VARIATION")
     leave = threading.Event()
     other = run(lambda _progress: leave.wait())
-    panel.open()
-    for _ in range(20):
-        assert panel.redo._look() is not None
+    gizmos._wanted.append(bpy.context.window)
+    bpy.context.window_manager.operators[-1].properties.shape = "MINIMAL_ENERGY"
+    for _ in range(5):
+        assert gizmos._run_again() == gizmos.SOON
+        panel.open()
         time.sleep(0.01)
     assert other.cancelled
     np.testing.assert_array_equal(panel.positions(), panel.first_run)
     leave.set()
+    end = time.perf_counter() + clocks.STUCK
+    while gizmos._run_again() is not None:
+        assert time.perf_counter() < end
+        time.sleep(0.01)
+    assert not panel.threads()
+    panel.is_open = True
     panel.settle()
-    assert panel.report.verdict == "GOOD"
-    assert panel.beside == [0, 0]
+    found = panel.positions()
+    meshes.leave()
+    np.testing.assert_array_equal(found, expected(shape="MINIMAL_ENERGY"))
 
 
 def test_undo_meanwhile_ends_it(panel: Panel) -> None:
@@ -320,7 +364,7 @@ def test_another_file_ends_it(panel: Panel) -> None:
     panel.open()
     bpy.ops.wm.read_homefile(use_empty=True)
     assert not panel.follows
-    assert panel.redo._look() is None
+    assert not panel.look()
     assert not panel.report.reason
 
 
@@ -390,23 +434,24 @@ def test_outside_edit_mode_nothing_waits_either(mode: str, source: str, monkeypa
     monkeypatch.setattr(outside, "solve", slow)
     monkeypatch.setattr(redo, "has_events", lambda _context: True)
     monkeypatch.setattr(redo, "background_from", lambda _context: 0)
+    monkeypatch.setattr(redo, "watch", lambda: None)
     bpy.context.window_manager.operators[-1].properties.shape = "LEAST_VARIATION"
-    area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(area=area, region=region):
+    with in_view():
         bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
     try:
         assert "another one is shown meanwhile" in meshes.report().reason
-        redo._look()
+        with in_view():
+            assert redo.look(bpy.context)
         assert begun.wait(10.0)  # beyond which it runs no Python
         np.testing.assert_array_equal(now(), last)
         gate.set()
         end = time.perf_counter() + clocks.STUCK
-        while redo._look() is not None:
+        while meshes.report().verdict != "GOOD":
             assert time.perf_counter() < end
-            time.sleep(0.01)
+            assert redo._following().run.wait(clocks.STUCK)
+            with in_view():
+                assert not redo.look(bpy.context)
         assert bpy.context.mode == mode
-        assert meshes.report().verdict == "GOOD"
         np.testing.assert_array_equal(now(), wanted)
         bpy.ops.ed.undo()
         np.testing.assert_array_equal(now(), before)

@@ -8,13 +8,14 @@ import bpy
 import numpy as np
 import scenes
 import spoilt_scenes
-from driver import Story, in_view, leave_popup, middle, press, screenshot, tell
+from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, tell, view
 from panel import (
     WM_OT_story_redo,
     change_with,
     module,
     open_redo_panel,
     open_tab,
+    redo_panel,
     redo_with,
     report,
     run_operator,
@@ -23,29 +24,34 @@ from panel import (
     wait_until,
 )
 
+FACTOR = 73  # pixels from the panel's top to the field Factor
+Seconds = tuple[float, float]  # of the processor, and by the wall
+
 
 class _Looks:
     """How long each look at a search has held Blender up."""
 
     def __init__(self) -> None:
-        self.seconds: list[tuple[float, float]] = []  # of the processor, and by the wall
+        self.seconds: list[Seconds] = []
         self.home = module("run.redo")
-        self.look = self.home._look
-        self.home._look = self
+        self.look = self.home.look
+        self.home.look = self
 
-    def __call__(self) -> float | None:
+    def __call__(self, context: bpy.types.Context, may_write: bool) -> bool:
         begin = time.thread_time(), time.perf_counter()
-        again: float | None = self.look()
+        again: bool = self.look(context, may_write)
         self.seconds.append((time.thread_time() - begin[0], time.perf_counter() - begin[1]))
         return again
 
     def end(self) -> None:
-        self.home._look = self.look
+        self.home.look = self.look
 
 
-def _longest(seconds: list[tuple[float, float]]) -> str:
-    spent, passed = (1e3 * max(column) for column in zip(*seconds, strict=True))
-    return f"{spent:.0f} ms of the processor, {passed:.0f} by the wall"
+def _tell_longest(mode: str, click: list[Seconds], changes: list[Seconds], looks: _Looks) -> None:
+    tell(f"{mode} mode, {report().free_vertices} free vertices; Blender is held up at most by")
+    for name, seconds in (("the click", click), ("a change", changes), ("a look, or the answer", looks.seconds)):
+        spent, passed = (1e3 * max(column) for column in zip(*seconds, strict=True))
+        tell(f"  {name}: {spent:.0f} ms of the processor, {passed:.0f} by the wall")
 
 
 def changes_in_the_redo_panel_do_not_wait() -> Story:
@@ -57,7 +63,9 @@ def changes_in_the_redo_panel_do_not_wait() -> Story:
         open_tab()
         yield 1.0
         report().free_vertices = 0
+        begin = time.thread_time(), time.perf_counter()
         run_operator()
+        click = [(time.thread_time() - begin[0], time.perf_counter() - begin[1])]
 
         def reported() -> bool:
             return bool(report().free_vertices)
@@ -91,8 +99,7 @@ def changes_in_the_redo_panel_do_not_wait() -> Story:
         yield from redo_with(shape="MINIMAL_ENERGY", bulge=0.0)
         assert report().written and "kept" not in report().reason, report().reason
         looks.end()
-        tell(f"redo of {report().free_vertices}: a change holds Blender up for {_longest(changes)}")
-        tell(f"redo of {report().free_vertices}: a look, or the answer, for {_longest(looks.seconds)}")
+        _tell_longest("edit", click, changes, looks)
         last = scenes.positions()
         press("Z", *middle(), ctrl=True)
         yield 1.0
@@ -141,13 +148,55 @@ def changes_outside_edit_mode_do_not_wait() -> Story:
         last = spoilt_scenes.object_positions()
         assert np.abs(last - first).max() > 1e-6
         looks.end()
-        name = f"{mode.lower()} mode, {report().free_vertices}"
-        tell(f"{name}: the click holds Blender up for {_longest(click)}")
-        tell(f"{name}: a change, for {_longest(changes)}")
-        tell(f"{name}: a look, or the answer, for {_longest(looks.seconds)}")
+        _tell_longest(mode.lower(), click, changes, looks)
         press("Z", *middle(), ctrl=True)
         yield 1.0
         assert (spoilt_scenes.object_positions() == before).all(), "undo did not take the run back"
         press("Z", *middle(), ctrl=True, shift=True)
         yield 1.0
         assert (spoilt_scenes.object_positions() == last).all(), "redo did not bring the answer back"
+
+
+def a_field_of_the_redo_panel_is_pulled() -> Story:
+    """Factor, in small steps, with a rest: no answer takes the field away from the hand."""
+    progress = bpy.context.window_manager.fairing_progress
+    scenes.large(6)
+    set_options()
+    open_tab()
+    yield 1.0
+    report().free_vertices = 0
+    run_operator()
+
+    def reported() -> bool:
+        return bool(report().free_vertices)
+
+    yield from wait_until(reported, 120.0)
+    yield 1.0
+    yield from open_redo_panel()
+    yield 1.0
+    panel, window = redo_panel(), view()[0]
+    x, y = panel.x + 200, panel.y + panel.height - FACTOR
+    move_mouse(x, y)
+    yield 0.3
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    for rest in (3.0, 0.0):
+        for _ in range(20):
+            x -= 3
+            move_mouse(x, y)
+            yield 0.04
+        yield rest
+    factor = bpy.context.window_manager.operators[-1].factor
+    assert 0.1 < factor < 0.5, f"{factor}: the field was taken away, or lies elsewhere"
+    assert progress.following, "an answer was written meanwhile"
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+
+    def settled() -> bool:
+        return not progress.following
+
+    yield from wait_until(settled, 60.0)
+    yield 0.5
+    assert bpy.context.window_manager.operators[-1].factor == factor
+    assert report().verdict == "GOOD", report().reason
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert (scenes.positions() == scenes.original()).all(), "undo did not take the run back"

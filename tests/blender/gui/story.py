@@ -45,7 +45,11 @@ from panel import (
     set_options,
     wait_until,
 )
-from redo_chapters import changes_in_the_redo_panel_do_not_wait, changes_outside_edit_mode_do_not_wait
+from redo_chapters import (
+    a_field_of_the_redo_panel_is_pulled,
+    changes_in_the_redo_panel_do_not_wait,
+    changes_outside_edit_mode_do_not_wait,
+)
 from screen_chapters import SCREENS
 from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
 from tutorial_chapters import tutorial_as_written
@@ -199,6 +203,7 @@ CHAPTERS = (
     finish_a_long_run,
     redo_after_a_long_run,
     changes_in_the_redo_panel_do_not_wait,
+    a_field_of_the_redo_panel_is_pulled,
     in_german,
     judge,
     marks_before_a_run,
