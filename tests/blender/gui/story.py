@@ -19,6 +19,7 @@ from ends_chapters import (
     quits_during_a_run,
     quits_during_a_search,
     undo_and_removal_end_a_run,
+    undo_and_removal_end_a_search,
 )
 from fillet_chapters import fillet_is_dragged
 from jobs_chapters import ten_jobs
@@ -223,6 +224,7 @@ CHAPTERS = (
     live_moves_the_far_side,
     live_begins_in_the_background,
     undo_and_removal_end_a_run,
+    undo_and_removal_end_a_search,
     disabling_ends_a_run,
     another_file_ends_a_run,
     tutorial_as_written,
