@@ -331,13 +331,16 @@ def test_the_tools_arrows_wait_until_no_thread_is_left(panel: Panel) -> None:
     other = run(lambda _progress: leave.wait())
     gizmos._wanted.append(bpy.context.window)
     bpy.context.window_manager.operators[-1].properties.shape = "MINIMAL_ENERGY"
-    for _ in range(5):
-        assert gizmos._run_again() == gizmos.SOON
-        panel.open()
-        time.sleep(0.01)
-    assert other.cancelled
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
-    leave.set()
+    try:
+        for _ in range(5):
+            assert gizmos._run_again() == gizmos.SOON
+            panel.open()
+            time.sleep(0.01)
+        assert other.cancelled
+        np.testing.assert_array_equal(panel.positions(), panel.first_run)
+    finally:
+        leave.set()
+    assert other.wait(clocks.STUCK)
     end = time.perf_counter() + clocks.STUCK
     while gizmos._run_again() is not None:
         assert time.perf_counter() < end
