@@ -66,16 +66,16 @@ def none(mesh: MeshArrays) -> Mask:
     return np.zeros(len(mesh.edges), dtype=bool)
 
 
-_by_angle: Memory[Mask] = Memory(4)  # every change in the redo panel reads the same meshes again
+hard_edges: Memory[Mask] = Memory(4)  # every change in the redo panel reads the same meshes again
 
 
 def _known_by_angle(mesh: MeshArrays) -> Mask:
     """Return what `_hard_by_angle` does, at once for a mesh that was asked about just before."""
     key = digest(mesh.positions, mesh.edges, mesh.triangles, mesh.triangle_faces, mesh.in_patch)
-    known = _by_angle.get(key)
+    known = hard_edges.get(key)
     if known is None:
         known = _hard_by_angle(mesh)
-        _by_angle.put(key, known)
+        hard_edges.put(key, known)
     return known
 
 

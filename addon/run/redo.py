@@ -204,15 +204,14 @@ def _is_held(event: bpy.types.Event) -> bool:
 
 
 class MESH_OT_fair_follow(bpy.types.Operator):
-    """Waits for the answer to a change in the redo panel.
+    """Wait for the answer to a change in the redo panel"""
 
-    No timer of bpy.app: undo would take a field of the panel away while it is being pulled. Here events tell whether it
-    is, and operators have a context that is Blender's own: in one of `temp_override`, Blender crashes beside a thread
-    of Python.
-    """
+    # No timer of bpy.app: undo would take a field of the panel away while it is being pulled. Here events tell whether
+    # it is, and operators have a context that is Blender's own: in one of `temp_override`, Blender crashes beside a
+    # thread of Python.
 
     bl_idname = "mesh.fair_follow"
-    bl_label = "Follow"
+    bl_label = "Wait for the Answer"
     bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
 
     _following: Following | None = None
