@@ -9,6 +9,7 @@ from typing import Any
 
 import bpy
 
+from .core.held_curves import hard_edges
 from .follow.live import live
 from .follow.watch import watch
 from .host.handlers import listen, unlisten
@@ -26,6 +27,7 @@ def forget() -> None:
     last_run.forget()
     job.memory.clear()
     job.solvers.clear()
+    hard_edges.clear()
     report_properties.clear(bpy.context.window_manager.fairing_report)
 
 

@@ -16,7 +16,7 @@ from .follow.live_operators import (
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
-from .run import cli, compare, presets, redo_panel
+from .run import cli, compare, presets, redo, redo_panel
 from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
 from .run.background import MESH_OT_fair_cancel
 from .run.brush import FairDab, MESH_OT_fair_brush
@@ -29,6 +29,7 @@ from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.peek import MESH_OT_fair_peek
 from .run.pick_skin import MESH_OT_fair_pick_skin
+from .run.redo import MESH_OT_fair_follow
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
 from .run.strokes import MESH_OT_fair_stroke
@@ -63,6 +64,7 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_spots,
     MESH_OT_fair_reselect,
     MESH_OT_fair_cancel,
+    MESH_OT_fair_follow,
     MESH_OT_fair_peek,
     MESH_OT_fair_pick_skin,
     MESH_OT_fair_reset,
@@ -105,6 +107,7 @@ def register() -> None:
     keymap.register()
     tools.register()
     undone.register()
+    redo.register()
     file_owned.register()
     translations.register()
     bpy.utils.register_preset_path(_folder)
@@ -117,6 +120,7 @@ def unregister() -> None:
     bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
     file_owned.unregister()
+    redo.unregister()
     undone.unregister()
     tools.unregister()
     keymap.unregister()

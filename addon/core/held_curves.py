@@ -10,6 +10,7 @@ import fairing
 
 from .around import nearby
 from .arrays import Floats, Ints, Mask
+from .memory import Memory, digest
 from .options import FairOptions
 from .outline import edges_inside
 from .region import MeshArrays, free_vertices, nothing
@@ -22,7 +23,7 @@ def with_pinned_edges(mesh: MeshArrays, options: FairOptions, marked: Mask) -> M
     """Return the mesh with the edges that the options hold; marked: the (e,) mask of those that `pin_edges` names."""
     if not options.pins_running_through:
         return _pinned(replace(mesh, hard=mesh.sharp if options.pins_sharp else None), options, marked, none(mesh))
-    hard = _hard_by_angle(mesh) if options.finds_edges else none(mesh)
+    hard = _known_by_angle(mesh) if options.finds_edges else none(mesh)
     sharp = none(mesh) if mesh.sharp is None else mesh.sharp
     found = replace(mesh, hard=hard | sharp if (hard | sharp).any() else None)
     held = _pinned(found, options, running_through(found), sharp)
@@ -63,6 +64,19 @@ def _pinned(mesh: MeshArrays, options: FairOptions, edges: Mask, sharp: Mask) ->
 def none(mesh: MeshArrays) -> Mask:
     """Return an (e,) mask of no edge."""
     return np.zeros(len(mesh.edges), dtype=bool)
+
+
+hard_edges: Memory[Mask] = Memory(4)  # every change in the redo panel reads the same meshes again
+
+
+def _known_by_angle(mesh: MeshArrays) -> Mask:
+    """Return what `_hard_by_angle` does, at once for a mesh that was asked about just before."""
+    key = digest(mesh.positions, mesh.edges, mesh.triangles, mesh.triangle_faces, mesh.in_patch)
+    known = hard_edges.get(key)
+    if known is None:
+        known = _hard_by_angle(mesh)
+        hard_edges.put(key, known)
+    return known
 
 
 def _hard_by_angle(mesh: MeshArrays) -> Mask:

@@ -30,6 +30,14 @@ def stop_all() -> None:
         _begun.pop()[0].join()
 
 
+def call_off_all() -> bool:
+    """Ask every run to end; return at once, and whether none of their threads is left."""
+    left = [stop for thread, stop in _begun if thread.is_alive()]
+    for stop in left:
+        stop.set()
+    return not left
+
+
 class Run(Generic[Result]):
     """One call of `work(progress)` in the background.
 

@@ -21,6 +21,19 @@ def show_progress(context: bpy.types.Context, fraction: float, stage: str) -> No
     redraw_sidebars(context)
 
 
+def show_following(context: bpy.types.Context, fraction: float) -> None:
+    """Show in the sidebar how far a search is that Blender doesn't wait for."""
+    progress = context.window_manager.fairing_progress
+    progress.following, progress.fraction = True, fraction
+    redraw_sidebars(context)
+
+
+def hide_following(context: bpy.types.Context) -> None:
+    """Show it no more."""
+    context.window_manager.fairing_progress.following = False
+    redraw_sidebars(context)
+
+
 def draw_progress(layout: Any, context: bpy.types.Context) -> None:
     """Draw how far the run is, and the button that cancels it."""
     fraction = context.window_manager.fairing_progress.fraction

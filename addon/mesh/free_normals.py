@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints
-from .columns import column
+from .columns import column, elements_of
 
 NAME = "custom_normal"
 
@@ -30,17 +30,19 @@ def renew(bm: Any, vertices: Sequence[Any], faces: Sequence[Any]) -> None:
         _write(bm, found, (vertices, faces), _shaded(bm, found[0]))
 
 
-def renew_at(bm: Any, moved: Sequence[Any]) -> None:
-    """Do so for vertices that have moved, and the faces at them."""
+def renew_at(bm: Any, moved: Ints) -> None:
+    """Do so for vertices (k,) that have moved, and the faces at them; their lookup table is up to date."""
     if _layer(bm) is not None:
-        renew(bm, moved, _faces_at(moved))
+        vertices = elements_of(bm.verts, moved)
+        renew(bm, vertices, _faces_at(vertices))
 
 
-def put_at(bm: Any, moved: Sequence[Any], values: Floats) -> None:
-    """Write the free normals (n, 3) that the mesh had before these vertices were moved."""
+def put_at(bm: Any, moved: Ints, values: Floats) -> None:
+    """Write the free normals (n, 3) that the mesh had before these vertices (k,) were moved."""
     found = _layer(bm)
     if found is not None:
-        _write(bm, found, (moved, _faces_at(moved)), values)
+        vertices = elements_of(bm.verts, moved)
+        _write(bm, found, (vertices, _faces_at(vertices)), values)
 
 
 def free_normals(mesh: bpy.types.Mesh) -> Floats | None:

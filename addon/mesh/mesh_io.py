@@ -254,17 +254,11 @@ def write_edit_mesh(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats, nor
     """
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
-    moved = elements_of(bm.verts, vertices)
-    for vertex, position in zip(moved, positions.tolist(), strict=True):
-        vertex.co = position
-    if FEW * len(moved) < len(bm.verts):
-        _update_normals_at(moved)
-    else:
-        bm.normal_update()
+    _move(bm, vertices, positions)
     if normals is None:
-        renew_at(bm, moved)
+        renew_at(bm, vertices)
     else:
-        put_at(bm, moved, normals)
+        put_at(bm, vertices, normals)
     bmesh.update_edit_mesh(mesh, destructive=False)
 
 
@@ -272,10 +266,7 @@ def move_vertices(mesh: bpy.types.Mesh, vertices: Ints, positions: Floats) -> No
     """Move the vertices (k,) of a mesh in edit mode to `positions` (k, 3) for a while: custom normals stay as set."""
     bm = bmesh.from_edit_mesh(mesh)
     bm.verts.ensure_lookup_table()
-    moved = elements_of(bm.verts, vertices)
-    for vertex, position in zip(moved, positions.tolist(), strict=True):
-        vertex.co = position
-    _update_normals_at(moved)
+    _move(bm, vertices, positions)
     bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
 
 
@@ -288,6 +279,18 @@ def move_vertices_back(mesh: bpy.types.Mesh, vertices: Ints, there: Floats, befo
     now = np.array([vertex.co[:] for vertex in elements_of(bm.verts, vertices)])
     same = (now == there).all(axis=1)
     move_vertices(mesh, vertices[same], before[same])
+
+
+def _move(bm: bmesh.types.BMesh, vertices: Ints, positions: Floats) -> None:
+    """Move the vertices (k,), whose lookup table is up to date, to `positions` (k, 3), and update the normals there."""
+    table = bm.verts
+    # One at a time: of many objects at a time Python's collector would look through all that there are.
+    for vertex, position in zip(vertices.tolist(), zip(*positions.T.tolist(), strict=True), strict=True):
+        table[vertex].co = position
+    if FEW * len(vertices) < len(table):
+        _update_normals_at(elements_of(table, vertices))
+    else:
+        bm.normal_update()
 
 
 def _update_normals_at(moved: list[Any]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import bpy
 
@@ -59,7 +59,7 @@ class Signs:
         self._timer = manager.event_timer_add(TICK, window=context.window)
         manager.progress_begin(0.0, 1.0)
         show_progress(context, 0.0, "")
-        _shown.append(self)
+        under_way.append(self)
 
     def show_preview(self) -> None:
         """Show what the run has given to be shown meanwhile."""
@@ -68,8 +68,8 @@ class Signs:
 
     def end(self) -> None:
         """Take them away, unless that has been done."""
-        if self in _shown:
-            _shown.remove(self)
+        if self in under_way:
+            under_way.remove(self)
             if self.preview is not None:
                 self.preview.take_back()
             manager = bpy.context.window_manager
@@ -78,7 +78,16 @@ class Signs:
             hide_progress(bpy.context)
 
 
-_shown: list[Signs] = []
+class UnderWay(Protocol):
+    """What is awaited: a button or the end of the file may end it."""
+
+    unwanted: bool
+
+    def end(self) -> None:
+        """Await it no more."""
+
+
+under_way: list[UnderWay] = []
 
 
 class MESH_OT_fair_cancel(bpy.types.Operator):
@@ -91,12 +100,12 @@ class MESH_OT_fair_cancel(bpy.types.Operator):
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
         """There must be one."""
-        return bool(_shown)
+        return bool(under_way)
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
-        """Have its operator end it at its next look."""
-        for signs in _shown:
-            signs.unwanted = True
+        """Have it ended at the next look at it."""
+        for each in under_way:
+            each.unwanted = True
         return {"FINISHED"}
 
 
@@ -105,8 +114,8 @@ def stop_all() -> None:
 
     An operator that Blender still calls finds its run cancelled. Blender may also have freed it without a word.
     """
-    while _shown:
-        _shown[-1].end()
+    while under_way:
+        under_way[-1].end()
     runner.stop_all()
 
 
@@ -141,6 +150,8 @@ class Watched:
     def _begin_with(self, context: bpy.types.Context, go_on: Callable[[bpy.types.Context], set[str]]) -> set[str]:
         """Read, and go on at once or in the background."""
         context.view_layer.update()  # a script may just have changed an object's matrix
+        for each in tuple(under_way):
+            each.end()
         try:
             return go_on(context) if self._read(context) else {"CANCELLED"}
         except job.Refused as refusal:

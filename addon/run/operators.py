@@ -10,20 +10,19 @@ import bpy
 
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
-from ..core.report import GRADE_NAMES, Report, make_report, summary
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
-from ..host.status import redraw_sidebars
 from ..preferences import background_from
 from ..translations import translated
-from . import compare, job, labels, last_run
-from .background import Watched, Work
+from . import job, last_run
+from .background import Work
+from .finish import Asked, finish, refuse
 from .option_properties import FairProperties
-from .preview import Preview
+from .redo import Redone
 from .redo_panel import draw_options
-from .report_properties import store, store_refusal
+from .report_properties import store_refusal
 
 
-class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
+class MESH_OT_fair_region(FairProperties, Redone, bpy.types.Operator):
     """Replace the selected faces by the fair surface that continues their surroundings.
     Vertices stay the same vertices; nothing outside the selection moves"""
 
@@ -67,10 +66,9 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
 
     def _start_work(self, context: bpy.types.Context) -> set[str]:
         # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
-        large = job.size(self._tasks) >= background_from(context)
-        preview = Preview(self._tasks)
-        work = partial(job.solve, self._tasks, self._options, ahead=large, give=preview.give)
-        return self._start(context, work, large, preview)
+        asked = self._asked()
+        large = asked.size >= background_from(context)
+        return self._start(context, partial(asked.work, ahead=large), large, asked.preview)
 
     def _work(self) -> Work:
         return partial(job.solve, self._tasks, self._options)
@@ -78,44 +76,11 @@ class MESH_OT_fair_region(FairProperties, Watched, bpy.types.Operator):
     def _is_current(self, context: bpy.types.Context) -> bool:
         return job.is_current(context, self._tasks)
 
+    def _asked(self) -> Asked:
+        return Asked(self._tasks, self._options, self._notes, self._begin, self._way)
+
     def _apply(self, context: bpy.types.Context, outcomes: list[Fairing]) -> set[str]:
-        named = [(task.object_name, outcome) for task, outcome in zip(self._tasks, outcomes, strict=True)]
-        report = make_report(named, self._options, time.perf_counter() - self._begin, self._notes)
-        report = labels.with_idle(report, self._options)
-        if self._way and not last_run.is_improved_by(report):
-            return self._keep(context, report)
-        store(context.window_manager.fairing_report, report)
-        last_run.remember(self._tasks, outcomes, self._options, report)
-        if not report.written:
-            return self._leave(context, summary(report))
-        compare.remember(self._tasks, outcomes)
-        last_run.renumber(job.write(context, self._tasks, outcomes))
-        for warning in report.warnings:
-            self.report({"WARNING"}, translated(warning))
-        for idle in labels.idle_in(report):
-            self.report({"INFO"}, f"{labels.IDLE} with these options: {idle}")
-        self.report({"INFO"}, translated(summary(report)))
-        return {"FINISHED"}
-
-    def _leave(self, context: bpy.types.Context, reason: str) -> set[str]:
-        """Leave every mesh as it is, and show where the result is no good."""
-        last_run.select_spots(context)
-        self.report({"ERROR"}, translated(reason))
-        return {"CANCELLED"}
-
-    def _keep(self, context: bpy.types.Context, report: Report) -> set[str]:
-        """Leave what the last run has left, offer this change no more, and report how it would have come out."""
-        last_run.select_region(context)
-        shown = context.window_manager.fairing_report
-        shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != self._way)
-        outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
-        self.report({"INFO"}, translated(f"That is no better and was not written ({outcome})"))
-        redraw_sidebars(context)
-        return {"CANCELLED"}
+        return finish(context, self._asked(), outcomes, self.report)
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
-        job.show_vertices(context, refusal.object_name, refusal.elements)
-        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
-        last_run.refused(self._tasks)
-        self.report({"ERROR"}, translated(str(refusal)))
-        return {"CANCELLED"}
+        return refuse(context, self._tasks, refusal, self.report)

@@ -20,17 +20,19 @@ from ..core.region import MeshArrays, free_vertices
 from ..core.report import make_report, summary
 from ..host.context import active_object
 from ..host.polling import require, require_idle
-from ..mesh import painted
+from ..mesh import mesh_io, painted
 from ..mesh.free_normals import free_normals
 from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
-from .background import Watched, Work
+from .background import Work
 from .fair_arrays import fair_arrays
 from .fair_mesh import read, write
+from .finish import Say
 from .job import Refused
 from .labels import with_idle
 from .option_properties import FairProperties
+from .redo import Redone
 from .report_properties import store, store_refusal
 
 MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
@@ -68,7 +70,97 @@ def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
             bpy.ops.object.mode_set(mode=mode)
 
 
-class FairsOutside(FairProperties, Watched):
+class Asked:
+    """What one run was asked for: a change in the redo panel, if it is one."""
+
+    def __init__(self, task: Task, begin: float) -> None:
+        """begin: of the performance counter."""
+        self.task, self.begin = task, begin
+        self.names: tuple[str, ...] = (task.object_name,)
+        self.size = int(np.count_nonzero(free_vertices(task.mesh)))
+        self.work: Work = partial(solve, task)
+        self._shown: Floats | None = None  # (n, 3) positions of the mesh while another result is shown
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether anything is shown in place of the answer."""
+        return self._shown is not None
+
+    def show_last(self) -> None:
+        """Show the last run's result, where it began from the same mesh; without shape keys, which would go along."""
+        obj, found = (
+            bpy.data.objects[self.task.object_name],
+            compare.result_from(self.task.object_name, self.task.before),
+        )
+        if found is not None and obj.data.shape_keys is None:
+            self._write(obj, *found)
+            self._shown = self.task.before.copy()
+            self._shown[found[0]] = found[1]
+
+    def show(self) -> None:
+        """Nothing else is shown."""
+
+    def take_back(self) -> None:
+        """Let the mesh be as it was read."""
+        if self._shown is not None:
+            vertices = np.flatnonzero((self._shown != self.task.before).any(axis=1))
+            self._write(bpy.data.objects[self.task.object_name], vertices, self.task.before[vertices])
+            self._shown = None
+
+    @staticmethod
+    def _write(obj: bpy.types.Object, vertices: Ints, positions: Floats) -> None:
+        with in_object_mode(obj):
+            mesh_io.write_mesh(obj.data, vertices, positions)
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the mesh is as it was read."""
+        return self._is_at(context, self.task.before)
+
+    def is_as_shown(self, context: bpy.types.Context) -> bool:
+        """Return whether it is as it was read, but for what is shown."""
+        return self._is_at(context, self.task.before if self._shown is None else self._shown)
+
+    def _is_at(self, context: bpy.types.Context, positions: Floats) -> bool:
+        obj = active_object(context)
+        if obj is None or obj.name != self.task.object_name or obj.mode not in MODES:
+            return False
+        with in_object_mode(obj):
+            return np.array_equal(painted.positions(obj.data), positions)
+
+    def settle(self, context: bpy.types.Context, answer: Callable[[], Fairing], say: Say) -> set[str]:
+        """Write and report the answer, or why it is not written; return an operator's status."""
+        try:
+            return self.finish(context, answer(), say)
+        except Refused as refusal:
+            return refuse(context, refusal, say)
+
+    def finish(self, context: bpy.types.Context, outcome: Fairing, say: Say) -> set[str]:
+        """Write and report what the run came to."""
+        task, obj = self.task, active_object(context)
+        report = make_report([(task.object_name, outcome)], task.options, time.perf_counter() - self.begin)
+        report = with_idle(report, task.options)
+        store(context.window_manager.fairing_report, report)
+        last_run.forget()  # buttons for the next run belong to edit mode
+        if not report.written:
+            say({"ERROR"}, translated(summary(report)))
+            return {"CANCELLED"}
+        with in_object_mode(obj):
+            normals = free_normals(obj.data)
+            write(obj.data, outcome)
+        compare.remember_one(obj.name, task.before, outcome, normals)
+        say({"INFO"}, translated(summary(report)))
+        return {"FINISHED"}
+
+
+def refuse(context: bpy.types.Context, refusal: Refused, say: Say) -> set[str]:
+    """Say why nothing is written."""
+    store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
+    last_run.forget()
+    say({"ERROR"}, translated(str(refusal)))
+    return {"CANCELLED"}
+
+
+class FairsOutside(FairProperties, Redone):
     """An operator that fairs the active object outside edit mode, but for `_faces`, which says what of it."""
 
     if TYPE_CHECKING:
@@ -90,7 +182,7 @@ class FairsOutside(FairProperties, Watched):
     def _read(self, context: bpy.types.Context) -> bool:
         self._begin = time.perf_counter()
         obj = active_object(context)
-        if obj.mode == "SCULPT":
+        if obj.mode == "SCULPT" and not self.is_repeated(context):
             bpy.ops.ed.undo_push(message="Before Fair Masked")  # strokes are steps of another kind
         self.take_names_before()
         try:
@@ -107,41 +199,24 @@ class FairsOutside(FairProperties, Watched):
         mesh, matrix = read(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
         return Task(obj.name, mesh, matrix, options, painted.positions(obj.data))
 
+    def _asked(self) -> Asked:
+        return Asked(self._task, self._begin)
+
     def _work(self) -> Work:
         return partial(solve, self._task)
 
     def _start_work(self, context: bpy.types.Context) -> set[str]:
-        large = int(np.count_nonzero(free_vertices(self._task.mesh))) >= background_from(context)
-        return self._start(context, partial(solve, self._task), large)
+        asked = self._asked()
+        return self._start(context, asked.work, asked.size >= background_from(context))
 
     def _is_current(self, context: bpy.types.Context) -> bool:
-        obj = active_object(context)
-        if obj is None or obj.name != self._task.object_name or obj.mode not in MODES:
-            return False
-        with in_object_mode(obj):
-            return np.array_equal(painted.positions(obj.data), self._task.before)
+        return self._asked().is_as_read(context)
 
     def _apply(self, context: bpy.types.Context, outcome: Fairing) -> set[str]:
-        task, obj = self._task, active_object(context)
-        report = make_report([(task.object_name, outcome)], task.options, time.perf_counter() - self._begin)
-        report = with_idle(report, task.options)
-        store(context.window_manager.fairing_report, report)
-        last_run.forget()  # buttons for the next run belong to edit mode
-        if not report.written:
-            self.report({"ERROR"}, translated(summary(report)))
-            return {"CANCELLED"}
-        with in_object_mode(obj):
-            normals = free_normals(obj.data)
-            write(obj.data, outcome)
-        compare.remember_one(obj.name, task.before, outcome, normals)
-        self.report({"INFO"}, translated(summary(report)))
-        return {"FINISHED"}
+        return self._asked().finish(context, outcome, self.report)
 
     def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
-        last_run.forget()
-        self.report({"ERROR"}, translated(str(refusal)))
-        return {"CANCELLED"}
+        return refuse(context, refusal, self.report)
 
 
 def check_shown(obj: bpy.types.Object) -> None:

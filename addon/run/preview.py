@@ -5,7 +5,7 @@ The run's thread gives them, the main thread shows them. What the mesh was comes
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import bpy
 import numpy as np
@@ -39,15 +39,27 @@ class Preview:
 
     def show(self) -> None:
         """Show what was given since the last call, where the mesh is as it was read; main thread."""
-        objects = _by_name()
+        objects = _by_name() if self._given else {}
         while self._given:
             name, vertices, positions = self._given.pop(0)
             task, obj = self._tasks[name], objects.get(name)
+            if name in {shown.name for shown in self._shown}:
+                continue
             if obj is None or not np.isfinite(positions).all() or not is_unchanged(obj, task.mesh, task.key):
                 continue
             mesh_io.move_vertices(obj.data, vertices, positions)
             there = positions.astype(np.float32).astype(np.float64)
             self._shown.append(_Shown(name, vertices, task.mesh.positions[vertices], there))
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether anything is."""
+        return bool(self._shown)
+
+    def tasks_as_shown(self) -> list[Task]:
+        """Return the tasks with their meshes as they are shown now."""
+        shown = {each.name: each for each in self._shown}
+        return [_moved(task, shown[name]) if name in shown else task for name, task in self._tasks.items()]
 
     def take_back(self) -> None:
         """Put everything back that is where it was shown; main thread, and no harm where nothing was."""
@@ -57,6 +69,12 @@ class Preview:
             obj = objects.get(shown.name)
             if obj is not None:
                 mesh_io.move_vertices_back(obj.data, shown.vertices, shown.there, shown.before)
+
+
+def _moved(task: Task, shown: _Shown) -> Task:
+    positions = task.mesh.positions.copy()
+    positions[shown.vertices] = shown.there
+    return replace(task, mesh=replace(task.mesh, positions=positions))
 
 
 def _by_name() -> dict[str, bpy.types.Object]:

@@ -1,13 +1,14 @@
 # mypy: disable-error-code="valid-type"
 """The last run and the run under way, on the window manager: no part of the file or its undo."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.report import GRADE_NAMES, MET, MISSED, TOLD, Report
-from ..core.verdict import UNUSABLE
+from ..core.verdict import LOOK, UNUSABLE
 
 _GRADES = tuple((grade, name, "") for grade, name in GRADE_NAMES.items())
 _STATES = ((MET, "Met", ""), (MISSED, "Missed", ""), (TOLD, "Told", ""))
@@ -46,6 +47,7 @@ class FairProgress(bpy.types.PropertyGroup):
     """The run under way."""
 
     running: BoolProperty()
+    following: BoolProperty()  # a change in the redo panel, while Blender goes on
     fraction: FloatProperty()
     stage: StringProperty()
 
@@ -61,6 +63,13 @@ def store_refusal(shown: Any, object_name: str, reason: str) -> None:
     """Let a FairReport show a run that was refused, and nothing of the one before."""
     clear(shown)
     shown.objects, shown.verdict, shown.reason = object_name, UNUSABLE, reason
+
+
+def store_first(shown: Any, objects: Sequence[str], free_vertices: int, reason: str) -> None:
+    """Let a FairReport show that a first surface is there, and why no better one."""
+    clear(shown)
+    shown.objects, shown.free_vertices, shown.written = ", ".join(objects), free_vertices, True
+    shown.verdict, shown.reason = LOOK, reason
 
 
 def store(shown: Any, report: Report) -> None:

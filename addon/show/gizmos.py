@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
+from ..core import runner
 from ..core.arrays import Floats
 from ..core.fair_options import FAIR
 from ..core.option_table import named
@@ -45,16 +46,24 @@ def _tool(context: bpy.types.Context) -> str:
 
 
 _wanted: list[Any] = []  # windows in which the last run is to be run again
+SOON = 0.01  # seconds until the threads in the way are looked at again
 
 
-def _run_again() -> None:
-    """Run the last operator again, outside of the arrow's own events: undo would take the arrow away under them."""
+def _run_again() -> float | None:
+    """Run the last operator again, outside of the arrow's own events: undo would take the arrow away under them.
+
+    Beside none of our threads: while Python calls an operator inside `temp_override`, and a timer has no other context,
+    Blender reads the override without Python's lock as soon as another thread has it, and crashes.
+    """
+    if not runner.call_off_all():
+        return SOON
     window = _wanted[-1]
     _wanted.clear()
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     region = next(region for region in area.regions if region.type == "WINDOW")
     with bpy.context.temp_override(window=window, area=area, region=region):
         bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+    return None
 
 
 class _Arrow:

@@ -39,6 +39,8 @@ class VIEW3D_PT_fairing(SidebarPanel, bpy.types.Panel):
         if context.window_manager.fairing_progress.running:
             draw_progress(layout, context)
             return
+        if context.window_manager.fairing_progress.following:
+            draw_progress(layout, context)
         column = layout.column(align=True)
         column.scale_y = 1.3
         if context.mode == "EDIT_MESH":

@@ -154,6 +154,23 @@ def test_an_edge_that_nobody_has_marked_is_held_by_its_angle() -> None:
     assert off_fold(solve.solve(rounded, np.eye(4), FairOptions(pin_edges="NONE")).result.vertices) > 0.01
 
 
+def test_a_mesh_that_is_read_again_is_not_searched_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, inside = dented_fold()
+    held = with_pinned_edges(mesh, FairOptions(), none(mesh))
+    moved = replace(mesh, positions=mesh.positions.copy())
+    moved.positions[inside[0]] += 1e-3
+
+    def refused(*_arguments: object, **_rest: object) -> None:
+        raise LookupError
+
+    monkeypatch.setattr("fairing.edges_through", refused)
+    again = with_pinned_edges(replace(mesh, positions=mesh.positions.copy()), FairOptions(), none(mesh))
+    assert held.held_by_angle is not None and again.held_by_angle is not None
+    np.testing.assert_array_equal(again.held_by_angle, held.held_by_angle)
+    with pytest.raises(LookupError):
+        with_pinned_edges(moved, FairOptions(), none(moved))
+
+
 @pytest.mark.parametrize(
     "options", [{"equation": "CONSTANT"}, {"equation": "MINIMAL"}, {"continuity": "G2"}, {"outline": "MENDED"}]
 )

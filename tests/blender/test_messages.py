@@ -17,8 +17,9 @@ def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     said: list[str] = []
 
     class Stand:
-        execute, _begin_with, _work = original.execute, original._begin_with, original._work
-        _read, _apply, _refuse, _leave = original._read, original._apply, original._refuse, original._leave
+        execute, _begin_with = module("run.background").Watched.execute, original._begin_with
+        _read, _work, _asked = original._read, original._work, original._asked
+        _apply, _refuse = original._apply, original._refuse
         _way, _tasks = "", ()
 
         def report(self, _kinds: set[str], text: str) -> None:

@@ -28,7 +28,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         modal, cancel = original.modal, original.cancel
         _collect, _apply, _refuse = original._collect, original._apply, original._refuse
         _stop_watching, _is_current = original._stop_watching, original._is_current
-        _begin, _options, _notes, _way = 0.0, options, (), ""
+        _asked, _begin, _options, _notes, _way = original._asked, 0.0, options, (), ""
 
         def report(self, kinds: set[str], text: str) -> None:
             reported.append((kinds, text))
@@ -141,6 +141,7 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
         stand = type("Stand", (), {**methods, "_start_watching": watching, "report": lambda *_: None})()
         give_options(stand)
         stand.source, stand.face_set, stand.group, stand.under_mouse = "MASK", 0, "", False
+        stand.is_repeated = lambda _context: False
         assert stand.invoke(bpy.context, event("LEFTMOUSE")) == {"RUNNING_MODAL"}
         return stand
 
@@ -233,6 +234,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
 
     class Stand:
         invoke, _begin_with, _start_work = original.invoke, original._begin_with, original._start_work
+        _asked = original._asked
         modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
         _stop_watching, _refuse = original._stop_watching, original._refuse
         _start, _read, _is_current, _way = original._start, original._read, original._is_current, ""

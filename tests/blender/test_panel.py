@@ -364,7 +364,7 @@ def test_enabled_and_disabled_twenty_times() -> None:
         assert without["types"] == without["window manager"] == without["scene"] == without["operators"] == []
         assert without["presets"] == []
         assert all(without["handlers"][name] <= enabled["handlers"][name] for name in enabled["handlers"])
-        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 6
+        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 8
         addon_utils.enable(ID)
     assert footprint() == enabled
 

@@ -7,13 +7,14 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Generator
+from typing import Any
 
 import addon_utils
 import bmesh
 import bpy
 import scenes
-from driver import OUT, Story, in_view, leave_popup, tell
-from panel import ID, module, run_operator, set_options, wait_until
+from driver import OUT, Story, in_view, leave_popup, middle, press, tell
+from panel import ID, change_with, module, run_operator, set_options, wait_until
 
 _radii = itertools.count(5.5, 0.125)
 QUICK = 3.0  # seconds that Blender may stand still, with redraws by software; it was ten
@@ -39,9 +40,29 @@ def _begin_run() -> Story:
     assert len(_threads()) == 1, "the run was too short to be ended"
 
 
+class _Held:
+    """Whether searches go on, one after the other, until something ends them: one may be over within a redraw."""
+
+    on = False
+
+
+def _hold_searches() -> None:
+    home = module("follow.search")
+    seek = home.sought
+
+    def sought(*arguments: Any) -> Any:
+        found = seek(*arguments)
+        while _Held.on and arguments[-1](0.0, "") is not False:
+            found = seek(*arguments)
+        return found
+
+    _Held.on, home.sought = True, sought
+
+
 def _begin_search() -> Story:
     """Have Live search for the surface of a large region."""
     home = module("follow.live")
+    _hold_searches()
     scenes.large()
     set_options()
     yield 1.0
@@ -64,11 +85,34 @@ def _begin_search() -> Story:
     yield from wait_until(is_searching, 20.0)
 
 
+def _begin_change() -> Story:
+    """Have a search under way that a change in the redo panel waits for."""
+    scenes.large()
+    set_options()
+    yield 1.0
+    report = bpy.context.window_manager.fairing_report
+    report.free_vertices = 0
+    run_operator()
+
+    def reported() -> bool:
+        return bool(report.free_vertices)
+
+    yield from wait_until(reported, 60.0)
+    yield 1.0
+    yield from change_with(shape="LEAST_VARIATION")
+
+    def is_searching() -> bool:
+        return len(_threads()) == 1
+
+    yield from wait_until(is_searching, 20.0)
+
+
 def _act(name: str, act: Callable[[], object]) -> Generator[float, None, None]:
     """Do it during a run; nothing of the run is left, in less time than is noticed as an end of Blender."""
     begin = time.perf_counter()
     act()
     seconds = time.perf_counter() - begin
+    _Held.on = False
     tell(f"{name}: Blender went on after {seconds:.2f} s")
     assert seconds < QUICK
     assert not _threads()
@@ -98,7 +142,7 @@ def _finish_run() -> Story:
 def another_file_ends_a_run() -> Story:
     """The same file once more: names and meshes are those that the run has read."""
     same = str(OUT / "same.blend")
-    for begin in (_finish_run, _begin_run, _begin_search):
+    for begin in (_finish_run, _begin_run, _begin_search, _begin_change):
         yield from begin()
         with in_view():
             bpy.ops.wm.save_as_mainfile(filepath=same)
@@ -119,6 +163,37 @@ def another_file_ends_a_run() -> Story:
             assert bpy.ops.mesh.fair_region.poll()
             assert not bpy.context.window_manager.fairing_report.free_vertices
         bpy.context.window_manager.fairing_live.on = False
+
+
+def undo_and_removal_end_a_search() -> Story:
+    """And what else takes the mesh away from a change in the redo panel."""
+    progress, report = bpy.context.window_manager.fairing_progress, bpy.context.window_manager.fairing_report
+    for name in ("undo", "another mode", "removal"):
+        yield from _begin_change()
+        original, shown = scenes.original(), scenes.positions()
+        if name == "undo":
+            press("Z", *middle(), ctrl=True)
+        elif name == "another mode":
+            press("TAB", *middle())
+        else:
+            with in_view():
+                bpy.data.objects.remove(bpy.context.object)
+
+        def rests() -> bool:
+            return not progress.following and not _threads()
+
+        yield from wait_until(rests, 60.0)
+        yield 0.5
+        if name == "undo":
+            assert (scenes.positions() == original).all()
+            assert not report.written
+        else:
+            assert "Another surface was kept" in report.reason, report.reason
+        if name == "another mode":
+            press("TAB", *middle())
+            yield 1.0
+            assert (scenes.positions() == shown).all()
+        tell(f"{name}: the search has ended")
 
 
 def undo_and_removal_end_a_run() -> Story:
@@ -143,7 +218,7 @@ def undo_and_removal_end_a_run() -> Story:
 
 def disabling_ends_a_run() -> Story:
     """The operator under way is taken back without a word to it; then all is as before the first click."""
-    for begin in (_begin_run, _begin_search):
+    for begin in (_begin_run, _begin_search, _begin_change):
         yield from begin()
         yield from _act(f"disabled, {begin.__name__}", _disable)
         addon_utils.enable(ID)

@@ -148,6 +148,14 @@ def masked() -> int:
     return int(np.count_nonzero(upper))
 
 
+def large_masked(subdivisions: int) -> None:
+    """The sphere of scenes.large in object mode, its dented half in a vertex group."""
+    scenes.large(subdivisions)
+    inside = selected_vertices()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.object.vertex_groups.new(name="Dent").add(inside, 1.0, "REPLACE")
+
+
 def face_sets() -> int:
     """A sphere in object mode, its squashed upper half one face set, the rest another; return the first one's size."""
     upper = _squashed_ball()

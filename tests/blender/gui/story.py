@@ -19,6 +19,7 @@ from ends_chapters import (
     quits_during_a_run,
     quits_during_a_search,
     undo_and_removal_end_a_run,
+    undo_and_removal_end_a_search,
 )
 from fillet_chapters import fillet_is_dragged
 from jobs_chapters import ten_jobs
@@ -44,6 +45,11 @@ from panel import (
     run_operator,
     set_options,
     wait_until,
+)
+from redo_chapters import (
+    a_field_of_the_redo_panel_is_pulled,
+    changes_in_the_redo_panel_do_not_wait,
+    changes_outside_edit_mode_do_not_wait,
 )
 from screen_chapters import SCREENS
 from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
@@ -122,8 +128,8 @@ def adjust_in_redo_panel() -> Story:
     fair = scenes.positions()
     yield from open_redo_panel()
     screenshot("redo_open")
-    redo_with(factor=0.5)
-    yield 1.5
+    yield from redo_with(factor=0.5)
+    yield 1.0
     operator = bpy.context.window_manager.operators[-1]
     assert abs(operator.properties.factor - 0.5) < 1e-6, operator.properties.factor
     half = scenes.positions()
@@ -197,6 +203,8 @@ CHAPTERS = (
     cancel_a_long_run,
     finish_a_long_run,
     redo_after_a_long_run,
+    changes_in_the_redo_panel_do_not_wait,
+    a_field_of_the_redo_panel_is_pulled,
     in_german,
     judge,
     marks_before_a_run,
@@ -210,11 +218,13 @@ CHAPTERS = (
     masked_in_sculpt_mode,
     face_set_by_a_click,
     brush_in_sculpt_mode,
+    changes_outside_edit_mode_do_not_wait,
     live_follows_a_drag,
     live_follows_a_pin,
     live_moves_the_far_side,
     live_begins_in_the_background,
     undo_and_removal_end_a_run,
+    undo_and_removal_end_a_search,
     disabling_ends_a_run,
     another_file_ends_a_run,
     tutorial_as_written,

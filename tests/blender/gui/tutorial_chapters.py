@@ -73,7 +73,7 @@ def _done(action: Any) -> Story:
         run_with(action.operator, **action.given)
         yield from _rested()
         if action.options:  # in the panel at the lower left
-            redo_with(**action.options)
+            yield from redo_with(**action.options)
             yield from _rested()
 
 

@@ -1,0 +1,284 @@
+"""Changes in the redo panel: another surface at once, the fair one in its place as soon as it is found.
+
+Blender takes the last run's step of undo back and calls `execute`. Small selections get PROMPT to be answered there.
+Otherwise the result before the change is shown, and a thread searches, which begins once the operator has ended. With
+its answer Blender is made to repeat the operator: as ever there is one step of undo, with the answer in it.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+import bpy
+
+import fairing
+
+from ..core import runner
+from ..host.handlers import hear_events, listen, unlisten
+from ..host.status import hide_following, redraw_sidebars, show_following
+from ..preferences import background_from
+from .background import TICK, Watched, Work, has_events, under_way
+from .finish import Say
+from .report_properties import clear, store_first
+
+PROMPT = 0.06  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
+BLINK = 0.02  # seconds that a change waits for the search before it to stop
+AWAITED = "Looking for the fair surface: another one is shown meanwhile"
+KEPT = "Another surface was kept: the mesh changed before the fair one was found"
+GIVEN_UP = "Another surface was kept: the search for the fair one was cancelled"
+NOT_TAKEN = "{reason}. The surface before was kept"
+
+
+class Change(Protocol):
+    """What a change in the panel asks for, and the meshes that it is about."""
+
+    names: tuple[str, ...]  # of the objects
+    size: int  # free vertices
+    work: Work  # gives the answer; any thread
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether another surface is shown meanwhile."""
+
+    def show_last(self) -> None:
+        """Show the result before the change, where it began from the same meshes."""
+
+    def show(self) -> None:
+        """Show the first surfaces that `work` has come by so far, where nothing is shown yet."""
+
+    def take_back(self) -> None:
+        """Let the meshes be as they were read."""
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the meshes are as they were read."""
+
+    def is_as_shown(self, context: bpy.types.Context) -> bool:
+        """Return whether they are as they were read, but for what is shown."""
+
+    def settle(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
+        """Write and report the answer, or report why it isn't written; return an operator's status."""
+
+
+class Following:
+    """One change whose answer is awaited while Blender goes on."""
+
+    def __init__(self, change: Change, operator: bpy.types.Operator) -> None:
+        """operator: the one in the panel, maybe a macro."""
+        self.change, self.step = change, operator.name
+        self.operator = operator.as_pointer()  # Blender may free it
+        self.unwanted = False  # a button has asked for the end
+        self.settled = False  # the answer is written
+        self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
+        self.timer: bpy.types.Timer | None = None  # of the looks
+
+    def begin(self, context: bpy.types.Context) -> None:
+        """Let Blender go on; the search begins at the first look."""
+        clear(context.window_manager.fairing_report)
+        under_way.append(self)
+        self.show(context)
+        watch()
+
+    def show(self, context: bpy.types.Context) -> None:
+        """Show how far it is, and its first surface, unless that would move what is being edited."""
+        if not is_being_edited(context):
+            self.change.show()
+        report, change = context.window_manager.fairing_report, self.change
+        if change.is_shown and not report.written:
+            store_first(report, change.names, change.size, AWAITED)
+        show_following(context, 0.0 if self.run is None else self.run.fraction)
+
+    def end(self, reason: str = "") -> None:
+        """Await it no more; another surface stays, for which the report then gives this reason."""
+        if self in under_way:
+            under_way.remove(self)
+        if self.timer is not None:
+            bpy.context.window_manager.event_timer_remove(self.timer)
+            self.timer = None
+        if self.run is not None and not self.run.finished:
+            self.run.cancel()
+            self.run.wait(BLINK)  # what it has prepared is of use to the next one
+        hide_following(bpy.context)
+        if reason and self.change.is_shown:
+            bpy.context.window_manager.fairing_report.reason = reason
+
+    def is_last(self, context: bpy.types.Context) -> bool:
+        """Return whether it is this operator that Blender would repeat, for which it needs an area."""
+        kept = context.window_manager.operators
+        is_same = len(kept) > 0 and kept[-1].as_pointer() == self.operator
+        return is_same and context.area is not None and bool(bpy.ops.ed.undo_redo.poll())
+
+    def settle(self, context: bpy.types.Context, say: Say) -> set[str]:
+        """Write and report the answer, where the meshes are as they were read; return an operator's status."""
+        assert self.run is not None
+        if not self.change.is_as_read(context):
+            return {"CANCELLED"}
+        status = self.change.settle(context, self.run.result, say)
+        self.settled = "FINISHED" in status
+        return status
+
+
+class _Repeat:
+    """The change that we have Blender repeat an operator for."""
+
+    now: Following | None = None
+
+
+class Redone(Watched):
+    """An operator whose changes in the redo panel don't hold Blender up."""
+
+    if TYPE_CHECKING:
+        options: Any
+        as_pointer: Callable[[], int]
+        _asked: Callable[[], Change]
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Return when done, but for a change in the redo panel.
+
+        Where that is not usable, Blender goes back to the result before it.
+        """
+        if _Repeat.now is not None:
+            return _Repeat.now.settle(context, self.report)
+        if has_events(context) and self.is_repeated(context):
+            return self._begin_with(context, self._change)
+        return super().execute(context)
+
+    def is_repeated(self, context: bpy.types.Context) -> bool:
+        """Return whether the redo panel calls, of a macro as well: its steps are not told."""
+        if self.options.is_repeat:
+            return True
+        kept = context.window_manager.operators
+        steps = kept[-1].macros if len(kept) else ()
+        return any(step.as_pointer() == self.as_pointer() for step in steps)
+
+    def _change(self, context: bpy.types.Context) -> set[str]:
+        change = self._asked()
+        if change.size < background_from(context):
+            end = time.perf_counter() + PROMPT
+            try:
+                outcome = change.work(lambda *_: time.perf_counter() < end)
+            except fairing.Cancelled:
+                pass  # it takes longer
+            else:
+                return change.settle(context, lambda: outcome, self.report)
+        change.show_last()
+        kept = context.window_manager.operators
+        Following(change, kept[-1]).begin(context)
+        return {"FINISHED"}
+
+
+def _following() -> Following | None:
+    return next((each for each in under_way if isinstance(each, Following)), None)
+
+
+def is_being_edited(context: bpy.types.Context) -> bool:
+    """Return whether an operator that edits is under way: undo would take the mesh away from it."""
+    windows = context.window_manager.windows
+    return any("UNDO" in operator.bl_options for window in windows for operator in window.modal_operators)
+
+
+def look(context: bpy.types.Context, may_write: bool = True) -> bool:
+    """Look at the search, and have its answer written where that is allowed; return whether to look again."""
+    following = _following()
+    if following is None:
+        return False
+    if following.unwanted:
+        following.end(GIVEN_UP)
+    elif following.run is None:
+        following.run = runner.Run(following.change.work)
+    elif following.run.finished and may_write and not is_being_edited(context):
+        _collect(context, following)
+    else:
+        following.show(context)
+    return _following() is not None
+
+
+def watch() -> None:
+    """Have looks taken from now on."""
+    bpy.ops.mesh.fair_follow("INVOKE_DEFAULT")
+
+
+def _is_held(event: bpy.types.Event) -> bool:
+    return bool(event.type == "LEFTMOUSE" and event.value not in ("RELEASE", "CLICK"))
+
+
+class MESH_OT_fair_follow(bpy.types.Operator):
+    """Wait for the answer to a change in the redo panel"""
+
+    # No timer of bpy.app: undo would take a field of the panel away while it is being pulled. Here events tell whether
+    # it is, and operators have a context that is Blender's own: in one of `temp_override`, Blender crashes beside a
+    # thread of Python.
+
+    bl_idname = "mesh.fair_follow"
+    bl_label = "Wait for the Answer"
+    bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
+
+    _following: Following | None = None
+    _is_held = False  # the mouse button: a field may be pulled. If it is later, its handler lets no event through
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin."""
+        self._following = _following()
+        self._is_held = _is_held(event)
+        assert self._following is not None
+        self._following.timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        hear_events(context, self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Look at each event of the timer; all others are other operators' own."""
+        goes_on = self._following is _following()
+        if event.type == "LEFTMOUSE":
+            self._is_held = _is_held(event)
+        if goes_on and event.type == "TIMER":
+            goes_on = look(context, not self._is_held)
+        return {"PASS_THROUGH"} if goes_on else {"CANCELLED", "PASS_THROUGH"}
+
+    def cancel(self, _context: bpy.types.Context) -> None:
+        """Give it up; Blender calls this when it closes a window."""
+        if self._following is not None and self._following is _following():
+            self._following.end(GIVEN_UP)
+
+
+def _collect(context: bpy.types.Context, following: Following) -> None:
+    """Have the answer written in place of what is shown."""
+    change, report = following.change, context.window_manager.fairing_report
+    current = change.is_as_shown(context)
+    following.end(KEPT)
+    if current and following.is_last(context):
+        _Repeat.now = following
+        try:
+            bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+        finally:
+            _Repeat.now = None
+    elif current:  # something else was selected meanwhile
+        change.take_back()
+        following.settle(context, lambda _kinds, _text: None)
+        if following.settled:
+            bpy.ops.ed.undo_push(message=following.step)
+        else:
+            change.show_last()
+    if not following.settled and not report.written and change.is_as_shown(context):
+        report.reason, report.written = NOT_TAKEN.format(reason=report.reason), True
+    redraw_sidebars(context)
+
+
+def _on_step(*_arguments: object) -> None:
+    """After an undo or a redo nothing is awaited any more: a change in the panel begins with an undo, too."""
+    following = _following()
+    if following is not None:
+        following.end()
+        clear(bpy.context.window_manager.fairing_report)
+
+
+def register() -> None:
+    """Hear of steps of undo."""
+    listen(bpy.app.handlers.undo_post, _on_step)
+    listen(bpy.app.handlers.redo_post, _on_step)
+
+
+def unregister() -> None:
+    """Hear of them no more."""
+    unlisten(bpy.app.handlers.redo_post, _on_step)
+    unlisten(bpy.app.handlers.undo_post, _on_step)

@@ -1,0 +1,202 @@
+"""Changes in the redo panel, in a real window: Blender goes on, and the answer follows."""
+
+from __future__ import annotations
+
+import time
+
+import bpy
+import numpy as np
+import scenes
+import spoilt_scenes
+from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, tell, view
+from panel import (
+    WM_OT_story_redo,
+    change_with,
+    module,
+    open_redo_panel,
+    open_tab,
+    redo_panel,
+    redo_with,
+    report,
+    run_operator,
+    run_with,
+    set_options,
+    wait_until,
+)
+
+FACTOR = 73  # pixels from the panel's top to the field Factor
+Seconds = tuple[float, float]  # of the processor, and by the wall
+
+
+class _Looks:
+    """How long each look at a search has held Blender up."""
+
+    def __init__(self) -> None:
+        self.seconds: list[Seconds] = []
+        self.home = module("run.redo")
+        self.look = self.home.look
+        self.home.look = self
+
+    def __call__(self, context: bpy.types.Context, may_write: bool) -> bool:
+        begin = time.thread_time(), time.perf_counter()
+        again: bool = self.look(context, may_write)
+        self.seconds.append((time.thread_time() - begin[0], time.perf_counter() - begin[1]))
+        return again
+
+    def end(self) -> None:
+        self.home.look = self.look
+
+
+def _tell_longest(mode: str, click: list[Seconds], changes: list[Seconds], looks: _Looks) -> None:
+    tell(f"{mode} mode, {report().free_vertices} free vertices; Blender is held up at most by")
+    for name, seconds in (("the click", click), ("a change", changes), ("a look, or the answer", looks.seconds)):
+        spent, passed = (1e3 * max(column) for column in zip(*seconds, strict=True))
+        tell(f"  {name}: {spent:.0f} ms of the processor, {passed:.0f} by the wall")
+
+
+def changes_in_the_redo_panel_do_not_wait() -> Story:
+    """Two changes one after the other, then one: what is shown does not wait, and undo takes all of it back."""
+    progress = bpy.context.window_manager.fairing_progress
+    for subdivisions in (6, 7):
+        scenes.large(subdivisions)
+        set_options()
+        open_tab()
+        yield 1.0
+        report().free_vertices = 0
+        begin = time.thread_time(), time.perf_counter()
+        run_operator()
+        click = [(time.thread_time() - begin[0], time.perf_counter() - begin[1])]
+
+        def reported() -> bool:
+            return bool(report().free_vertices)
+
+        yield from wait_until(reported, 120.0)
+        yield 1.0
+        first = scenes.positions()
+        yield from open_redo_panel()
+        changes, looks = WM_OT_story_redo.seconds, _Looks()
+        changes.clear()
+
+        def settled() -> bool:
+            return not progress.following
+
+        yield from change_with(inner_fairness="CONFORMAL")
+        yield from change_with(inner_fairness="UNIFORM", shape="LEAST_VARIATION")
+        yield 0.1
+        assert progress.following, "the search was too short to be seen"
+        assert np.abs(scenes.positions() - first).max() < 1e-6, "the result before the change is not shown"
+        screenshot(f"redo_following_{subdivisions}")
+        yield from wait_until(settled, 120.0)
+        yield 0.5
+        assert report().verdict == "GOOD", (report().verdict, report().reason)
+        assert np.abs(scenes.positions() - first).max() > 1e-4
+        answer = scenes.positions()
+        yield from redo_with(shape="HARMONIC", bulge=0.5)  # of which there is no surface
+        assert "The surface before was kept" in report().reason, report().reason
+        assert (scenes.positions() == answer).all()
+        screenshot(f"redo_refused_{subdivisions}")
+        yield from leave_popup()
+        yield from redo_with(shape="MINIMAL_ENERGY", bulge=0.0)
+        assert report().written and "kept" not in report().reason, report().reason
+        looks.end()
+        _tell_longest("edit", click, changes, looks)
+        last = scenes.positions()
+        press("Z", *middle(), ctrl=True)
+        yield 1.0
+        assert (scenes.positions() == scenes.original()).all(), "undo did not take the run back"
+        press("Z", *middle(), ctrl=True, shift=True)
+        yield 1.0
+        assert (scenes.positions() == last).all(), "redo did not bring the answer back"
+        assert np.median([spent for spent, _ in changes]) < 0.1  # Python's collector takes .05 s now and then
+
+
+def changes_outside_edit_mode_do_not_wait() -> Story:
+    """The same in sculpt mode and in object mode; there Blender's own step of undo takes as long as the rest."""
+    progress = bpy.context.window_manager.fairing_progress
+    for mode, subdivisions in (("SCULPT", 6), ("OBJECT", 6), ("SCULPT", 7), ("OBJECT", 7)):
+        spoilt_scenes.large_masked(subdivisions)
+        with in_view():
+            bpy.ops.object.mode_set(mode=mode)
+            bpy.ops.ed.undo_push(message="start")
+        open_tab()
+        yield 1.0
+        before = spoilt_scenes.object_positions()
+        report().free_vertices = 0
+        begin = time.thread_time(), time.perf_counter()
+        run_with("fair_masked", source="VERTEX_GROUP")
+        click = [(time.thread_time() - begin[0], time.perf_counter() - begin[1])]
+
+        def reported() -> bool:
+            return bool(report().free_vertices)
+
+        yield from wait_until(reported, 120.0)
+        yield 1.0
+        first = spoilt_scenes.object_positions()
+        changes, looks = WM_OT_story_redo.seconds, _Looks()
+        changes.clear()
+        yield from change_with(shape="LEAST_VARIATION")
+        assert progress.following, "the search was too short to be seen"
+        assert (spoilt_scenes.object_positions() == first).all(), "the result before the change is not shown"
+
+        def settled() -> bool:
+            return not progress.following
+
+        yield from wait_until(settled, 120.0)
+        yield 0.5
+        assert bpy.context.mode == mode
+        assert report().verdict == "GOOD", (report().verdict, report().reason)
+        last = spoilt_scenes.object_positions()
+        assert np.abs(last - first).max() > 1e-6
+        looks.end()
+        _tell_longest(mode.lower(), click, changes, looks)
+        press("Z", *middle(), ctrl=True)
+        yield 1.0
+        assert (spoilt_scenes.object_positions() == before).all(), "undo did not take the run back"
+        press("Z", *middle(), ctrl=True, shift=True)
+        yield 1.0
+        assert (spoilt_scenes.object_positions() == last).all(), "redo did not bring the answer back"
+
+
+def a_field_of_the_redo_panel_is_pulled() -> Story:
+    """Factor, in small steps, with a rest: no answer takes the field away from the hand."""
+    progress = bpy.context.window_manager.fairing_progress
+    scenes.large(6)
+    set_options()
+    open_tab()
+    yield 1.0
+    report().free_vertices = 0
+    run_operator()
+
+    def reported() -> bool:
+        return bool(report().free_vertices)
+
+    yield from wait_until(reported, 120.0)
+    yield 1.0
+    yield from open_redo_panel()
+    yield 1.0
+    panel, window = redo_panel(), view()[0]
+    x, y = panel.x + 200, panel.y + panel.height - FACTOR
+    move_mouse(x, y)
+    yield 0.3
+    window.event_simulate(type="LEFTMOUSE", value="PRESS", x=x, y=y)
+    for rest in (3.0, 0.0):
+        for _ in range(20):
+            x -= 3
+            move_mouse(x, y)
+            yield 0.04
+        yield rest
+    factor = bpy.context.window_manager.operators[-1].factor
+    assert 0.1 < factor < 0.5, f"{factor}: the field was taken away, or lies elsewhere"
+    assert progress.following, "an answer was written meanwhile"
+    window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
+
+    def settled() -> bool:
+        return not progress.following
+
+    yield from wait_until(settled, 60.0)
+    yield 0.5
+    assert bpy.context.window_manager.operators[-1].factor == factor
+    assert report().verdict == "GOOD", report().reason
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert (scenes.positions() == scenes.original()).all(), "undo did not take the run back"
