@@ -101,6 +101,47 @@ def test_curvature_is_continued_where_it_is_asked_for() -> None:
     assert errors[2] == patch.error(plain.vertices)
 
 
+def test_a_part_that_is_tangent_as_asked_is_no_reason_to_warn() -> None:
+    """Where it is asked for and not known it is."""
+    patch = shapes.torus(500)
+    curvatures = patch.mean_curvature[patch.fixed]
+    x = patch.vertices[patch.fixed][:, 0]
+    kinds = np.where(x <= np.median(x), "G2", "G1")
+    result = faired(patch, kinds, curvatures=curvatures)
+    assert result.continuity == "G2" and not result.warnings
+    asked = np.flatnonzero(kinds == "G2")
+    unknown = asked[np.argsort(x[asked])[: len(asked) // 2]]
+    curvatures[unknown] = np.nan
+    (warning,) = faired(patch, kinds, curvatures=curvatures).warnings
+    assert warning.code == "G2_NOT_MET"
+    assert set(patch.fixed[unknown]) <= set(warning.elements) < set(patch.fixed[asked])  # with arcs too short for waves
+
+
+def test_a_solver_and_a_new_mesh_continue_it_on_a_part_too() -> None:
+    patch = shapes.torus(500)
+    curvatures = patch.mean_curvature[patch.fixed]
+    x = patch.vertices[patch.fixed][:, 0]
+    kinds = np.where(x <= np.median(x), "G2", "G1")
+    start = shapes.start_from_nothing(patch)
+    one = faired(patch, kinds, curvatures=curvatures)
+    solver = fairing.Solver(patch.triangles, fixed=patch.fixed, continuity="G2")
+    again = solver.solve(start, patch.fixed_normals, fixed_curvatures=curvatures, continuity=kinds)
+    assert np.array_equal(again.vertices, one.vertices) and not again.warnings
+    held = fairing.Boundary(patch.fixed, patch.fixed_normals, curvatures, continuity=kinds)
+    new = fairing.remesh(start, patch.triangles, held)
+    assert new.continuity == "G2" and not new.warnings
+
+
+def test_no_curvature_on_any_part_is_a_tangent_join_whatever_the_option_says() -> None:
+    patch = shapes.torus(500)
+    tangent = ["G1"] * len(patch.fixed)
+    curved = fairing.Options(fairing.Surface(continuity="G2"))
+    held = fairing.Boundary(patch.fixed, patch.fixed_normals, patch.mean_curvature[patch.fixed], continuity=tangent)
+    result = fairing.fair(shapes.start_from_nothing(patch), patch.triangles, held, curved)
+    assert result.continuity == "G1"
+    assert np.array_equal(result.vertices, faired(patch, tangent).vertices)
+
+
 def test_one_kind_everywhere_is_the_option_of_before() -> None:
     patch = shapes.cap(300, half_angle=50)
     held = fairing.Boundary(patch.fixed, patch.fixed_normals)

@@ -77,6 +77,7 @@ class FairOptions:
     boundary_normals: str = "AUTOMATIC"  # INSIDE along hard edges of the boundary, SURROUNDING elsewhere
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     position_group: str = ""  # name of a vertex group, along which the boundary's position alone is kept
+    curvature_group: str = ""  # name of a vertex group, along which the curvature outside is continued, too
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
     tolerance: float = 1e-6  # of the patch's diameter
@@ -152,7 +153,8 @@ class FairOptions:
     @property
     def joins_curvature(self) -> bool:
         """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
-        return self.continuity == "G2" and self.equation in OF_CURVATURE and self.method == "GLOBAL"
+        wanted = self.continuity == "G2" or bool(self.curvature_group)
+        return wanted and self.equation in OF_CURVATURE and self.method == "GLOBAL"
 
     @property
     def frees_slopes(self) -> bool:
@@ -239,6 +241,7 @@ class FairOptions:
             "continuity": self.equation in OF_CURVATURE and self.method == "GLOBAL",
             "boundary_normals": self.equation != "MINIMAL",
             "position_group": self.frees_slopes,
+            "curvature_group": self.joins_curvature and self.continuity == "G1",
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",

@@ -21,7 +21,7 @@ struct MeshInput {
     Triangles triangles;
     std::optional<Indices> fixed;                  // left out: the mesh border
     std::optional<Points> fixed_normals;           // 3 × |fixed|
-    std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
+    std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known, ∞: tangent
     Triangles outside = {};                        // around the patches; they stay
     HeldInside held = {};
     Triangles sample = {};  // whose detail is put on the surface; empty: the patch's own is

@@ -31,6 +31,7 @@ DEFAULTS = {
     "smooth_boundary": False,
     "vertex_group": "",
     "position_group": "",
+    "curvature_group": "",
     "use_mask": False,
     "all_keys": False,
     "detail_from": "",

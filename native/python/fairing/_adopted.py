@@ -63,12 +63,13 @@ def taken(call: str, options: Options | None, before: dict[str, Any], threads: i
     return {**made_here, **flat(chosen, threads, curvatures)}
 
 
-def flat(chosen: Options, threads: int, curvatures: Any = None) -> dict[str, Any]:
-    """Options by name, with ``threads`` and ``fixed_curvatures`` where these are given."""
+def flat(chosen: Options, threads: int, curvatures: Any = None, kinds: Any = None) -> dict[str, Any]:
+    """Options by name, with ``threads``, ``fixed_curvatures`` and ``fixed_continuity`` where these are given."""
     found = chosen.chosen
     if threads:
         found["threads"] = threads
-    return found if curvatures is None else {**found, "fixed_curvatures": curvatures}
+    given = {"fixed_curvatures": curvatures, "fixed_continuity": kinds}
+    return {**found, **{name: value for name, value in given.items() if value is not None}}
 
 
 def _example(before: dict[str, Any]) -> str:

@@ -21,6 +21,7 @@ op.falloff = 0.0
 op.smooth_boundary = False
 op.vertex_group = ""
 op.position_group = ""
+op.curvature_group = ""
 op.use_mask = False
 op.all_keys = False
 op.detail_from = ""
