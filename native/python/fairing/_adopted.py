@@ -60,15 +60,16 @@ def taken(call: str, options: Options | None, before: dict[str, Any], threads: i
     }
     curvatures = before.pop("fixed_curvatures", None)
     _, chosen = adopted(call, None, options, before, level=4)
-    return {**made_here, **flat(chosen, threads, curvatures)}
+    return {**made_here, **flat(chosen, threads, Boundary(curvatures=curvatures))}
 
 
-def flat(chosen: Options, threads: int, curvatures: Any = None, kinds: Any = None) -> dict[str, Any]:
-    """Options by name, with ``threads``, ``fixed_curvatures`` and ``fixed_continuity`` where these are given."""
+def flat(chosen: Options, threads: int, boundary: Boundary | None = None) -> dict[str, Any]:
+    """Options by name, with ``threads`` and, as "fixed_…", how the boundary is joined, where these are given."""
     found = chosen.chosen
     if threads:
         found["threads"] = threads
-    given = {"fixed_curvatures": curvatures, "fixed_continuity": kinds}
+    joined = () if boundary is None else ("curvatures", "continuity", "tension")
+    given = {f"fixed_{name}": getattr(boundary, name) for name in joined}
     return {**found, **{name: value for name, value in given.items() if value is not None}}
 
 

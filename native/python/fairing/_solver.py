@@ -131,6 +131,7 @@ class Solver:
         fixed_curvatures: npt.ArrayLike | None = None,
         preview: Preview | None = None,
         continuity: npt.ArrayLike | None = None,
+        tension: npt.ArrayLike | None = None,
     ) -> FairResult:
         """Solve for these positions and normals; arguments, result and errors are those of fairing.fair.
 
@@ -138,6 +139,7 @@ class Solver:
         it, or they are made anew, and factorised, whenever a vertex has moved. With continuity "G2"
         ``fixed_curvatures`` must be given; :func:`fairing.surrounding_normals` fits them. ``continuity`` says where
         along ``fixed`` they are met, "G2", and where the join is tangent only, "G1"; default: met everywhere.
+        ``tension`` is that of :class:`fairing.Boundary`.
         """
         points = _arguments.floats("vertices", vertices)
         count = points.shape[0]
@@ -151,7 +153,8 @@ class Solver:
         if self._weights is not None:
             _arguments.indices_within("inner_fairness", self._weights[:, :2].astype(np.int32), count)
         callback = _options.callback(progress)
-        return FairResult(**self._engine.solve(points, given_normals, curvatures, m0, callback, preview))
+        tensions = None if tension is None else _arguments.tensions(tension, self._fixed)
+        return FairResult(**self._engine.solve(points, given_normals, curvatures, tensions, m0, callback, preview))
 
     def _curvatures(self, given: npt.ArrayLike | None, kinds: npt.ArrayLike | None) -> FloatArray | None:
         """Checked; needed for "G2" and refused without it."""
