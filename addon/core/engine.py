@@ -94,7 +94,8 @@ def solve(
         problem.normals,
         problem.curvatures if options.joins_curvature else None,
         problem.outside if reads else None,
-        problem.kinds,
+        problem.kinds if options.joins_curvature else None,
+        patch.tension if options.has_tension else None,
     )
     wanted = fairing.Options.of(
         neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
@@ -198,7 +199,7 @@ class RepeatedSolve:
             own = problem.posed[: len(problem.patch.vertices)]
             return self._solver.solve(
                 own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures, preview=preview,
-                continuity=problem.kinds,
+                continuity=problem.kinds, tension=problem.patch.tension,
             )  # fmt: skip
 
     def first(self, problem: Problem) -> Floats:

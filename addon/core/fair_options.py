@@ -173,6 +173,31 @@ FAIR: Table = (
         shown=lambda o: _can_continue_on_parts(o) or bool(o.curvature_group),
     ),
     Option(
+        "tension",
+        "Tension",
+        "How far in the surface carries the slopes of its boundary: above 1 it stays near them longer and is fuller, "
+        "below 1 it leaves them sooner",
+        1.0,
+        PARTS,
+        bounds=(0.1, 10.0),
+        slider=(0.5, 2.0),
+        digits=2,
+        step=5,
+        shown=lambda o: (
+            (_can_continue_on_parts(o) and not o.position_group and not o.curvature_group) or o.tension != 1.0
+        ),
+    ),
+    Option(
+        "tension_group",
+        "Tension Group",
+        "Only where the boundary is in this vertex group it has that Tension, with half the weight its square root; "
+        "elsewhere 1",
+        "",
+        PARTS,
+        kind="VERTEX_GROUP",
+        shown=lambda o: o.tension != 1.0,
+    ),
+    Option(
         "use_mask",
         "Use Mask",
         "The mask of sculpt mode scales the Factor of each vertex, outside the selection too: masked vertices have "

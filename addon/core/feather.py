@@ -24,9 +24,10 @@ def refuse_options(options: FairOptions) -> None:
         (options.copies_detail, "Detail From copies a skin that the band does not blend: leave it empty"),
         (
             options.joins_curvature,
-            "Continuity: Curvature, or a Curvature Group, holds the boundary, which the band moves: choose Tangent and no "
-            "group",
+            "Continuity: Curvature, or a Curvature Group, holds the boundary, which the band moves: choose Tangent and "
+            "no group",
         ),
+        (options.has_tension, "Tension holds the boundary, which the band moves: choose 1"),
     ):
         if wrong and options.moves_band:
             raise ValueError(f"{text}, or {without}")

@@ -101,6 +101,7 @@ def _subdivided(mesh: MeshArrays, places: Floats, pairs: Ints, lengths: Floats) 
         held_by_angle=None if by_angle is None else np.concatenate([by_angle, curves & by_angle[ends].any(axis=1)]),
         free_slopes=between(mesh.free_slopes),
         continued=between(mesh.continued),
+        tension=None if mesh.tension is None else np.append(mesh.tension, np.sqrt(mesh.tension[ends].prod(axis=1))),
         parts=None if mesh.parts is None else np.concatenate([mesh.parts, mesh.parts[ends].mean(axis=1)]),
         creases=at_edges(mesh.creases),
         smooth_curves=at_edges(mesh.smooth_curves),

@@ -53,13 +53,29 @@ def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | No
             "Position Group and Curvature Group: no surface finds its slope on one part of its boundary and continues "
             "the curvature on another: leave one of them empty"
         )
+    if options.tension != 1.0 and not options.has_tension:
+        raise ValueError(
+            "Tension is for the shape Harmonic with Continuity: Tangent, without Bulge, Multigrid, Position Group and "
+            "Curvature Group: choose these, or 1"
+        )
     return replace(
         arrays,
         parts=parts_of_the_way(mesh, obj, options),
         sample=sample_faces(mesh, obj, options),
         free_slopes=_in_group(mesh, obj, options, "position_group"),
         continued=_in_group(mesh, obj, options, "curvature_group"),
+        tension=_tension(mesh, obj, options),
     )
+
+
+def _tension(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
+    """Return (n,) the tension at each vertex, to the power of its weight; None where it is 1 everywhere."""
+    group = group_index(obj, options.tension_group, "tension_group")
+    if options.tension == 1.0:
+        return None
+    weights = np.ones(len(mesh.vertices)) if group is None else _group_weights(mesh, group)
+    tension: Floats = options.tension**weights
+    return tension
 
 
 def _in_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions, name: str) -> Mask | None:

@@ -222,3 +222,15 @@ def test_the_curvature_is_continued_on_the_part_that_asks_for_it_as_by_the_opera
     np.testing.assert_allclose(answer, expected.vertices[patch.free], atol=1e-6)
     whole = solve(egg, EYE, FairOptions(continuity="G2", tolerance=1e-9)).result
     assert np.abs(expected.vertices - whole.vertices)[patch.free].max() > 1e-5
+
+
+def test_tension_is_that_of_the_operator() -> None:
+    mesh = replace(sphere(), tension=np.full(len(sphere().positions), 2.0))
+    options = FairOptions(tension=2.0, tolerance=1e-9)
+    region = LiveRegion(mesh, EYE, options)
+    answer = region.answer(mesh.positions[region.vertices], EYE)
+    assert answer is not None and np.linalg.norm(answer, axis=1).max() > 1.001
+    np.testing.assert_allclose(answer, solve(mesh, EYE, options).result.vertices[make_patch(mesh).free], atol=1e-6)
+    stood_in = region.stand_in(mesh.positions[region.vertices], EYE)  # least variation has none
+    assert stood_in is not None
+    np.testing.assert_allclose(np.linalg.norm(stood_in, axis=1), 1.0, atol=1e-4)

@@ -32,6 +32,8 @@ DEFAULTS = {
     "vertex_group": "",
     "position_group": "",
     "curvature_group": "",
+    "tension": 1.0,
+    "tension_group": "",
     "use_mask": False,
     "all_keys": False,
     "detail_from": "",
