@@ -122,7 +122,8 @@ class OdeCurve(Curve):
     curvature: Callable[[Any, Any], Any]
     extra: Callable[[Any, Any], tuple[Any, ...]] = field(default=lambda s, state: ())
 
-    def _slope(self, s: float, state: Any) -> list[Any]:
+    def slope(self, s: float, state: Any) -> list[Any]:
+        """The derivatives of the states."""
         angle = state[2]
         return [np.cos(angle), np.sin(angle), self.curvature(s, state), *self.extra(s, state)]
 
@@ -134,7 +135,7 @@ class OdeCurve(Curve):
 
     def _integrate(self, end: float) -> Any:
         solved = solve_ivp(
-            self._slope, (0.0, end), self.initial, method="DOP853", rtol=1e-13, atol=1e-14,
+            self.slope, (0.0, end), self.initial, method="DOP853", rtol=1e-13, atol=1e-14,
             dense_output=True, max_step=0.02,
         )  # fmt: skip
         if not solved.success:

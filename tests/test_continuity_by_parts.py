@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+import curves
 import fairing
 import shapes
-from domains import Style
+from domains import Domain, Style
 from rough_sphere import rough_sphere
+from surfaces import Revolution
 
 Mask = Callable[[Any], Any]
 
@@ -24,12 +26,20 @@ def faired(patch: shapes.Patch, kinds: Any, **more: Any) -> fairing.FairResult:
     return fairing.fair(shapes.start_from_nothing(patch), patch.triangles, held)
 
 
+def quarter(n_free: int, style: Style) -> shapes.Patch:
+    """Of a cylinder of radius 1, its straight sides along z."""
+    return shapes.on_domain(
+        Domain(Revolution(curves.Line(-1.0, 1.0, 1.0), -1), "rectangle", 0.0, np.pi / 2), n_free, style
+    )
+
+
 CLOSED: dict[str, tuple[Callable[..., shapes.Patch], Mask]] = {
     "hemisphere, half of its rim": (shapes.cap, lambda p: p[:, 0] < 0),
     "hemisphere, nearly all of its rim": (shapes.cap, lambda p: p[:, 0] < 0.8),
     "cylinder's part, a straight side": (
         lambda n, style: shapes.cylinder(n, style, shape="rectangle"), lambda p: p[:, 0] < p[:, 0].min() + 1e-6,
     ),
+    "cylinder's quarter, all but a straight side": (quarter, lambda p: p[:, 1] > 1e-6),
     "tube, one end": (shapes.cylinder, lambda p: p[:, 2] < p[:, 2].min() + 1e-6),
     "flat strip, one side": (
         lambda n, style: shapes.plane(n, style, shape="rectangle"), lambda p: p[:, 2] < p[:, 2].min() + 1e-6,
@@ -99,6 +109,66 @@ def test_curvature_is_continued_where_it_is_asked_for() -> None:
         fairing.Options(fairing.Surface(continuity="G2")),
     )  # fmt: skip
     assert errors[2] == patch.error(plain.vertices)
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_tangent_at_one_end_of_a_tube_and_curvature_at_the_other(seed: int) -> None:
+    """κ = Δ_B H is harmonic and vanishes where nothing but the slope is met: r H′ = F, F′ = r κ, r κ′ = 1.2."""
+    profile = curves.OdeCurve(
+        0.0, 1.4, (1.0, 0.0, np.pi / 2, 0.5, 0.2, 0.0),
+        lambda _, q: 2 * q[3] - np.sin(q[2]) / q[0], lambda _, q: (q[4] / q[0], q[0] * q[5], 1.2 / q[0]),
+    )  # fmt: skip
+    errors = []
+    for n_free in (300, 1200):
+        patch = shapes.on_domain(Domain(Revolution(profile, -1), "tube"), n_free, Style(jitter=0.6, seed=seed))
+        tangent = patch.vertices[patch.fixed][:, 2] < 0.5
+        wrong = patch.mean_curvature[patch.fixed] + tangent  # where it does not count
+        result = faired(patch, np.where(tangent, "G1", "G2"), curvatures=wrong)
+        assert result.converged and result.continuity == "G2" and not result.warnings
+        errors.append(patch.error(result.vertices))
+    assert errors[1] < 0.3 * errors[0] and errors[1] < 5e-4
+    assert patch.error(faired(patch, ["G1"] * len(tangent)).vertices) > 5e-3
+
+
+def test_a_part_that_is_tangent_as_asked_is_no_reason_to_warn() -> None:
+    """Where it is asked for and not known it is."""
+    patch = shapes.torus(500)
+    curvatures = patch.mean_curvature[patch.fixed]
+    x = patch.vertices[patch.fixed][:, 0]
+    kinds = np.where(x <= np.median(x), "G2", "G1")
+    result = faired(patch, kinds, curvatures=curvatures)
+    assert result.continuity == "G2" and not result.warnings
+    asked = np.flatnonzero(kinds == "G2")
+    unknown = asked[np.argsort(x[asked])[: len(asked) // 2]]
+    curvatures[unknown] = np.nan
+    (warning,) = faired(patch, kinds, curvatures=curvatures).warnings
+    assert warning.code == "G2_NOT_MET"
+    assert set(patch.fixed[unknown]) <= set(warning.elements) < set(patch.fixed[asked])  # with arcs too short for waves
+
+
+def test_a_solver_and_a_new_mesh_continue_it_on_a_part_too() -> None:
+    patch = shapes.torus(500)
+    curvatures = patch.mean_curvature[patch.fixed]
+    x = patch.vertices[patch.fixed][:, 0]
+    kinds = np.where(x <= np.median(x), "G2", "G1")
+    start = shapes.start_from_nothing(patch)
+    one = faired(patch, kinds, curvatures=curvatures)
+    solver = fairing.Solver(patch.triangles, fixed=patch.fixed, continuity="G2")
+    again = solver.solve(start, patch.fixed_normals, fixed_curvatures=curvatures, continuity=kinds)
+    assert np.array_equal(again.vertices, one.vertices) and not again.warnings
+    held = fairing.Boundary(patch.fixed, patch.fixed_normals, curvatures, continuity=kinds)
+    new = fairing.remesh(start, patch.triangles, held)
+    assert new.continuity == "G2" and not new.warnings
+
+
+def test_no_curvature_on_any_part_is_a_tangent_join_whatever_the_option_says() -> None:
+    patch = shapes.torus(500)
+    tangent = ["G1"] * len(patch.fixed)
+    curved = fairing.Options(fairing.Surface(continuity="G2"))
+    held = fairing.Boundary(patch.fixed, patch.fixed_normals, patch.mean_curvature[patch.fixed], continuity=tangent)
+    result = fairing.fair(shapes.start_from_nothing(patch), patch.triangles, held, curved)
+    assert result.continuity == "G1"
+    assert np.array_equal(result.vertices, faired(patch, tangent).vertices)
 
 
 def test_one_kind_everywhere_is_the_option_of_before() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 import fairing
 
-from .arrays import Floats, Ints
+from .arrays import Floats, Ints, Words
 from .feather import naming_the_band
 from .findings import Origin
 from .options import FairOptions
@@ -56,6 +56,11 @@ class Problem:
         return Origin(self.vertices, self.patch.triangles, self.patch.faces)
 
     @property
+    def kinds(self) -> Words | None:
+        """The (k,) continuity along patch.fixed, where it differs; None: one for all."""
+        return None if self.patch.continued is None else np.where(self.patch.continued, "G2", "G1")
+
+    @property
     def own_points(self) -> Floats:
         """The (p, 3) points of the patch alone."""
         return self.points[: len(self.patch.vertices)]
@@ -89,6 +94,8 @@ def solve(
         problem.normals,
         problem.curvatures if options.joins_curvature else None,
         problem.outside if reads else None,
+        problem.kinds if options.joins_curvature else None,
+        patch.tension if options.has_tension else None,
     )
     wanted = fairing.Options.of(
         neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
@@ -191,8 +198,9 @@ class RepeatedSolve:
         with in_mesh_words(problem.patch.origin):
             own = problem.posed[: len(problem.patch.vertices)]
             return self._solver.solve(
-                own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures, preview=preview
-            )
+                own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures, preview=preview,
+                continuity=problem.kinds, tension=problem.patch.tension,
+            )  # fmt: skip
 
     def first(self, problem: Problem) -> Floats:
         """Return the (p, 3) vertices of the surface that there always is, within milliseconds; raises MeshRefusal."""

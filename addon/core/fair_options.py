@@ -38,7 +38,11 @@ def _factor(name: str, label: str, text: str, default: float, group: str, **rest
 
 
 def _can_fade(o: Any) -> bool:
-    return not o.remesh and o.continuity != "G2" and not o.smooth_boundary
+    return not o.remesh and o.continuity != "G2" and not o.curvature_group and not o.smooth_boundary
+
+
+def _can_continue_on_parts(o: Any) -> bool:
+    return o.continuity == "G1" and o.shape in ("AUTOMATIC", "HARMONIC") and not (o.multigrid or o.bulge)
 
 
 FAIR: Table = (
@@ -157,6 +161,41 @@ FAIR: Table = (
         PARTS,
         kind="VERTEX_GROUP",
         shown=lambda o: not (o.multigrid or o.smooth_boundary) or bool(o.position_group),
+    ),
+    Option(
+        "curvature_group",
+        "Curvature Group",
+        "Where the selection's boundary is in this vertex group the surface continues the curvature of its "
+        "surroundings, too; elsewhere their slope alone",
+        "",
+        PARTS,
+        kind="VERTEX_GROUP",
+        shown=lambda o: _can_continue_on_parts(o) or bool(o.curvature_group),
+    ),
+    Option(
+        "tension",
+        "Tension",
+        "How far in the surface carries the slopes of its boundary: above 1 it stays near them longer and is fuller, "
+        "below 1 it leaves them sooner",
+        1.0,
+        PARTS,
+        bounds=(0.1, 10.0),
+        slider=(0.5, 2.0),
+        digits=2,
+        step=5,
+        shown=lambda o: (
+            (_can_continue_on_parts(o) and not o.position_group and not o.curvature_group) or o.tension != 1.0
+        ),
+    ),
+    Option(
+        "tension_group",
+        "Tension Group",
+        "Only where the boundary is in this vertex group it has that Tension, with half the weight its square root; "
+        "elsewhere 1",
+        "",
+        PARTS,
+        kind="VERTEX_GROUP",
+        shown=lambda o: o.tension != 1.0,
     ),
     Option(
         "use_mask",

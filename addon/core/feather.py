@@ -22,7 +22,12 @@ def refuse_options(options: FairOptions) -> None:
     for wrong, text in (
         (options.outline != "GIVEN", "Smooth Boundary moves vertices of the band: turn it off"),
         (options.copies_detail, "Detail From copies a skin that the band does not blend: leave it empty"),
-        (options.joins_curvature, "Continuity: Curvature holds the boundary, which the band moves: choose Tangent"),
+        (
+            options.joins_curvature,
+            "Continuity: Curvature, or a Curvature Group, holds the boundary, which the band moves: choose Tangent and "
+            "no group",
+        ),
+        (options.has_tension, "Tension holds the boundary, which the band moves: choose 1"),
     ):
         if wrong and options.moves_band:
             raise ValueError(f"{text}, or {without}")

@@ -77,6 +77,9 @@ class FairOptions:
     boundary_normals: str = "AUTOMATIC"  # INSIDE along hard edges of the boundary, SURROUNDING elsewhere
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     position_group: str = ""  # name of a vertex group, along which the boundary's position alone is kept
+    curvature_group: str = ""  # name of a vertex group, along which the curvature outside is continued, too
+    tension: float = 1.0  # how far the slopes of the boundary are carried in
+    tension_group: str = ""  # name of a vertex group, whose weights are exponents of the tension
     method: str = "GLOBAL"
     levels: int = 0  # 0: chosen by the engine
     tolerance: float = 1e-6  # of the patch's diameter
@@ -110,6 +113,8 @@ class FairOptions:
                 raise ValueError(f"{name}: expected a number from 0 to 1, got {getattr(self, name)!r}")
         if not 0.0 <= self.feather < float("inf"):
             raise ValueError(f"feather: expected 0 or a positive number, got {self.feather!r}")
+        if not 0.0 < self.tension < float("inf"):
+            raise ValueError(f"tension: expected a positive number, got {self.tension!r}")
         if self.detail_face_set < 0:
             raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
@@ -152,13 +157,20 @@ class FairOptions:
     @property
     def joins_curvature(self) -> bool:
         """Whether the curvature outside counts: only for the harmonic shape of the fast solver."""
-        return self.continuity == "G2" and self.equation in OF_CURVATURE and self.method == "GLOBAL"
+        wanted = self.continuity == "G2" or bool(self.curvature_group)
+        return wanted and self.equation in OF_CURVATURE and self.method == "GLOBAL"
 
     @property
     def frees_slopes(self) -> bool:
         """Whether the surface finds its slope along the position group: no equation has it beside given curvatures."""
         may = self.equation != "MINIMAL" and self.method == "GLOBAL" and self.outline == "GIVEN"
         return bool(self.position_group) and may and not self.joins_curvature
+
+    @property
+    def has_tension(self) -> bool:
+        """Whether slopes are carried in further, or less far: only by the harmonic shape of the fast solver."""
+        may = self.equation in OF_CURVATURE and self.method == "GLOBAL"
+        return self.tension != 1.0 and may and not self.joins_curvature and not self.position_group
 
     @property
     def slope_at_pinned_edges(self) -> str:
@@ -239,6 +251,8 @@ class FairOptions:
             "continuity": self.equation in OF_CURVATURE and self.method == "GLOBAL",
             "boundary_normals": self.equation != "MINIMAL",
             "position_group": self.frees_slopes,
+            "curvature_group": self.joins_curvature and self.continuity == "G1",
+            "tension_group": self.has_tension,
             "levels": self.method == "PAPER",
             "spacing": self.mesh == "NEW",
             "inner": self.mesh == "NEW",

@@ -187,7 +187,9 @@ def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progre
     arguments = {**options.engine_arguments(), "creases": patch.slopes_found, "smooth_curves": patch.smooth_curves}
     for name in ("method", "levels", "detail", "detail_size"):
         del arguments[name]
-    boundary = fairing.Boundary(patch.fixed, problem.normals, problem.curvatures)
+    boundary = fairing.Boundary(
+        patch.fixed, problem.normals, problem.curvatures, continuity=problem.kinds, tension=patch.tension
+    )
     with in_mesh_words(problem.origin):
         return fairing.remesh(
             problem.posed[: len(patch.vertices)], patch.triangles, boundary, fairing.Options.of(**arguments),

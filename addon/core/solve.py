@@ -123,10 +123,18 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
 
 
 def _odd_in_words(mesh: MeshArrays, patch: Patch, options: FairOptions) -> tuple[str, ...]:
-    """Return notes on positions that are too coarse, and on a group that frees no slope."""
-    idle = mesh.free_slopes is not None and not len(patch.free_slopes)
-    group = f"The position group {options.position_group!r} has no vertex on the selection's boundary: it frees nothing"
-    return tuple(note for note in (precision_note(mesh), group if idle else "") if note)
+    """Return notes on positions that are too coarse, and on groups of boundary vertices that have none."""
+    notes = [precision_note(mesh)]
+    if mesh.free_slopes is not None and not len(patch.free_slopes):
+        notes.append(
+            f"The position group {options.position_group!r} has no vertex on the selection's boundary: it frees nothing"
+        )
+    if patch.continued is not None and not patch.continued.any():
+        notes.append(
+            f"The curvature group {options.curvature_group!r} has no vertex on the selection's boundary: "
+            "the surface is tangent all along it"
+        )
+    return tuple(note for note in notes if note)
 
 
 def _solve_again(

@@ -84,7 +84,10 @@ def _subdivided(mesh: MeshArrays, places: Floats, pairs: Ints, lengths: Floats) 
     def at_edges(values: Mask | None) -> Mask | None:
         return None if values is None else np.concatenate([values, values[of_edge]])
 
-    by_angle, free_slopes = mesh.held_by_angle, mesh.free_slopes
+    def between(values: Mask | None) -> Mask | None:
+        return None if values is None else np.concatenate([values, values[ends].all(axis=1)])
+
+    by_angle = mesh.held_by_angle
     whole = replace(
         mesh,
         positions=np.concatenate([mesh.positions, new]),
@@ -97,7 +100,9 @@ def _subdivided(mesh: MeshArrays, places: Floats, pairs: Ints, lengths: Floats) 
         triangle_faces=mesh.triangle_faces[found.parent],
         pinned=np.concatenate([mesh.pinned, curves]),
         held_by_angle=None if by_angle is None else np.concatenate([by_angle, curves & by_angle[ends].any(axis=1)]),
-        free_slopes=None if free_slopes is None else np.concatenate([free_slopes, free_slopes[ends].all(axis=1)]),
+        free_slopes=between(mesh.free_slopes),
+        continued=between(mesh.continued),
+        tension=None if mesh.tension is None else np.append(mesh.tension, np.sqrt(mesh.tension[ends].prod(axis=1))),
         parts=None if mesh.parts is None else np.concatenate([mesh.parts, mesh.parts[ends].mean(axis=1)]),
         creases=at_edges(mesh.creases),
         smooth_curves=at_edges(mesh.smooth_curves),

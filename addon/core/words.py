@@ -30,6 +30,8 @@ _SLOPE_ONLY = (
     "{vertices:.0f} of the boundary's {outline_vertices:.0f} vertices are met in slope only, not in curvature. "
 )
 
+_NO_TENSION = "Tension counts for nothing here: "
+
 WORDS: dict[str, tuple[Words, ...]] = {
     "NONFINITE": (
         Words("The normal at vertex {first} is NaN or infinite", when="normals"),
@@ -358,6 +360,13 @@ WORDS: dict[str, tuple[Words, ...]] = {
         Words(
             _SLOPE_ONLY + "Too little of the curvature is known outside: leave three rings of regular faces around it"
         ),
+    ),
+    "TENSION_NOT_MET": (
+        Words(_NO_TENSION + "lone pinned vertices have no slope to carry", when="lone_pins"),
+        Words(_NO_TENSION + "a surface that finds its slope at edges or borders has none", when="other_equation"),
+        Words(_NO_TENSION + "the faces are too irregular for it: Remesh first", when="own_mesh"),
+        Words(_NO_TENSION + "no surface was found to begin with: see the other messages", when="no_tangent_join"),
+        Words(_NO_TENSION + "no surface with it was found: choose one nearer to 1"),
     ),
     "PINS_NOT_SPREAD": (
         Words(

@@ -44,22 +44,47 @@ def members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
 
 
 def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> MeshArrays:
-    """Return the arrays with what vertex groups and the mask say of them; raises what these raise."""
+    """Return the arrays with what vertex groups and the mask say of them; raises what these raise.
+
+    ValueError also where groups contradict each other, wherever their vertices are.
+    """
+    if options.position_group and options.curvature_group:
+        raise ValueError(
+            "Position Group and Curvature Group: no surface finds its slope on one part of its boundary and continues "
+            "the curvature on another: leave one of them empty"
+        )
+    if options.tension != 1.0 and not options.has_tension:
+        raise ValueError(
+            "Tension is for the shape Harmonic with Continuity: Tangent, without Bulge, Multigrid, Position Group and "
+            "Curvature Group: choose these, or 1"
+        )
     return replace(
         arrays,
         parts=parts_of_the_way(mesh, obj, options),
         sample=sample_faces(mesh, obj, options),
-        free_slopes=free_slopes(mesh, obj, options),
+        free_slopes=_in_group(mesh, obj, options, "position_group"),
+        continued=_in_group(mesh, obj, options, "curvature_group"),
+        tension=_tension(mesh, obj, options),
     )
 
 
-def free_slopes(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Mask | None:
-    """Return the (n,) mask of the position group; None where none is asked for.
+def _tension(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
+    """Return (n,) the tension at each vertex, to the power of its weight; None where it is 1 everywhere."""
+    group = group_index(obj, options.tension_group, "tension_group")
+    if options.tension == 1.0:
+        return None
+    weights = np.ones(len(mesh.vertices)) if group is None else _group_weights(mesh, group)
+    tension: Floats = options.tension**weights
+    return tension
+
+
+def _in_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions, name: str) -> Mask | None:
+    """Return the (n,) mask of the vertex group that the option of that name asks for; None where it asks for none.
 
     obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group.
     """
-    group = group_index(obj, options.position_group, "position_group")
-    if group is None or not options.frees_slopes:
+    group = group_index(obj, getattr(options, name), name)
+    if group is None or name in options.idle:
         return None
     return _group_weights(mesh, group) > 0.0
 

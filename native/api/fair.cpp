@@ -56,6 +56,7 @@ public:
         result_.joins_curvature =
             result_.joins_curvature && (solution.join == Join::curvature || solution.join == Join::partly_curvature);
         warn_of_join(patch, solution, result_.warnings);
+        warn_of_tension(patch, solution, result_.warnings);
         warn_of_pins(patch, solution, result_.warnings);
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
@@ -228,6 +229,7 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
     const ComponentData data{input.vertices,
                              prepared->mesh.normals,
                              prepared->mesh.curvatures,
+                             prepared->mesh.log_tensions,
                              reference.value_or(input.vertices),
                              input.outside,
                              input.fixed_normals.has_value(),

@@ -8,6 +8,12 @@
 
 namespace fairing {
 
+// How the boundary is joined, at the fixed vertices given (api/input).
+struct GivenJoin {
+    std::optional<VectorX> curvatures = {};
+    std::optional<VectorX> tensions = {};
+};
+
 struct PreparedMesh;
 struct CallOptions;
 
@@ -21,7 +27,7 @@ public:
     ~FairSolver();
 
     // What fair() gives: the first time bit for bit, then to the tolerance. Throws the same; the solver stays usable.
-    FairResult solve(Points vertices, std::optional<Points> fixed_normals, std::optional<VectorX> fixed_curvatures,
+    FairResult solve(Points vertices, std::optional<Points> fixed_normals, GivenJoin join,
                      const std::optional<View<Points>>& reference, const ProgressCallback& progress,
                      const Preview& preview = {});
 

@@ -21,10 +21,11 @@ struct MeshInput {
     Triangles triangles;
     std::optional<Indices> fixed;                  // left out: the mesh border
     std::optional<Points> fixed_normals;           // 3 × |fixed|
-    std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known
+    std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known, ∞: tangent
     Triangles outside = {};                        // around the patches; they stay
     HeldInside held = {};
-    Triangles sample = {};  // whose detail is put on the surface; empty: the patch's own is
+    Triangles sample = {};                       // whose detail is put on the surface; empty: the patch's own is
+    std::optional<VectorX> fixed_tensions = {};  // at `fixed`, positive; left out: 1
 
     // Free vertices there are at most: border vertices may not be named.
     [[nodiscard]] int most_free() const {
@@ -42,9 +43,10 @@ struct MeshTopology {
 
 // The mesh after all checks.
 struct CheckedMesh : MeshTopology {
-    FixedNormals normals;  // prescribed unit normals, at `roles.fixed`
-    VectorX curvatures;    // prescribed H of each vertex, NaN elsewhere; empty where none are prescribed
-    Diagnostics warnings;  // of the geometry
+    FixedNormals normals;       // prescribed unit normals, at `roles.fixed`
+    VectorX curvatures;         // prescribed H of each vertex, NaN elsewhere; empty where none are prescribed
+    Diagnostics warnings;       // of the geometry
+    VectorX log_tensions = {};  // of each vertex, 0 where none is prescribed; empty: all are
 };
 
 // Throws MeshError: INDEX_RANGE, NONFINITE (triangles between fixed vertices may have such corners: they are left out),

@@ -35,6 +35,7 @@ enum class Code {
     no_solution,
     precision,
     g2_not_met,
+    tension_not_met,
     pins_not_spread,
 };
 

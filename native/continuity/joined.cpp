@@ -89,7 +89,8 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     if (!tangent.polished) return with_join(std::move(tangent), Join::other_mesh);
     const KnownCurvature known = known_curvature(problem.patch, tangent.points, problem.fixed_curvatures);
     tangent.tangent_only = known.unknown;
-    if (known.curves.empty()) return with_join(std::move(tangent), Join::curvature_unknown);
+    if (known.curves.empty())
+        return with_join(std::move(tangent), known.unknown.empty() ? Join::curvature : Join::curvature_unknown);
     const VectorX missing = known.missing(tangent.mean_curvature.tail(known.values.size()));
     if (relative_size(known, missing) <= negligible) return with_join(std::move(tangent), kind_of(known));
     const VectorX smooth = smooth_part(problem, known, missing);

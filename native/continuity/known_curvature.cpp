@@ -29,11 +29,11 @@ void bridge(const Indices& loop, VectorX& curvatures) {
     const std::size_t count = loop.size();
     for (std::size_t k = 0; k < count; ++k) {
         const double here = curvatures[loop[k]];
-        if (!std::isfinite(here) || std::isfinite(curvatures[loop[(k + 1) % count]])) continue;
+        if (!std::isfinite(here) || !std::isnan(curvatures[loop[(k + 1) % count]])) continue;
         std::size_t gap = 1;
-        while (gap <= widest_bridge && !std::isfinite(curvatures[loop[(k + 1 + gap) % count]])) ++gap;
-        if (gap > widest_bridge) continue;
+        while (gap <= widest_bridge && std::isnan(curvatures[loop[(k + 1 + gap) % count]])) ++gap;
         const double there = curvatures[loop[(k + 1 + gap) % count]];
+        if (gap > widest_bridge || !std::isfinite(there)) continue;
         for (std::size_t n = 1; n <= gap; ++n) {
             const double share = static_cast<double>(n) / static_cast<double>(gap + 1);
             curvatures[loop[(k + n) % count]] = (1.0 - share) * here + share * there;
@@ -94,7 +94,7 @@ KnownCurvature known_curvature(const Patch& patch, const Points& points, const V
             known.values[place] = filled[place];
         }
     }
-    std::erase_if(known.unknown, [&](int place) { return covered[place] != 0; });
+    std::erase_if(known.unknown, [&](int place) { return covered[place] != 0 || std::isinf(curvatures[place]); });
     std::sort(known.unknown.begin(), known.unknown.end());
     return known;
 }

@@ -10,13 +10,14 @@ constexpr int largest_solved = 1000;  // free vertices
 // Beyond, surfaces are about to lose their hold: long pipes went on to bulbs.
 constexpr double largest_share = 0.4;
 
-// S (½ (κ₁² + κ₂²) u) over the free vertices.
+// S (½ w (κ₁² + κ₂²) u) over the free vertices.
 VectorX reaction(const Problem& problem, const SurfaceState& state, const VectorX& u) {
     const int count = problem.patch.free_count;
     const auto H = state.curvature.mean.head(count).array();
     const VectorX K = state.curvature.gaussian();
     Eigen::RowVectorXd field = Eigen::RowVectorXd::Zero(problem.patch.vertex_count());
     field.head(count) = (2.0 * H.square() - K.head(count).array()) * u.array();
+    if (state.weight.size() > 0) field.array() *= state.weight.transpose().array();
     return state.stiffness.apply(problem.patch, field, count).transpose();
 }
 

@@ -100,7 +100,8 @@ Raised raised(const Patch& patch, const SurfaceState& state, const VectorX& heig
 double largest_length(const Points& field) { return std::sqrt(field.colwise().squaredNorm().maxCoeff()); }
 
 VectorX harmonic_residual(const Problem& problem, const SurfaceState& state) {
-    const Eigen::RowVectorXd H = state.curvature.mean.transpose();
+    Eigen::RowVectorXd H = state.curvature.mean.transpose();
+    if (state.weight.size() > 0) H.array() *= state.weight.transpose().array();
     return state.stiffness.apply(problem.patch, H, problem.patch.free_count).transpose();
 }
 

@@ -12,6 +12,7 @@ struct SurfaceState {
     Stiffness stiffness;
     Points normals;
     PatchCurvature curvature;
+    VectorX weight;  // of H in the outer equation, Δ_B (w H); empty: one
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);
@@ -43,7 +44,7 @@ double curvature_variation(const Problem& problem, const Points& points);
 // Largest length of a column.
 double largest_length(const Points& field);
 
-// (S H)_i at the free vertices, minus 2 M_i (Δ_B H)_i.
+// (S w H)_i at the free vertices, minus 2 M_i (Δ_B w H)_i.
 VectorX harmonic_residual(const Problem& problem, const SurfaceState& state);
 
 // r_i of the outer equation at the free vertices: 2 M_i (f − Δ_B H)_i with f = 0, the load, or −2 H (H² − K); 4 M_i H_i

@@ -15,6 +15,7 @@ from core.held_curves import none, with_pinned_edges
 from core.live_region import LiveRegion, Surroundings, surroundings
 from core.options import FairOptions
 from core.region import MeshArrays, make_patch
+from core.solve import solve
 from polygon_mesh import grid, on_sphere
 
 EYE = np.eye(4)
@@ -206,3 +207,30 @@ def test_the_first_surface_is_near_the_answer() -> None:
     np.testing.assert_allclose(np.linalg.norm(first, axis=1), 1.0, atol=5e-3)
     positions[np.searchsorted(region.vertices, region.free)] += 0.3
     np.testing.assert_array_equal(region.first(positions, EYE), first)
+
+
+def test_the_curvature_is_continued_on_the_part_that_asks_for_it_as_by_the_operator() -> None:
+    egg = grid(SIZE, 0.6, lambda points: on_sphere(points) * [1.0, 2.5, 1.0])
+    mesh = replace(egg, continued=egg.positions[:, 1] > 0.0)
+    options = FairOptions(curvature_group="Upper", tolerance=1e-9)
+    region = LiveRegion(mesh, EYE, options)
+    answer = region.answer(mesh.positions[region.vertices], EYE)
+    patch = make_patch(mesh)
+    expected = solve(mesh, EYE, options).result
+    assert expected.continuity == "G2" and not expected.warnings
+    assert answer is not None
+    np.testing.assert_allclose(answer, expected.vertices[patch.free], atol=1e-6)
+    whole = solve(egg, EYE, FairOptions(continuity="G2", tolerance=1e-9)).result
+    assert np.abs(expected.vertices - whole.vertices)[patch.free].max() > 1e-5
+
+
+def test_tension_is_that_of_the_operator() -> None:
+    mesh = replace(sphere(), tension=np.full(len(sphere().positions), 2.0))
+    options = FairOptions(tension=2.0, tolerance=1e-9)
+    region = LiveRegion(mesh, EYE, options)
+    answer = region.answer(mesh.positions[region.vertices], EYE)
+    assert answer is not None and np.linalg.norm(answer, axis=1).max() > 1.001
+    np.testing.assert_allclose(answer, solve(mesh, EYE, options).result.vertices[make_patch(mesh).free], atol=1e-6)
+    stood_in = region.stand_in(mesh.positions[region.vertices], EYE)  # least variation has none
+    assert stood_in is not None
+    np.testing.assert_allclose(np.linalg.norm(stood_in, axis=1), 1.0, atol=1e-4)

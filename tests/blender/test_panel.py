@@ -220,7 +220,7 @@ def test_redo_panel_never_shows_more_than_twelve(first: Any, second: Any) -> Non
 
 def test_redo_panel_has_every_option() -> None:
     everything = in_redo_panel(True, detail=0.5, pin_group="Pin", pin_edges="SEAM", multigrid=True)
-    found = [*everything, *in_redo_panel(True, remesh=True), *in_redo_panel(True)]
+    found = [*everything, *in_redo_panel(True, remesh=True), *in_redo_panel(True), *in_redo_panel(True, tension=2.0)]
     assert len(everything) == len(set(everything))
     # The eyedropper stands for a number.
     assert {*found, "detail_face_set"} == {option.name for option in module("core.fair_options").FAIR}
@@ -241,7 +241,7 @@ def test_what_is_hidden_has_no_effect(first: Any, second: Any) -> None:
         if option.items:
             other = option.items[-1][0]
         changed = options.named({**chosen, option.name: other})
-        refused = ("falloff", "vertex_group", "use_mask", "smooth_boundary", "detail")
+        refused = ("falloff", "vertex_group", "use_mask", "smooth_boundary", "detail", "tension")
         if option.name not in refused and not (chosen["remesh"] and option.name == "inner_fairness"):
             assert table.named(fair, option.name).target in changed.idle or changed == plain, option.name
 

@@ -60,15 +60,17 @@ def taken(call: str, options: Options | None, before: dict[str, Any], threads: i
     }
     curvatures = before.pop("fixed_curvatures", None)
     _, chosen = adopted(call, None, options, before, level=4)
-    return {**made_here, **flat(chosen, threads, curvatures)}
+    return {**made_here, **flat(chosen, threads, Boundary(curvatures=curvatures))}
 
 
-def flat(chosen: Options, threads: int, curvatures: Any = None) -> dict[str, Any]:
-    """Options by name, with ``threads`` and ``fixed_curvatures`` where these are given."""
+def flat(chosen: Options, threads: int, boundary: Boundary | None = None) -> dict[str, Any]:
+    """Options by name, with ``threads`` and, as "fixed_…", how the boundary is joined, where these are given."""
     found = chosen.chosen
     if threads:
         found["threads"] = threads
-    return found if curvatures is None else {**found, "fixed_curvatures": curvatures}
+    joined = () if boundary is None else ("curvatures", "continuity", "tension")
+    given = {f"fixed_{name}": getattr(boundary, name) for name in joined}
+    return {**found, **{name: value for name, value in given.items() if value is not None}}
 
 
 def _example(before: dict[str, Any]) -> str:

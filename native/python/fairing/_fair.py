@@ -114,7 +114,8 @@ def solved(
     joins = _options.continuity(surface.continuity, surface.equation, solving.method)
     around = _mending.Surroundings.of(points, faces, fixed, boundary.outside)
     sample = _sample(skin, count, around, fixed)
-    as_given = _mending.Boundary(points, fixed, normals)
+    tension = _options.tension(boundary, fixed, chosen)
+    as_given = _mending.Boundary(points, fixed, normals, tensions=tension)
     if not joins and boundary.curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
@@ -122,14 +123,17 @@ def solved(
 
     def call(held: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            held.vertices, faces, held.fixed, held.normals, held.curvatures, m0, edges, rows, around.outside, sample,
-            engine, of_paper, progress, preview,
+            held.vertices, faces, held.fixed, held.normals, held.curvatures, held.tensions, m0, edges, rows,
+            around.outside, sample, engine, of_paper, progress, preview,
         )  # fmt: skip
 
     fitted = _arguments.choice("outline", surface.outline, _options.OUTLINES) == "mended"
     if fitted:
         _mending.refuse_creases(curves.creases, around)
-    refused = {"reference": m0 is not None, "outline": fitted, "continuity": joins, "detail_from": sample is not None}
+    refused = {
+        "reference": m0 is not None, "outline": fitted, "continuity": joins, "detail_from": sample is not None,
+        "tension": tension is not None,
+    }  # fmt: skip
     fade = _fade(skin, shown, refused, count, threads, progress)
     if fade is not None:
         return FairResult(**_feather.solve_feathered(call, as_given, around, fade))

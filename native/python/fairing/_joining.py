@@ -15,12 +15,12 @@ from fairing._parts import where_met
 
 
 def with_curvatures(boundary: Boundary, around: Surroundings, given: Any, kinds: Any = None) -> Boundary:
-    """The boundary with H at ``fixed``, NaN where it is not known: as given, or fitted to the triangles outside.
+    """The boundary with H at ``fixed``, as given, or fitted to the triangles outside, NaN where it is not known.
 
     kinds: the words of the continuity at ``fixed`` (k,), where they differ.
     """
     if given is not None:
-        return replace(boundary, curvatures=_arguments.curvatures(given, boundary.fixed))
+        return replace(boundary, curvatures=where_met(_arguments.curvatures(given, boundary.fixed), kinds))
     if not len(around.rim):
         raise ValueError(
             "continuity: 'G2' needs the curvature at the outline: pass fixed_curvatures, or the triangles outside as "
@@ -38,4 +38,4 @@ def with_curvatures(boundary: Boundary, around: Surroundings, given: Any, kinds:
         normals = np.where(chosen[:, None], beyond.normals, fits.normals)
         against = (normals * given).sum(axis=1) < 0
         curvatures = np.where(against, -curvatures, curvatures)  # H on the side of the normals
-    return replace(boundary, fixed=fixed, curvatures=curvatures if kinds is None else where_met(curvatures, kinds))
+    return replace(boundary, fixed=fixed, curvatures=where_met(curvatures, kinds))

@@ -1,4 +1,4 @@
-"""Continuity that differs along the boundary, as the engine has it: free slopes, and curvatures that are not known."""
+"""Continuity that differs along the boundary, as the engine has it: free slopes, and curvatures not asked for."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ KINDS = ("G0", "G1", "G2")
 
 
 def by_parts(boundary: Boundary, options: Options) -> tuple[Boundary, Options]:
-    """The boundary and the options of a call; ``continuity`` stays in the boundary where curvatures are to be fitted.
+    """The boundary and the options of a call; ``continuity`` stays in the boundary where some of it is "G2".
 
     Raises ValueError for other words or another shape, for what contradicts ``options``, and for "G0" beside "G2".
     """
     if boundary.continuity is None:
         return boundary, options
-    kinds = _checked(boundary.continuity, boundary.vertices)
+    kinds = checked(boundary.continuity, boundary.vertices)
     fixed = _arguments.integers("fixed", boundary.vertices, None)  # type: ignore[arg-type]
     loose, curved = kinds == "G0", kinds == "G2"
     if loose.any() and (curved.any() or options.surface.continuity == "G2"):
@@ -30,28 +30,29 @@ def by_parts(boundary: Boundary, options: Options) -> tuple[Boundary, Options]:
             "continuity: 'G0' and 'G2' are not accepted in one boundary: a surface with free slopes is one of least "
             "variation, and curvatures are met by the harmonic equation"
         )
+    if boundary.tension is not None and (loose | curved).any():
+        raise ValueError("tension: not accepted where some of `continuity` is 'G0' or 'G2'; accepted with 'G1' alone")
     if loose.any():
         given = _arguments.integers("creases", _or_none(options.curves.creases), None)
         options = options.changed(creases=np.union1d(given, fixed[loose]).astype(np.int32))
     if not curved.any():
+        if options.surface.continuity == "G2":  # the words along the boundary say more
+            boundary, options = replace(boundary, curvatures=None), options.changed(continuity="G1")
         return replace(boundary, continuity=None), options
-    options = options.changed(continuity="G2")
-    if boundary.curvatures is None:
-        return replace(boundary, continuity=kinds), options
-    known = where_met(_arguments.curvatures(boundary.curvatures, fixed), kinds)
-    return replace(boundary, curvatures=known, continuity=None), options
+    return replace(boundary, continuity=kinds), options.changed(continuity="G2")
 
 
 def where_met(curvatures: FloatArray, kinds: Any) -> FloatArray:
-    """(k,) curvatures of the vertices that are to continue them, NaN at the others."""
-    return np.where(kinds == "G2", curvatures, np.nan)
+    """(k,) curvatures of the vertices that are to continue them, infinite at the others; ``kinds`` None: all are."""
+    return curvatures if kinds is None else np.where(kinds == "G2", curvatures, np.inf)
 
 
 def _or_none(value: npt.ArrayLike | None) -> npt.ArrayLike:
     return np.empty(0, dtype=np.int32) if value is None else value
 
 
-def _checked(value: Any, vertices: Any) -> npt.NDArray[np.str_]:
+def checked(value: Any, vertices: Any) -> npt.NDArray[np.str_]:
+    """The (k,) words of ``continuity``; raises ValueError for others, or another shape than that of ``vertices``."""
     if vertices is None:
         raise ValueError("continuity: needs `vertices`, whose order it follows")
     kinds = np.asarray(value)

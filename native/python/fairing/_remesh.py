@@ -66,9 +66,9 @@ def remesh(
     that is less, 4 000 000 at most.
     """
     around, chosen = adopted("remesh", boundary, options, before)
-    if around.continuity is not None:
+    if around.continuity is not None and around.curvatures is None:
         raise ValueError("continuity: 'G2' on parts of the boundary needs `curvatures` here")
-    given = flat(chosen, threads, around.curvatures)
+    given = flat(chosen, threads, around)
     points = _arguments.floats("vertices", vertices)
     corners = _arguments.triangles_within(triangles, len(points))
     held, given_normals = _arguments.boundary(around.vertices, around.normals)

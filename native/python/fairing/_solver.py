@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _options, _paper
+from fairing import _arguments, _core, _options, _paper, _parts
 from fairing._fair import Preview, Progress
 from fairing._paper import PaperOptions
 from fairing._types import FairResult, FloatArray, IntArray
@@ -130,32 +130,40 @@ class Solver:
         progress: Progress | None = None,
         fixed_curvatures: npt.ArrayLike | None = None,
         preview: Preview | None = None,
+        continuity: npt.ArrayLike | None = None,
+        tension: npt.ArrayLike | None = None,
     ) -> FairResult:
         """Solve for these positions and normals; arguments, result and errors are those of fairing.fair.
 
         ``reference`` left out is ``vertices``, as there. Give the same one each time for weights that depend on
         it, or they are made anew, and factorised, whenever a vertex has moved. With continuity "G2"
-        ``fixed_curvatures`` must be given; :func:`fairing.surrounding_normals` fits them.
+        ``fixed_curvatures`` must be given; :func:`fairing.surrounding_normals` fits them. ``continuity`` says where
+        along ``fixed`` they are met, "G2", and where the join is tangent only, "G1"; default: met everywhere.
+        ``tension`` is that of :class:`fairing.Boundary`.
         """
         points = _arguments.floats("vertices", vertices)
         count = points.shape[0]
         if fixed_normals is not None and self._fixed is None:
             raise ValueError("fixed_normals: needs `fixed`, whose order it follows")
         _, given_normals = _arguments.boundary(self._fixed, fixed_normals)
-        curvatures = self._curvatures(fixed_curvatures)
+        curvatures = self._curvatures(fixed_curvatures, continuity)
         m0 = None if reference is None else _arguments.floats("reference", reference, count)
         if self._neighbours is not None:
             _arguments.indices_within("neighbours", self._neighbours, count)
         if self._weights is not None:
             _arguments.indices_within("inner_fairness", self._weights[:, :2].astype(np.int32), count)
         callback = _options.callback(progress)
-        return FairResult(**self._engine.solve(points, given_normals, curvatures, m0, callback, preview))
+        tensions = None if tension is None else _arguments.tensions(tension, self._fixed)
+        return FairResult(**self._engine.solve(points, given_normals, curvatures, tensions, m0, callback, preview))
 
-    def _curvatures(self, given: npt.ArrayLike | None) -> FloatArray | None:
+    def _curvatures(self, given: npt.ArrayLike | None, kinds: npt.ArrayLike | None) -> FloatArray | None:
         """Checked; needed for "G2" and refused without it."""
         joins = self._options["continuity"] == "G2"
         if joins != (given is not None):
             raise ValueError(
                 f"fixed_curvatures: {'needed' if joins else 'refused'} with continuity {self._options['continuity']!r}"
             )
-        return None if given is None else _arguments.curvatures(given, self._fixed)
+        if given is None:
+            return None
+        words = None if kinds is None else _parts.checked(kinds, self._fixed)
+        return _parts.where_met(_arguments.curvatures(given, self._fixed), words)

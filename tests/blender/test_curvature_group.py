@@ -1,0 +1,100 @@
+"""*Curvature Group*: parts of the selection's boundary along which the curvature outside is continued, too."""
+
+from __future__ import annotations
+
+import bpy
+import meshes
+import numpy as np
+import pytest
+from extension import inspect, module
+from test_position_group import put
+
+ASPECT = 1.6  # of an egg, which is no harmonic surface
+
+
+def rough_egg() -> tuple[bpy.types.Object, meshes.Mask, meshes.Mask]:
+    """An egg, faces selected on its side, and their free vertices, which are rough."""
+    obj = meshes.sphere(64)
+    points = meshes.positions(obj) * [1.0, 1.0, ASPECT]
+    faces = meshes.faces_where(obj, lambda c: c.x > 0.5)
+    meshes.move(obj, points)
+    free = meshes.free_vertices(obj, faces)
+    points[free] *= 1.0 + 0.01 * np.random.default_rng(3).normal(size=(free.sum(), 1))
+    meshes.move(obj, points)
+    return obj, faces, free
+
+
+def faired(towards: meshes.Floats | None, **options: object) -> tuple[meshes.Floats, meshes.Floats]:
+    """How high the free vertices end above the egg, and where; the group is what lies in that direction."""
+    obj, faces, free = rough_egg()
+    if towards is not None:
+        put(obj, meshes.positions(obj) @ towards > 0.0)
+    assert meshes.fair(obj, faces, **options) == {"FINISHED"}
+    points = meshes.positions(obj)[free]
+    return np.abs(np.linalg.norm(points / [1.0, 1.0, ASPECT], axis=1) - 1.0), points
+
+
+def test_the_curvature_is_continued_along_the_group_alone() -> None:
+    """Its side of the dent comes nearer to the egg; the other stays as with tangent joins."""
+    up = np.array([0.0, 0.0, 1.0])
+    tangent, places = faired(None)
+    parted, _ = faired(up, curvature_group="Loose")
+    curved, _ = faired(None, continuity="G2")
+    above, below = places[:, 2] > 0.4, places[:, 2] < -0.4
+    assert curved.mean() < parted.mean() < tangent.mean()
+    assert parted[above].mean() < 0.8 * tangent[above].mean()
+    assert abs(parted[below].mean() - tangent[below].mean()) < abs(curved[below].mean() - tangent[below].mean())
+
+
+def test_all_of_the_boundary_is_curvature_for_all() -> None:
+    everywhere = np.array([1.0, 0.0, 0.0])
+    np.testing.assert_array_equal(faired(everywhere, curvature_group="Loose")[1], faired(None, continuity="G2")[1])
+
+
+def test_a_part_that_is_tangent_as_asked_is_not_reported() -> None:
+    faired(np.array([0.0, 0.0, 1.0]), curvature_group="Loose")
+    assert (meshes.report().verdict, meshes.report().warnings) == ("GOOD", "")
+
+
+@pytest.mark.parametrize("remesh", [False, True])
+def test_a_group_off_the_boundary_says_so_and_the_join_is_tangent(remesh: bool) -> None:
+    obj, faces, free = rough_egg()
+    put(obj, free)
+    notes = inspect(obj, faces, curvature_group="Loose").notes
+    assert any("tangent all along" in note for note in notes)
+    assert meshes.fair(obj, faces, curvature_group="Loose", remesh=remesh) == {"FINISHED"}
+    if not remesh:
+        np.testing.assert_array_equal(meshes.positions(obj)[free], faired(None)[1])
+
+
+def test_both_groups_are_refused_and_nothing_changes() -> None:
+    obj, faces, _ = rough_egg()
+    above = meshes.positions(obj)[:, 2] > 0.0
+    put(obj, above)
+    obj.vertex_groups.new(name="Curved").add(np.flatnonzero(~above).tolist(), 1.0, "REPLACE")
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match="Position Group and Curvature Group"):
+        meshes.fair(obj, faces, position_group="Loose", curvature_group="Curved")
+    assert meshes.contents(obj) == before
+
+
+def test_a_missing_group_is_refused_and_nothing_changes() -> None:
+    obj, faces, _ = rough_egg()
+    before = meshes.in_edit_mode_once(obj, faces)
+    with pytest.raises(RuntimeError, match="Missing"):
+        meshes.fair(obj, faces, curvature_group="Missing")
+    assert meshes.contents(obj) == before
+
+
+def test_a_band_is_refused_beside_it() -> None:
+    obj, faces, _ = rough_egg()
+    put(obj, meshes.positions(obj)[:, 2] > 0.0)
+    with pytest.raises(RuntimeError, match="or a Curvature Group"):
+        meshes.fair(obj, faces, curvature_group="Loose", falloff=0.1)
+
+
+def test_it_is_hidden_where_nothing_looks_at_it_and_counts_as_idle() -> None:
+    options = module("core.options").FairOptions
+    for other in ({"continuity": "G2"}, {"method": "PAPER"}, {"equation": "LEAST_VARIATION"}, {"equation": "MINIMAL"}):
+        assert "curvature_group" in options(curvature_group="Loose", **other).idle
+    assert "curvature_group" not in options(curvature_group="Loose").idle
