@@ -20,7 +20,7 @@ Solution with_tension(Solution tangent, Tension tension) {
 
 // The whole tension at once, or in steps of its logarithm where that is too much: of 300 patches with tensions from .1
 // to 10 twenty have no surface so, seventy without steps.
-std::optional<Solution> reached(const Problem& problem, const Points& start, const Progress& progress) {
+std::optional<Solution> in_steps(const Problem& problem, const Points& start, const Progress& progress) {
     const Points layout = start.leftCols(problem.patch.free_count);
     Workspace work{make_normal_operator(problem, layout, Solves::few),
                    make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())};
@@ -65,7 +65,7 @@ Solution tensed(const Problem& problem, Solution tangent, const Progress& progre
         return with_tension(std::move(tangent), Tension::no_tangent_join);
     if (!tangent.polished) return with_tension(std::move(tangent), Tension::other_mesh);
     const Stopwatch watch;
-    std::optional<Solution> found = reached(problem, tangent.points, progress);
+    std::optional<Solution> found = in_steps(problem, tangent.points, progress);
     const double seconds = watch.seconds();
     tangent.seconds["tension"] = seconds;
     tangent.ways.push_back({"tension", seconds});

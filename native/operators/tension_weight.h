@@ -12,10 +12,10 @@ namespace fairing {
 //     w = exp(3 T (1 − ψ)),    Δ_B T = 0 with T = ln t on the boundary,
 //     ψ = φ / (φ + ½ |∇φ|²),   Δ_B φ = −1 with φ = 0 there,
 //     Δ_B H₀ = 0 with H₀ = ½ κ there, κ the normal curvature along the boundary.
-// ψ is the depth, from 0 at the boundary to 1 midway between its sides: on a strip 4 s (1 − s). H₀ is the surface's
-// that goes straight on from its boundary; H − H₀ is ½ of the curvature across, there. A cubic blend whose end
-// derivatives are t times as long runs t times as fast there, and its energy ∫ |p''|² weighs the squared curvature by
-// t³.
+// ψ is the depth, from 0 at the boundary to 1 midway between its sides: on a strip 4 s (1 − s). H₀ is that of a surface
+// which goes straight on from its boundary, and H − H₀ half of the curvature across. A cubic blend whose end
+// derivatives are t times as long runs t times as fast there: its energy ∫ |p''|² gives the squared curvature the
+// weight t³.
 class TensionWeight {
 public:
     // `share` of the logarithms of the problem's tensions. `layout`: about where the free vertices are.
