@@ -50,39 +50,40 @@ void attempt(const MeshInput& mesh, const Call& call) {
 }
 
 void fuzz_fair(FuzzedDataProvider& bytes) {
-    MeshInput mesh = random_mesh(bytes, false);
+    RandomMesh given = random_mesh(bytes, false);
+    MeshInput& mesh = given.input;
     random_boundary(bytes, mesh);
     const FairOptions options = random_options(bytes, static_cast<int>(mesh.vertices.cols()));
     const std::optional<Points> reference = random_reference(bytes, mesh.vertices);
     const bool twice = bytes.ConsumeIntegralInRange(0, 7) == 7;
     const int last = bytes.ConsumeIntegralInRange(0, 60);
-    const MeshInput kept = mesh;
+    const Points kept = given.points;
     attempt(mesh, [&] {
         const FairResult result = fair(mesh, reference, options, Stopper{last});
         check_fair(result, mesh, options);
         if (twice) check_same(result, fair(mesh, reference, options, {}));
     });
-    require(std::memcmp(kept.vertices.data(), mesh.vertices.data(), sizeof(double) * 3 * mesh.vertices.cols()) == 0,
-            "the input stays");
+    require(std::memcmp(kept.data(), given.points.data(), sizeof(double) * kept.size()) == 0, "the input stays");
 }
 
 // One mesh again and again: moved, with other numbers of vertices, other options and after errors.
 void fuzz_solver(FuzzedDataProvider& bytes) {
-    MeshInput mesh = random_mesh(bytes, false);
+    RandomMesh given = random_mesh(bytes, false);
+    MeshInput& mesh = given.input;
     random_boundary(bytes, mesh);
     const int count = static_cast<int>(mesh.vertices.cols());
     FairOptions options = random_options(bytes, count);
-    FairSolver solver(mesh.triangles, mesh.fixed, options);
+    FairSolver solver(mesh.triangles, mesh.fixed, mesh.held, options);
     const int solves = bytes.ConsumeIntegralInRange(1, 4);
     for (int k = 0; k < solves; ++k) {
         const std::optional<Points> reference = random_reference(bytes, mesh.vertices);
         attempt(mesh, [&] {
-            const FairResult result = solver.solve(mesh.vertices, mesh.fixed_normals, reference,
-                                                   Stopper{bytes.ConsumeIntegralInRange(0, 60)});
+            const FairResult result = solver.solve(given.points, mesh.fixed_normals, {{}, mesh.fixed_tensions},
+                                                   reference, Stopper{bytes.ConsumeIntegralInRange(0, 60)});
             check_fair(result, mesh, options);
             if (k == 0) check_same(result, fair(mesh, reference, options, {}));
         });
-        move(bytes, mesh);
+        move(bytes, given);
         if (bytes.ConsumeBool()) continue;
         options = random_options(bytes, count);
         solver.change(options);
@@ -92,9 +93,9 @@ void fuzz_solver(FuzzedDataProvider& bytes) {
 // Calls `measure` with a mesh that may be refused.
 template <typename Measure>
 void on_any_mesh(FuzzedDataProvider& bytes, const Measure& measure) {
-    MeshInput mesh = random_mesh(bytes, false);
-    random_boundary(bytes, mesh);
-    attempt(mesh, [&] { measure(mesh); });
+    RandomMesh mesh = random_mesh(bytes, false);
+    random_boundary(bytes, mesh.input);
+    attempt(mesh.input, [&] { measure(mesh.input); });
 }
 
 void fuzz_mean_curvature(FuzzedDataProvider& bytes) {
@@ -122,7 +123,8 @@ void fuzz_hierarchy(FuzzedDataProvider& bytes) {
 }
 
 void fuzz_cotan_laplacian(FuzzedDataProvider& bytes) {
-    const MeshInput mesh = random_mesh(bytes, true);
+    const RandomMesh given = random_mesh(bytes, true);
+    const MeshInput& mesh = given.input;
     const MatrixEntries entries = cotan_laplacian(mesh.vertices, mesh.triangles);
     require(entries.rows.size() == entries.columns.size() && entries.rows.size() == entries.values.size(),
             "rows, columns and values belong together");
@@ -133,14 +135,16 @@ void fuzz_cotan_laplacian(FuzzedDataProvider& bytes) {
 }
 
 void fuzz_conformal_distortion(FuzzedDataProvider& bytes) {
-    const MeshInput mesh = random_mesh(bytes, true);
+    const RandomMesh given = random_mesh(bytes, true);
+    const MeshInput& mesh = given.input;
     const Points reference = random_reference(bytes, mesh.vertices).value_or(mesh.vertices);
     const VectorX ratio = conformal_distortion(reference, mesh.vertices, mesh.triangles);
     require(ratio.size() == mesh.triangles.cols() && (ratio.array() >= 1.0).all(), "distortions are 1 or more");
 }
 
 void fuzz_boundary_loops(FuzzedDataProvider& bytes) {
-    const MeshInput mesh = random_mesh(bytes, true);
+    const RandomMesh given = random_mesh(bytes, true);
+    const MeshInput& mesh = given.input;
     try {
         std::set<std::pair<int, int>> edges;
         for (const Indices& loop : boundary_loops(mesh.triangles, static_cast<int>(mesh.vertices.cols()))) {
@@ -155,7 +159,8 @@ void fuzz_boundary_loops(FuzzedDataProvider& bytes) {
 }
 
 void fuzz_surrounding_normals(FuzzedDataProvider& bytes) {
-    MeshInput mesh = random_mesh(bytes, true);
+    const RandomMesh given = random_mesh(bytes, true);
+    const MeshInput& mesh = given.input;
     if (!mesh.vertices.allFinite()) return;
     Indices where(static_cast<int>(mesh.vertices.cols()));
     for (std::size_t v = 0; v < where.size(); ++v) where[v] = static_cast<int>(v);

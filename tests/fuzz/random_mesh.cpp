@@ -180,22 +180,20 @@ double special_number(FuzzedDataProvider& bytes) {
                                    5e-324, nan, infinity, -infinity});
 }
 
-MeshInput random_mesh(FuzzedDataProvider& bytes, bool valid_indices) {
+RandomMesh random_mesh(FuzzedDataProvider& bytes, bool valid_indices) {
     Draft draft = base_shape(bytes);
     if (bytes.ConsumeBool()) append(draft, base_shape(bytes), Vector3(bytes.ConsumeBool() ? 0.0 : 3.0, 0.0, 0.0));
     damage_triangles(bytes, draft, valid_indices);
     damage_points(bytes, draft);
     place(bytes, draft);
-    MeshInput mesh;
-    mesh.vertices.resize(3, static_cast<Eigen::Index>(draft.points.size()));
-    for (std::size_t v = 0; v < draft.points.size(); ++v)
-        mesh.vertices.col(static_cast<Eigen::Index>(v)) = draft.points[v];
-    mesh.triangles.resize(3, static_cast<Eigen::Index>(draft.triangles.size()));
+    Points points(3, static_cast<Eigen::Index>(draft.points.size()));
+    for (std::size_t v = 0; v < draft.points.size(); ++v) points.col(static_cast<Eigen::Index>(v)) = draft.points[v];
+    Triangles triangles(3, static_cast<Eigen::Index>(draft.triangles.size()));
     for (std::size_t t = 0; t < draft.triangles.size(); ++t) {
         const auto& [a, b, c] = draft.triangles[t];
-        mesh.triangles.col(static_cast<Eigen::Index>(t)) << a, b, c;
+        triangles.col(static_cast<Eigen::Index>(t)) << a, b, c;
     }
-    return mesh;
+    return {std::move(points), std::move(triangles)};
 }
 
 void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh) {
@@ -205,6 +203,10 @@ void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh) {
         case 1: mesh.fixed = border(mesh.triangles); break;
         case 2: mesh.fixed = random_subset(bytes, count); break;
         default: mesh.fixed = random_list(bytes, count);
+    }
+    if (bytes.ConsumeIntegralInRange(0, 7) == 7) {
+        VectorX& tensions = mesh.fixed_tensions.emplace(static_cast<Eigen::Index>(mesh.fixed->size()));
+        for (double& tension : tensions) tension = bytes.PickValueInArray({1.0, 0.1, 0.5, 2.0, 10.0, 1e-300, 1e300});
     }
     if (!bytes.ConsumeBool()) return;
     Points& normals = mesh.fixed_normals.emplace(3, static_cast<Eigen::Index>(mesh.fixed->size()));
@@ -219,20 +221,22 @@ void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh) {
     }
 }
 
-void move(FuzzedDataProvider& bytes, MeshInput& mesh) {
-    const Eigen::Index count = mesh.vertices.cols();
-    const double reach = bytes.PickValueInArray({0.0, 1e-12, 1e-3, 0.03, 0.5}) * mesh.vertices(0, count - 1);
+void move(FuzzedDataProvider& bytes, RandomMesh& mesh) {
+    Points& points = mesh.points;
+    const Eigen::Index count = points.cols();
+    const double reach = bytes.PickValueInArray({0.0, 1e-12, 1e-3, 0.03, 0.5}) * points(0, count - 1);
     const int moves = bytes.ConsumeIntegralInRange(0, 8);
     for (int k = 0; k < moves; ++k) {
         const auto v = bytes.ConsumeIntegralInRange<Eigen::Index>(0, count - 1);
-        double& x = mesh.vertices(bytes.ConsumeIntegralInRange(0, 2), v);
+        double& x = points(bytes.ConsumeIntegralInRange(0, 2), v);
         x = bytes.ConsumeIntegralInRange(0, 15) == 15 ? special_number(bytes) : x + reach;
     }
     switch (bytes.ConsumeIntegralInRange(0, 15)) {
-        case 14: mesh.vertices.conservativeResize(3, count + 1), mesh.vertices.col(count).setOnes(); break;
-        case 15: mesh.vertices.conservativeResize(3, std::max<Eigen::Index>(count - 1, 1)); break;
+        case 14: points.conservativeResize(3, count + 1), points.col(count).setOnes(); break;
+        case 15: points.conservativeResize(3, std::max<Eigen::Index>(count - 1, 1)); break;
         default: break;
     }
+    mesh.input.vertices = points;
 }
 
 }  // namespace fairing::fuzz
