@@ -1,22 +1,24 @@
+# mypy: disable-error-code="valid-type"
 """Changes in the redo panel: another surface at once, the fair one in its place as soon as it is found.
 
 Blender takes the last run's step of undo back and calls `execute`. Small selections get PROMPT to be answered there.
 Otherwise the result before the change is shown, and a thread searches, which begins once the operator has ended. With
 its answer Blender is made to repeat the operator: as ever there is one step of undo, with the answer in it.
-"""
 
-from __future__ import annotations
+No postponed annotations here: Blender reads them as property definitions.
+"""
 
 import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
 import bpy
+from bpy.props import BoolProperty
 
 import fairing
 
 from ..core import runner
-from ..host.handlers import hear_events, listen, unlisten
+from ..host.handlers import call_later, call_off, hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from ..preferences import background_from
 from .background import TICK, Watched, Work, has_events, under_way
@@ -24,6 +26,7 @@ from .finish import Say
 from .report_properties import clear, store_first
 
 PROMPT = 0.06  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
+SOON = 0.01  # seconds until the threads in the way are looked at again
 BLINK = 0.02  # seconds that a change waits for the search before it to stop
 AWAITED = "Looking for the fair surface: another one is shown meanwhile"
 KEPT = "Another surface was kept: the mesh changed before the fair one was found"
@@ -64,10 +67,10 @@ class Change(Protocol):
 class Following:
     """One change whose answer is awaited while Blender goes on."""
 
-    def __init__(self, change: Change, operator: bpy.types.Operator) -> None:
-        """operator: the one in the panel, maybe a macro."""
+    def __init__(self, change: Change, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
+        """operator: the one in the panel, maybe a macro. Of both only where Blender keeps them: they may be freed."""
         self.change, self.step = change, operator.name
-        self.operator = operator.as_pointer()  # Blender may free it
+        self.operator, self.window = operator.as_pointer(), window.as_pointer()
         self.unwanted = False  # a button has asked for the end
         self.settled = False  # the answer is written
         self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
@@ -164,7 +167,7 @@ class Redone(Watched):
                 return change.settle(context, lambda: outcome, self.report)
         change.show_last()
         kept = context.window_manager.operators
-        Following(change, kept[-1]).begin(context)
+        Following(change, kept[-1], context.window).begin(context)
         return {"FINISHED"}
 
 
@@ -178,8 +181,8 @@ def is_being_edited(context: bpy.types.Context) -> bool:
     return any("UNDO" in operator.bl_options for window in windows for operator in window.modal_operators)
 
 
-def look(context: bpy.types.Context, may_write: bool = True) -> bool:
-    """Look at the search, and have its answer written where that is allowed; return whether to look again."""
+def look(context: bpy.types.Context) -> bool:
+    """Look at the search; return whether to look again."""
     following = _following()
     if following is None:
         return False
@@ -187,7 +190,7 @@ def look(context: bpy.types.Context, may_write: bool = True) -> bool:
         following.end(GIVEN_UP)
     elif following.run is None:
         following.run = runner.Run(following.change.work)
-    elif following.run.finished and may_write and not is_being_edited(context):
+    elif following.run.finished and not is_being_edited(context) and not is_held():
         _collect(context, following)
     else:
         following.show(context)
@@ -195,32 +198,61 @@ def look(context: bpy.types.Context, may_write: bool = True) -> bool:
 
 
 def watch() -> None:
-    """Have looks taken from now on."""
-    bpy.ops.mesh.fair_follow("INVOKE_DEFAULT")
+    """Have looks taken as soon as the operator has ended."""
+    call_later(_watch, 0.0)
 
 
-def _is_held(event: bpy.types.Event) -> bool:
-    return bool(event.type == "LEFTMOUSE" and event.value not in ("RELEASE", "CLICK"))
+def _watch() -> float | None:
+    """Begin to take looks, beside none of our threads: see `MESH_OT_fair_follow`."""
+    following = _following()
+    if following is None:
+        return None
+    if not runner.call_off_all():
+        return SOON
+    windows = bpy.context.window_manager.windows
+    window = next((each for each in windows if each.as_pointer() == following.window), windows[0])
+    area = next((each for each in window.screen.areas if each.type == "VIEW_3D"), window.screen.areas[0])
+    # Not the region of the 3D view itself: the end of a modal operator there ends what pulls an arrow, and Blender
+    # crashes at the next pull.
+    region = next(each for each in area.regions if each.type == "HEADER")
+    with bpy.context.temp_override(window=window, screen=window.screen, area=area, region=region):
+        bpy.ops.mesh.fair_follow("INVOKE_DEFAULT")
+    return None
+
+
+class _Hand:
+    """The mouse button, when it was asked about last."""
+
+    is_down = False
+
+
+def is_held() -> bool:
+    """Return whether the mouse button is: a field may be pulled. An operator's event alone tells it."""
+    bpy.ops.mesh.fair_follow("INVOKE_DEFAULT", asks=True)
+    return _Hand.is_down
 
 
 class MESH_OT_fair_follow(bpy.types.Operator):
     """Wait for the answer to a change in the redo panel"""
 
-    # No timer of bpy.app: undo would take a field of the panel away while it is being pulled. Here events tell whether
-    # it is, and operators have a context that is Blender's own: in one of `temp_override`, Blender crashes beside a
-    # thread of Python.
+    # No timer of bpy.app: undo would take a field of the panel away while it is being edited. A field that is edited
+    # lets no event through to here. And operators have a context that is Blender's own: in one of `temp_override`,
+    # Blender crashes beside a thread of Python.
 
     bl_idname = "mesh.fair_follow"
     bl_label = "Wait for the Answer"
     bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
 
+    asks: BoolProperty(options={"HIDDEN", "SKIP_SAVE"})  # only whether the mouse button is down
+
     _following: Following | None = None
-    _is_held = False  # the mouse button: a field may be pulled. If it is later, its handler lets no event through
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin."""
+        """Begin, or ask."""
+        if self.asks:
+            _Hand.is_down = event.type == "LEFTMOUSE" and event.value not in ("RELEASE", "CLICK")
+            return {"CANCELLED"}
         self._following = _following()
-        self._is_held = _is_held(event)
         assert self._following is not None
         self._following.timer = context.window_manager.event_timer_add(TICK, window=context.window)
         hear_events(context, self)
@@ -229,10 +261,8 @@ class MESH_OT_fair_follow(bpy.types.Operator):
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Look at each event of the timer; all others are other operators' own."""
         goes_on = self._following is _following()
-        if event.type == "LEFTMOUSE":
-            self._is_held = _is_held(event)
         if goes_on and event.type == "TIMER":
-            goes_on = look(context, not self._is_held)
+            goes_on = look(context)
         return {"PASS_THROUGH"} if goes_on else {"CANCELLED", "PASS_THROUGH"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
@@ -280,5 +310,6 @@ def register() -> None:
 
 def unregister() -> None:
     """Hear of them no more."""
+    call_off(_watch)
     unlisten(bpy.app.handlers.redo_post, _on_step)
     unlisten(bpy.app.handlers.undo_post, _on_step)

@@ -59,6 +59,7 @@ class Panel:
         monkeypatch.setattr(self.redo, "has_events", lambda _context: True)
         monkeypatch.setattr(self.redo, "background_from", lambda _context: 0)
         monkeypatch.setattr(self.redo, "watch", lambda: None)
+        monkeypatch.setattr(self.redo, "is_held", lambda: False)
         monkeypatch.setattr(job, "solve", slow)
         job.memory.clear()
 
@@ -291,32 +292,34 @@ def test_nothing_happens_while_vertices_are_being_moved(panel: Panel, monkeypatc
     np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
 
 
-@pytest.mark.parametrize("pulled", [True, False])
-def test_nothing_is_written_while_a_field_may_be_pulled(panel: Panel, pulled: bool) -> None:
-    """Undo would take the field away. The button is held from the begin on, or an answer may come at any time."""
+def test_nothing_is_written_while_a_field_may_be_pulled(panel: Panel, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Undo would take the field away."""
+    operator, down = panel.redo.MESH_OT_fair_follow, [True]
+    monkeypatch.setattr(panel.redo, "is_held", lambda: down[0])
     panel.change(shape="LEAST_VARIATION")
-    operator = panel.redo.MESH_OT_fair_follow
-    stand = SimpleNamespace(
-        _following=panel.redo._following(), _is_held=panel.redo._is_held(event("LEFTMOUSE", "PRESS"))
-    )
-
-    def heard(kind: str, value: str = "NOTHING") -> set[str]:
-        with in_view():
-            return set(operator.modal(stand, bpy.context, event(kind, value)))
-
+    stand = SimpleNamespace(_following=panel.redo._following())
     panel.open()
     assert panel.redo._following().run.wait(clocks.STUCK)
-    if not pulled:
-        assert heard("LEFTMOUSE", "RELEASE") == {"PASS_THROUGH"}
-    for kind in ("MOUSEMOVE", "A", "TIMER"):
-        ended = not pulled and kind == "TIMER"
-        assert heard(kind) == ({"CANCELLED", "PASS_THROUGH"} if ended else {"PASS_THROUGH"})
-    assert panel.follows == pulled
-    assert heard("LEFTMOUSE", "RELEASE") == ({"PASS_THROUGH"} if pulled else {"CANCELLED", "PASS_THROUGH"})
-    assert heard("TIMER") == {"CANCELLED", "PASS_THROUGH"}
+
+    def heard(kind: str) -> set[str]:
+        with in_view():
+            return set(operator.modal(stand, bpy.context, event(kind, "NOTHING")))
+
+    assert all(heard(kind) == {"PASS_THROUGH"} for kind in ("MOUSEMOVE", "A", "TIMER"))
+    assert panel.follows
+    down[0] = False
+    assert heard("A") == {"PASS_THROUGH"}
+    assert heard("TIMER") == heard("A") == {"CANCELLED", "PASS_THROUGH"}
     found = panel.positions()
     meshes.leave()
     np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+
+
+@pytest.mark.parametrize(("kind", "value"), [("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE"), ("A", "PRESS")])
+def test_the_mouse_button_is_asked_about(panel: Panel, kind: str, value: str) -> None:
+    stand = SimpleNamespace(asks=True)
+    assert panel.redo.MESH_OT_fair_follow.invoke(stand, bpy.context, event(kind, value)) == {"CANCELLED"}
+    assert panel.redo._Hand.is_down == ((kind, value) == ("LEFTMOUSE", "PRESS"))
 
 
 def event(kind: str, value: str) -> Any:
@@ -438,6 +441,7 @@ def test_outside_edit_mode_nothing_waits_either(mode: str, source: str, monkeypa
     monkeypatch.setattr(redo, "has_events", lambda _context: True)
     monkeypatch.setattr(redo, "background_from", lambda _context: 0)
     monkeypatch.setattr(redo, "watch", lambda: None)
+    monkeypatch.setattr(redo, "is_held", lambda: False)
     bpy.context.window_manager.operators[-1].properties.shape = "LEAST_VARIATION"
     with in_view():
         bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)

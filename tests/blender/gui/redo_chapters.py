@@ -37,9 +37,9 @@ class _Looks:
         self.look = self.home.look
         self.home.look = self
 
-    def __call__(self, context: bpy.types.Context, may_write: bool) -> bool:
+    def __call__(self, context: bpy.types.Context) -> bool:
         begin = time.thread_time(), time.perf_counter()
-        again: bool = self.look(context, may_write)
+        again: bool = self.look(context)
         self.seconds.append((time.thread_time() - begin[0], time.perf_counter() - begin[1]))
         return again
 

@@ -181,7 +181,18 @@ def lasso_and_paint_fair() -> Story:
 
 
 def arrows_pull_the_last_run() -> Story:
-    """The middle of a faired region is pulled up, and back by one step; and a fillet is pulled wider."""
+    """The middle of a faired region is pulled up, and back by one step; and a fillet is pulled wider.
+
+    Once with answers at once, once with answers that follow.
+    """
+    home = module("run.redo")
+    for background_from in (home.background_from, lambda _context: 0):
+        home.background_from, kept = background_from, home.background_from
+        yield from _arrows_are_pulled()
+        home.background_from = kept
+
+
+def _arrows_are_pulled() -> Story:
     open_tab()
     scenes.hill(40)
     look_as_first()
