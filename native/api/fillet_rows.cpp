@@ -1,0 +1,189 @@
+#include "api/fillet_rows.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "api/old_surface.h"
+
+namespace fairing {
+
+namespace {
+
+struct Surface {
+    explicit Surface(const MeshInput& input)
+        : mesh(check_mesh(input)),
+          patches(patches_with_vertices(mesh)),
+          old(input, mesh, patches.front()),
+          target(old.patch, old.points, old.normals) {}
+
+    CheckedMesh mesh;
+    std::vector<Patch> patches;
+    OldSurface old;
+    TargetSurface target;
+};
+
+PlacesOnFillet given_back(const Surface& surface, const std::vector<SurfacePoint>& where) {
+    PlacesOnFillet result;
+    const auto count = static_cast<Eigen::Index>(where.size());
+    Points places(3, count);
+    result.weights.resize(3, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const SurfacePoint& at = where[static_cast<std::size_t>(k)];
+        places.col(k) = surface.target.position(at);
+        result.triangle.push_back(surface.old.patch.input_triangle[at.triangle]);
+        result.weights.col(k) = at.weights;
+    }
+    result.places = surface.old.unit.from_unit(places);
+    return result;
+}
+
+// A section's way through one triangle.
+struct Crossed {
+    int triangle;
+    Vector3 from, to;  // weights
+    double length;
+};
+
+class Sectioning {
+public:
+    explicit Sectioning(const Surface& surface) : patch_(surface.old.patch), points_(surface.old.points) {
+        for (int e = 0; e < patch_.edge_count(); ++e) {
+            if (patch_.edge_triangles[e][1] == none) border_.push_back(e);
+        }
+    }
+
+    // None where the plane leaves the surface elsewhere than near its end.
+    [[nodiscard]] std::optional<std::vector<Crossed>> way(const Section& section) const {
+        const auto is_above = [&](int v) { return height(section, v) >= 0.0; };
+        int edge = first_edge(section);
+        if (edge == none) return std::nullopt;
+        std::vector<Crossed> result;
+        int t = patch_.edge_triangles[edge][0];
+        while (static_cast<int>(result.size()) <= patch_.triangle_count()) {
+            int out = none;
+            for (const int e : patch_.triangle_edges.col(t)) {
+                if (e != edge && is_above(patch_.edge_ends[e][0]) != is_above(patch_.edge_ends[e][1])) out = e;
+            }
+            if (out == none) return std::nullopt;
+            const Vector3 from = weights(section, t, edge);
+            const Vector3 to = weights(section, t, out);
+            result.push_back({t, from, to, (place(t, to) - place(t, from)).norm()});
+            const auto [left, right] = patch_.edge_triangles[out];
+            if (right == none) break;
+            t = left == t ? right : left;
+            edge = out;
+        }
+        const double off = (place(result.back().triangle, result.back().to) - section.end).norm();
+        if (off > most_off * (section.end - section.start).norm()) return std::nullopt;
+        return result;
+    }
+
+private:
+    static constexpr double most_off = 0.1;  // of its chord: an end that far off is another one
+
+    [[nodiscard]] double height(const Section& section, int v) const {
+        return (Vector3(points_.col(v)) - section.start).dot(section.normal);
+    }
+    [[nodiscard]] Vector3 place(int t, const Vector3& weights) const {
+        return points_(Eigen::all, patch_.triangles.col(t)) * weights;
+    }
+    // Where the plane crosses an edge of a triangle.
+    [[nodiscard]] Vector3 weights(const Section& section, int t, int edge) const {
+        const auto [a, b] = patch_.edge_ends[edge];
+        const double at_a = height(section, a);
+        const double share = at_a / (at_a - height(section, b));
+        Vector3 result = Vector3::Zero();
+        for (int k = 0; k < 3; ++k) {
+            if (patch_.triangles(k, t) == a) result[k] = 1.0 - share;
+            if (patch_.triangles(k, t) == b) result[k] = share;
+        }
+        return result;
+    }
+    [[nodiscard]] int first_edge(const Section& section) const {
+        int best = none;
+        double least = std::numeric_limits<double>::infinity();
+        for (const int e : border_) {
+            const auto [a, b] = patch_.edge_ends[e];
+            if ((height(section, a) >= 0.0) == (height(section, b) >= 0.0)) continue;
+            const int t = patch_.edge_triangles[e][0];
+            const double off = (place(t, weights(section, t, e)) - section.start).norm();
+            if (off < least) {
+                least = off;
+                best = e;
+            }
+        }
+        return best;
+    }
+
+    const Patch& patch_;
+    const Points& points_;
+    Indices border_;
+};
+
+// Places that part a way into `rows` ways of one length.
+void part(const std::vector<Crossed>& way, int rows, std::vector<SurfacePoint>& where) {
+    double total = 0.0;
+    for (const Crossed& each : way) total += each.length;
+    double passed = 0.0;
+    auto at = way.begin();
+    for (int k = 1; k < rows; ++k) {
+        const double wanted = total * k / rows;
+        while (std::next(at) != way.end() && passed + at->length < wanted) passed += (at++)->length;
+        const double share = at->length > 0.0 ? std::clamp((wanted - passed) / at->length, 0.0, 1.0) : 0.0;
+        where.push_back({at->triangle, at->from + share * (at->to - at->from)});
+    }
+}
+
+}  // namespace
+
+PlacesOnFillet section_places(const MeshInput& input, const std::vector<Section>& sections, int rows) {
+    const Surface surface(input);
+    const Sectioning sectioning(surface);
+    const Normalisation& unit = surface.old.unit;
+    std::vector<SurfacePoint> where;
+    std::vector<char> found;
+    for (const Section& each : sections) {
+        const auto way = sectioning.way({unit.to_unit(each.start), unit.to_unit(each.end), each.normal});
+        found.push_back(way ? 1 : 0);
+        if (way)
+            part(*way, rows, where);
+        else
+            where.resize(where.size() + static_cast<std::size_t>(rows - 1));
+    }
+    PlacesOnFillet result = given_back(surface, where);
+    result.found = std::move(found);
+    return result;
+}
+
+PlacesOnFillet relaxed_places(const MeshInput& input, const QuadPattern& pattern, const Points& given, int sweeps) {
+    const Surface surface(input);
+    const Patch& patch = surface.old.patch;
+    Points points = surface.old.unit.to_unit(given);
+    Points centres(3, patch.triangle_count());
+    for (int t = 0; t < patch.triangle_count(); ++t)
+        centres.col(t) = surface.old.points(Eigen::all, patch.triangles.col(t)).rowwise().mean();
+    Points normals = Points::Zero(3, points.cols());
+    std::vector<SurfacePoint> where(static_cast<std::size_t>(points.cols()));
+    const auto put = [&](Eigen::Index v, const Vector3& wanted, int start) {
+        SurfacePoint& at = where[static_cast<std::size_t>(v)];
+        at = surface.target.project(wanted, start);
+        normals.col(v) = surface.target.face_normal(at.triangle);
+        if (v >= pattern.boundary_count)
+            points.col(v) = surface.old.points(Eigen::all, patch.triangles.col(at.triangle)) * at.weights;
+    };
+    for (Eigen::Index v = 0; v < points.cols(); ++v) {
+        Eigen::Index nearest = 0;
+        (centres.colwise() - Vector3(points.col(v))).colwise().squaredNorm().minCoeff(&nearest);
+        put(v, points.col(v), static_cast<int>(nearest));
+    }
+    SquareSteps steps(pattern);
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+        const Points wanted = steps.wanted(points, normals);
+        for (Eigen::Index v = pattern.boundary_count; v < points.cols(); ++v)
+            put(v, wanted.col(v), where[static_cast<std::size_t>(v)].triangle);
+    }
+    return given_back(surface, where);
+}
+
+}  // namespace fairing

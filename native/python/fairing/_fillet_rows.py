@@ -1,0 +1,293 @@
+"""Quads in rows along rounded seams: strips across each of them, blocks where they meet, caps where they fade out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fairing import _core
+from fairing._columns import Side, Spot, Strip, corner_between, side_of, strip_of
+from fairing._corner_quads import Quad, blocks, end_cap, grid_quads
+from fairing._cut_anew import ChosenPoints
+from fairing._seam_arcs import LEFT, RIGHT, End, FoundLine, Network, NoRowsError, network_of
+from fairing._strip_surface import Solved
+from fairing._types import FloatArray, IntArray
+
+_SWEEPS = 60  # of the relaxation around poles: more move nothing that is seen
+
+
+@dataclass
+class Seams:
+    """What the rows are made for."""
+
+    points: FloatArray
+    line: FoundLine
+    width: float
+    spacing: float
+    linked: Callable[[int], int]
+    """The seam's vertex to which the edge at a point of the line leads, or −1."""
+    must: Callable[[int], bool]
+    """Whether the mesh outside needs a point of the line."""
+
+    @property
+    def rows(self) -> int:
+        return 2 * max(1, round(self.width / self.spacing))
+
+
+@dataclass
+class RowMesh:
+    """Quads over the places of chosen points of the line, and new ones."""
+
+    chosen: ChosenPoints
+    quads: IntArray
+    places: FloatArray
+    """(k, 3) of the new vertices, which have the numbers after those of the line's points;"""
+    triangle: IntArray
+    """(k,) where they lie on the solved mesh,"""
+    weights: FloatArray
+    """(k, 3) and where there."""
+
+
+@dataclass
+class _Ends:
+    """The corners where the lines of two arcs meet, or the ways around them."""
+
+    corners: dict[End, Spot] = field(default_factory=dict)
+    """By the arc's end at which the line arrives,"""
+    around: dict[End, list[Spot]] = field(default_factory=dict)
+    """or a way from where it arrives to where it leaves."""
+
+
+def row_mesh(seams: Seams, solved: list[Solved]) -> RowMesh:
+    """Raises NoRowsError."""
+    network = network_of(seams.line, seams.points)
+    ends = _ends_of(network, seams)
+    strips = [_strip(network, ends, number, seams) for number in range(len(network.arcs))]
+    on = [_surface_at(solved, strip) for strip in strips]
+    for number, (strip, surface) in enumerate(zip(strips, on, strict=True)):
+        _add_walled(strip, [which for which in (0, 1) if not _continues(network, (number, which))], seams)
+        surface.refine(strip, seams.rows, seams.width)
+    return _Making(seams, network, ends, strips, on).made()
+
+
+def _continues(network: Network, end: End) -> bool:
+    """Whether lines lead on beyond an arc's end; else it is at walls."""
+    goes_on, comes = end in network.onward, any(end == other for other, _, _ in network.onward.values())
+    if goes_on != comes:
+        raise NoRowsError
+    return goes_on or network.arcs[end[0]].closed
+
+
+def _add_walled(strip: Strip, ends: list[int], seams: Seams) -> None:
+    for which in ends:
+        column = strip.columns[-which]
+        middle = seams.points[strip.arc.vertices[-which]]
+        right, left = (spot.place for spot in strip.spots(column))
+        shares = np.arange(1, seams.rows // 2)[:, None] * 2 / seams.rows
+        strip.walled[column] = np.concatenate(
+            [right + shares * (middle - right), middle[None], middle + shares * (left - middle)]
+        )
+
+
+def _surface_at(solved: list[Solved], strip: Strip) -> Solved:
+    place = strip.sides[RIGHT].at(0.5 * strip.sides[RIGHT].length).place
+    return min(solved, key=lambda each: each.distance(place))
+
+
+def _ends_of(network: Network, seams: Seams) -> _Ends:
+    found = _Ends()
+    for end, (other, between, segments) in network.onward.items():
+        if len(between) == 2:
+            come, go = _run(network, end, True), _run(network, other, False)
+            found.corners[end] = corner_between(seams.line, come, go, segments[0], seams.spacing)
+        else:
+            found.around[end] = [Spot(seams.line.places[p], p) for p in between]
+            if end != other and len(between) == 3:
+                found.corners[end] = found.around.pop(end)[1]
+    return found
+
+
+def _run(network: Network, end: End, arrives: bool) -> list[int]:
+    """The points of the line that comes to an arc's end, or leaves it, as the line runs; a few of them."""
+    arc, which = end
+    side = _arriving(which) if arrives else 1 - _arriving(which)
+    points = network.runs[arc, side].points
+    if side == LEFT:
+        points = points[::-1]
+    return points[-4:] if arrives else points[:4]
+
+
+def _arriving(which: int) -> int:
+    """The side on which the line runs to an arc's end."""
+    return RIGHT if which == 1 else LEFT
+
+
+def _strip(network: Network, ends: _Ends, number: int, seams: Seams) -> Strip:
+    before = {other: end for end, (other, _, _) in network.onward.items()}
+    sides = []
+    for side in (RIGHT, LEFT):
+        corners: list[Spot | None] = []
+        for which in (0, 1):
+            arrives = _arriving(which) == side
+            end: End | None = (number, which) if arrives else before.get((number, which))
+            corners.append(None if end is None else ends.corners.get(end))
+        run = network.runs[number, side]
+        sides.append(side_of(seams.line, run, seams.must, (corners[0], corners[1])))
+    return strip_of(seams.line, network.arcs[number], (sides[0], sides[1]), seams.linked, (seams.width, seams.spacing))
+
+
+class _Making:
+    """One mesh in the making."""
+
+    def __init__(
+        self, seams: Seams, network: Network, ends: _Ends, strips: list[Strip], on: list[Solved]
+    ) -> None:
+        self._seams, self._network, self._ends, self._strips, self._on = seams, network, ends, strips, on
+        self._rows = seams.rows
+        self._chosen = ChosenPoints(seams.line, seams.points)
+        self._quads: list[Quad] = []
+        self._places: list[tuple[FloatArray, int, FloatArray]] = []
+        self._columns: dict[End, list[int]] = {}  # from the right to the left of each arc's end
+
+    def made(self) -> RowMesh:
+        self._choose()
+        self._chosen.number()
+        for number in range(len(self._strips)):
+            self._add_strip(number)
+        for loop in self._meetings():
+            self._add_meeting(loop)
+        places, triangles, weights = zip(*self._places, strict=True) if self._places else ((), (), ())
+        return RowMesh(
+            self._chosen, np.array(self._quads, dtype=np.int32).reshape(-1, 4), np.array(places).reshape(-1, 3),
+            np.array(triangles, dtype=np.int32), np.array(weights).reshape(-1, 3),
+        )  # fmt: skip
+
+    def _choose(self) -> None:
+        """All points of the line and of walls that the quads need."""
+        for strip in self._strips:
+            for column in strip.columns:
+                for spot in strip.spots(column):
+                    self._chosen.add(spot)
+        for end, spots in self._ends.around.items():
+            count = self._turn_edges(end)
+            self._ends.around[end] = parted = _parted(spots, count, self._network.onward[end][2], end == self._other(end))
+            for spot in parted:
+                self._chosen.add(spot)
+        self._walls: dict[End, list[tuple[int, int, float]]] = {}
+        for number, strip in enumerate(self._strips):
+            for which in (0, 1):
+                if not _continues(self._network, (number, which)):
+                    self._choose_wall((number, which))
+
+    def _other(self, end: End) -> End:
+        return self._network.onward[end][0]
+
+    def _turn_edges(self, end: End) -> int:
+        """How many edges the line has around a meeting's corner, or around an end that fades out."""
+        if end != self._other(end):
+            return self._rows
+        if self._rows < 4:
+            raise NoRowsError
+        return 2 * max(1, self._rows // 4) + 2
+
+    def _choose_wall(self, end: End) -> None:
+        number, which = end
+        strip = self._strips[number]
+        vertex = strip.arc.vertices[-1 if which else 0]
+        for side in strip.sides:
+            spot = side.spots[-1 if which else 0]
+            self._chosen.add_wall(spot, vertex, self._rows // 2)
+
+    def _add_strip(self, number: int) -> None:
+        strip, surface = self._strips[number], self._on[number]
+        pairs = [strip.spots(column) for column in strip.columns]
+        last = len(pairs) - 1
+        walled = [
+            k for which, k in ((0, 0), (1, last)) if not _continues(self._network, (number, which))
+        ]
+        inner = [k for k in range(last + 1) if k not in walled and not (strip.arc.closed and k == last)]
+        found = surface.sections(strip, [strip.columns[k] for k in inner], self._rows)
+        grid: list[list[int]] = [[] for _ in pairs]
+        for at, k in enumerate(inner):
+            new = [self._new(*found[at * (self._rows - 1) + row]) for row in range(self._rows - 1)]
+            grid[k] = [self._chosen.vertex(pairs[k][0]), *new, self._chosen.vertex(pairs[k][1])]
+        for k in walled:
+            vertex = strip.arc.vertices[-1 if k else 0]
+            right, left = (self._chosen.wall(spot, vertex) for spot in pairs[k])
+            grid[k] = [*right, vertex, *left[::-1]]
+        if strip.arc.closed:
+            grid[last] = grid[0]
+        self._columns[number, 0], self._columns[number, 1] = grid[0], grid[last]
+        self._quads += grid_quads(grid)
+
+    def _new(self, place: FloatArray, triangle: int, weights: FloatArray) -> int:
+        self._places.append((place, triangle, weights))
+        return self._chosen.vertex_count + len(self._places) - 1
+
+    def _meetings(self) -> list[list[End]]:
+        """The ends of arcs around each, counter-clockwise."""
+        left = set(self._network.onward)
+        found = []
+        while left:
+            loop = [min(left)]
+            left.discard(loop[0])
+            while self._other(loop[-1]) != loop[0]:
+                loop.append(self._other(loop[-1]))
+                if loop[-1] not in left:
+                    raise NoRowsError
+                left.discard(loop[-1])
+            found.append(loop)
+        return found
+
+    def _add_meeting(self, loop: list[End]) -> None:
+        sides: list[list[int]] = []
+        for end in loop:
+            column = self._columns[end]
+            sides.append(column if end[1] == 0 else column[::-1])
+            if end in self._ends.around:
+                sides.append([self._chosen.vertex(spot) for spot in self._ends.around[end]])
+        rim = [v for side in sides for v in side[:-1]]
+        if len(sides) == 2 and len(loop) == 1:
+            quads, count = self._filled(lambda new: end_cap(sides[0], sides[1], new))
+        elif len(sides) > 2:
+            quads, count = self._filled(lambda new: blocks(sides, new))
+        else:
+            raise NoRowsError
+        self._lay_out(quads, rim, count, self._on[loop[0][0]])
+
+    def _filled(self, make: Callable[[Callable[[], int]], list[Quad]]) -> tuple[list[Quad], int]:
+        """Quads with new vertices −1, −2 …, and how many of these there are."""
+        made = [0]
+
+        def new() -> int:
+            made[0] -= 1
+            return made[0]
+
+        return make(new), -made[0]
+
+    def _lay_out(self, quads: list[Quad], rim: list[int], count: int, surface: Solved) -> None:
+        """Put the new vertices of some quads on the surface."""
+        local = {v: k for k, v in enumerate(rim)} | {-1 - k: len(rim) + k for k in range(count)}
+        rows = [[local[v] for v in quad] for quad in quads]
+        known = np.array([self._place(v) for v in rim])
+        found = surface.laid_out(rows, known, count, _SWEEPS)
+        names = {-1 - k: self._new(*found[k]) for k in range(count)}
+        self._quads += [tuple(names.get(v, v) for v in quad) for quad in quads]  # type: ignore[misc]
+
+    def _place(self, vertex: int) -> FloatArray:
+        if vertex < len(self._seams.points):
+            return self._seams.points[vertex]
+        if vertex < self._chosen.vertex_count:
+            return self._chosen.place(vertex)
+        return self._places[vertex - self._chosen.vertex_count][0]
+
+
+def _parted(spots: list[Spot], count: int, segments: list[int], fades: bool) -> list[Spot]:
+    """A way around a vertex in edges of one length; around an end that fades out the first and last are longer."""
+    whole = Side(spots, segments, np.zeros(len(spots)), [False] * len(spots))
+    shares = np.arange(count + 1) / count
+    if fades:
+        shares = np.concatenate([[0.0], 0.25 + 0.5 * np.arange(count - 1) / (count - 2), [1.0]])
+    return [whole.at(share * whole.length) for share in shares]

@@ -1,0 +1,147 @@
+"""A fillet's surface meshed anew by quads in rows along its seams."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from fairing import _core
+from fairing._fillet_rows import RowMesh, Seams, row_mesh
+from fairing._first_mesh import without_specks
+from fairing._new_mesh import read_only
+from fairing._patch import Patch
+from fairing._rounded import Given, Made, Wishes, line_places
+from fairing._rows import halves_of
+from fairing._seam_arcs import FoundLine, NoRowsError
+from fairing._seam_edges import SeamEdges
+from fairing._strip_surface import Solved
+from fairing._types import FloatArray, IntArray
+
+
+def in_rows(given: Given, made: Made, wishes: Wishes, rows: int, counted: IntArray | None) -> tuple[Made, IntArray]:
+    """And the pairs (q, 2) of its triangles that are quads. Raises NoRowsError."""
+    edges = given.seams.tolist(), wishes.walls.tolist()
+    found = _core.fillet_line(given.points, given.triangles, edges, wishes.widths, wishes.spacing, None)
+    line = FoundLine.of(found)
+    if not len(line.segments):
+        raise NoRowsError
+    within = np.unique(made.cut["triangles"][made.inside])
+    near = given.triangles[np.isin(given.triangles, within).any(axis=1)]
+    leading = SeamEdges(line, given.points, near, counted)
+    width = min(float(side[given.seams].min()) for side in wishes.widths)
+    seams = Seams(given.points, line, width, rows, leading.linked, leading.must)
+    mesh = row_mesh(seams, _components(made))
+    cut = given.cut(wishes, mesh.chosen.arrays(), None)
+    made = _with_rows(given, made, mesh, cut, wishes)
+    count = len(mesh.quads)
+    return made, np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
+
+
+def _components(made: Made) -> list[Solved]:
+    patch = made.patch
+    assert patch.fixed is not None
+    assert patch.normals is not None
+    part = _core.components(patch.triangles, patch.fixed, len(patch.vertices))
+    found = []
+    for number in range(part.max(initial=-1) + 1):
+        rows = np.flatnonzero(part == number)
+        triangles = np.ascontiguousarray(patch.triangles[rows])
+        own = np.isin(patch.fixed, triangles)
+        found.append(Solved(patch.vertices, triangles, rows, patch.fixed[own], np.ascontiguousarray(patch.normals[own])))
+    return found
+
+
+def _with_rows(given: Given, made: Made, mesh: RowMesh, cut: dict[str, Any], wishes: Wishes) -> Made:
+    placed = np.concatenate([given.points, cut["points"]])
+    inside = without_specks(cut, placed, wishes.spacing)
+    cut = {**cut, "inside": inside}
+    vertices = np.concatenate([placed, mesh.places])
+    _check(vertices, mesh.quads, cut["triangles"][inside])
+    halves = halves_of(vertices, mesh.quads)
+    on_line, line_weights = line_places(cut, len(placed) - len(given.points))
+    old, weights = _below(given, made, mesh)
+    line_weights = np.clip(line_weights, 0.0, None)
+    origins = (
+        np.concatenate([on_line, old]).astype(np.int32),
+        np.concatenate([line_weights / line_weights.sum(axis=1, keepdims=True), weights]),
+    )
+    rim = cut["boundary"]
+    rim = rim[np.isin(rim, mesh.quads)]
+    values = {**made.values, **_at_boundary(made, vertices, rim)}
+    curvature = np.concatenate([np.zeros(len(given.points)), made.values["mean_curvature"]])
+    inner = (curvature[made.triangles[mesh.triangle]] * mesh.weights).sum(axis=1)
+    values["mean_curvature"] = np.concatenate([_nearest_values(made, curvature, cut["points"]), inner])
+    values.update(cut=True, polished=False)
+    patch = Patch(vertices, halves, rim, None)
+    return replace(
+        made, cut=cut, inside=inside, triangles=halves, vertices=vertices, line_count=len(cut["points"]), patch=patch,
+        old=origins[0], weights=origins[1], on_seam=np.empty(0, np.int64), values=values,
+    )  # fmt: skip
+
+
+def _check(vertices: FloatArray, quads: IntArray, pieces: IntArray) -> None:
+    """NoRowsError where the boundary is not that of the old pieces, or an angle is none of a convex quad."""
+    sides = [np.concatenate([faces, np.roll(faces, -1, axis=1)], axis=1) for faces in (quads, pieces)]
+    borders = []
+    for own in sides:
+        width = own.shape[1] // 2
+        pairs = {tuple(pair) for pair in own.reshape(-1, 2, width).transpose(0, 2, 1).reshape(-1, 2).tolist()}
+        if len(pairs) != own.size // 2:
+            raise NoRowsError
+        borders.append({(a, b) for a, b in pairs if (b, a) not in pairs})
+    if borders[0] != borders[1]:
+        raise NoRowsError
+    corners = vertices[quads]
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    if ((np.cross(ahead, back) * normals[:, None]).sum(axis=2) <= 0).any():
+        raise NoRowsError
+
+
+def _below(given: Given, made: Made, mesh: RowMesh) -> tuple[IntArray, FloatArray]:
+    """Old triangles under the new vertices and weights there: of those under the solved triangle's corners the one
+    that the place is least out of."""
+    count = len(given.points)
+    carried = np.einsum("kc,kcd->kd", made.weights, given.points[given.triangles[made.old]])
+    before = np.concatenate([given.points, carried])
+    corners = made.triangles[mesh.triangle]
+    places = np.einsum("kc,kcd->kd", mesh.weights, before[corners])
+    old = np.where(corners >= count, made.old[np.maximum(corners - count, 0)], -1)
+    best, least = np.zeros(len(places), np.int64), np.full(len(places), -np.inf)
+    weights = np.full((len(places), 3), 1 / 3)
+    for k in range(3):
+        own = _weights_in(given.points[given.triangles[old[:, k]]], places)
+        better = (own.min(axis=1) > least) & (old[:, k] >= 0)
+        best[better], weights[better], least[better] = old[better, k], own[better], own.min(axis=1)[better]
+    weights = np.clip(weights, 0.0, None)
+    return best, weights / weights.sum(axis=1, keepdims=True)
+
+
+def _weights_in(corners: FloatArray, places: FloatArray) -> FloatArray:
+    """Barycentric weights (k, 3) of the feet of places (k, 3) in the planes of triangles (k, 3, 3)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = np.cross(b - a, c - a)
+    squared = np.maximum((normal * normal).sum(axis=1), 1e-300)
+    u = (normal * np.cross(c - b, places - b)).sum(axis=1) / squared
+    v = (normal * np.cross(a - c, places - c)).sum(axis=1) / squared
+    return np.column_stack([u, v, 1.0 - u - v])
+
+
+def _at_boundary(made: Made, vertices: FloatArray, rim: IntArray) -> dict[str, Any]:
+    """The fields of a report at the vertices of another boundary: those of the nearest one of its own."""
+    fixed = made.values["fixed"]
+    near = _nearest(made.vertices[fixed], vertices[rim])
+    found = {name: read_only(made.values[name][near]) for name in ("boundary_angle", "join")}
+    return {"fixed": rim, **found}
+
+
+def _nearest_values(made: Made, values: FloatArray, places: FloatArray) -> FloatArray:
+    fixed = made.values["fixed"]
+    found: FloatArray = values[fixed[_nearest(made.vertices[fixed], places)]]
+    return found
+
+
+def _nearest(of: FloatArray, places: FloatArray) -> IntArray:
+    return np.array([np.linalg.norm(of - place, axis=1).argmin() for place in places], dtype=np.int64)

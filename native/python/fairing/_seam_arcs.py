@@ -1,0 +1,260 @@
+"""Seams as arcs between the vertices where they meet or end, and the lines beside each of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing._types import FloatArray, IntArray
+
+RIGHT, LEFT = 0, 1
+_SAME = 1e-6  # of an arc's length: roundoff of feet
+
+End = tuple[int, int]
+"""An arc and one of its ends: 0 where it begins, 1 where it ends."""
+
+
+class NoRowsError(Exception):
+    """Why a fillet has no rows."""
+
+
+@dataclass(frozen=True)
+class FoundLine:
+    """The line of `_core.fillet_line`, p points close to each other; fillets are on its left."""
+
+    places: FloatArray
+    """(p, 3)"""
+    numbers: IntArray
+    """(p, 3) vertex, number of the edge, triangle."""
+    along: FloatArray
+    ends: IntArray
+    """(p, 2) of the edges that they are on, or −1."""
+    feet: IntArray
+    """(p, 2) the half-edge of a seam from which each is reached,"""
+    foot_along: FloatArray
+    corner: npt.NDArray[np.bool_]
+    segments: IntArray
+    """(s, 3) from, to, triangle."""
+    seams: IntArray
+    walls: IntArray
+    """(w, 5) edge, tail, head, triangle, corner there."""
+
+    @classmethod
+    def of(cls, found: dict[str, Any]) -> FoundLine:
+        whole = {"numbers": 3, "segments": 3, "walls": 5}
+        for name, width in whole.items():
+            found[name] = np.array(found[name], dtype=np.int64).reshape(-1, width)
+        return cls(**{name: np.asarray(value) for name, value in found.items()})
+
+    def is_bound(self) -> npt.NDArray[np.bool_]:
+        """(p,) at vertices and on edges: these points stay."""
+        bound: npt.NDArray[np.bool_] = (self.numbers[:, :2] >= 0).any(axis=1)
+        return bound
+
+    def chains(self) -> Iterator[tuple[list[int], list[int], bool]]:
+        """The points of each chain, its segments, and whether it is closed: its first point then comes last, too."""
+        after: dict[int, int] = {}
+        for number, (begin, _, _) in enumerate(self.segments.tolist()):
+            if begin in after:
+                raise NoRowsError
+            after[begin] = number
+        heads = {end for _, end, _ in self.segments.tolist()}
+        starts = [begin for begin in after if begin not in heads]
+        for start in [*starts, *after]:
+            points, segments = [start], []
+            while points[-1] in after:
+                segments.append(after.pop(points[-1]))
+                points.append(int(self.segments[segments[-1], 1]))
+            if segments:
+                yield points, segments, points[0] == points[-1]
+
+
+@dataclass(frozen=True)
+class Arc:
+    """A seam from one meeting to the next."""
+
+    vertices: list[int]
+    ways: FloatArray
+    """Along it at each vertex, from 0."""
+    closed: bool
+    """The first vertex then comes last, too."""
+
+    @property
+    def length(self) -> float:
+        return float(self.ways[-1])
+
+
+def arcs_of(seams: IntArray, points: FloatArray) -> list[Arc]:
+    beside: dict[int, list[int]] = {}
+    for a, b in np.unique(np.sort(seams, axis=1), axis=0).tolist():
+        beside.setdefault(a, []).append(b)
+        beside.setdefault(b, []).append(a)
+    meetings = [v for v, others in beside.items() if len(others) != 2]
+    used: set[tuple[int, int]] = set()
+    found = []
+    for start in [*meetings, *beside]:
+        for second in beside[start]:
+            if (start, second) in used:
+                continue
+            chain = [start, second]
+            while len(beside[chain[-1]]) == 2 and chain[-1] != start:
+                chain.append(next(v for v in beside[chain[-1]] if v != chain[-2]))
+            used |= {pair for a, b in zip(chain, chain[1:], strict=False) for pair in ((a, b), (b, a))}
+            steps = np.linalg.norm(np.diff(points[chain], axis=0), axis=1)
+            closed = chain[0] == chain[-1] and len(beside[start]) == 2
+            found.append(Arc(chain, np.concatenate([[0.0], np.cumsum(steps)]), closed))
+    return found
+
+
+class Label(NamedTuple):
+    """Which arc, on which side, and how far along it; at a meeting's vertex: that, with arc −1."""
+
+    arc: int
+    side: int
+    way: float
+    vertex: int = -1
+
+
+@dataclass
+class Run:
+    """The line on one side of an arc, in the arc's direction."""
+
+    points: list[int]
+    segments: list[int]
+    """Of the line, between one point and the next."""
+    ways: FloatArray
+    """Of the feet along the arc."""
+    closed: bool
+
+
+@dataclass
+class Network:
+    """Arcs and what is on their sides."""
+
+    arcs: list[Arc]
+    runs: dict[tuple[int, int], Run] = field(default_factory=dict)
+    """By arc and side."""
+    onward: dict[End, tuple[End, list[int], list[int]]] = field(default_factory=dict)
+    """Where the line that comes to an arc's end goes on beside another one's: the points in between, and segments."""
+
+
+def network_of(line: FoundLine, points: FloatArray) -> Network:
+    """Raises NoRowsError where an arc has not one line on either side."""
+    result = Network(arcs_of(line.seams, points))
+    labels = _labels(line, result.arcs)
+    for chain, segments, closed in line.chains():
+        _add_chain(result, labels, chain, segments, closed)
+    if len(result.runs) != 2 * len(result.arcs):
+        raise NoRowsError
+    return result
+
+
+def _labels(line: FoundLine, arcs: list[Arc]) -> list[Label | None]:
+    """Of each point of the line."""
+    place: dict[tuple[int, int], tuple[int, int, int]] = {}
+    meetings = {v for arc in arcs if not arc.closed for v in (arc.vertices[0], arc.vertices[-1])}
+    for number, arc in enumerate(arcs):
+        for k, (a, b) in enumerate(zip(arc.vertices, arc.vertices[1:], strict=False)):
+            place[a, b], place[b, a] = (number, LEFT, k), (number, RIGHT, k)
+    found: list[Label | None] = []
+    rows = zip(line.feet.tolist(), line.corner.tolist(), line.foot_along.tolist(), strict=True)
+    for (tail, head), corner, along in rows:
+        at = place.get((tail, head))
+        if corner and tail in meetings:
+            found.append(Label(-1, 0, 0.0, tail))
+        elif at is None:
+            found.append(None)
+        else:
+            number, side, k = at
+            step = 0.0 if corner else along
+            ways = arcs[number].ways
+            found.append(Label(number, side, float(ways[k] + step if side == LEFT else ways[k + 1] - step)))
+    return found
+
+
+def _add_chain(
+    network: Network, labels: list[Label | None], chain: list[int], segments: list[int], closed: bool
+) -> None:
+    """Part a chain where it comes from one arc's side to another's."""
+    kinds = [_kind(labels[p]) for p in chain]
+    if not any(kinds):
+        raise NoRowsError
+    if closed:
+        named = [k for k, kind in enumerate(kinds[:-1]) if kind]
+        turn = next((k for at, k in enumerate(named) if kinds[k] != kinds[named[at - 1]]), 0)
+        chain = [*chain[turn:-1], *chain[: turn + 1]]
+        segments = [*segments[turn:], *segments[:turn]]
+        kinds = [*kinds[turn:-1], *kinds[: turn + 1]]
+        if len({kinds[k] for k in range(len(kinds)) if kinds[k]}) == 1:
+            _add_run(network, labels, (chain, segments), next(filter(None, kinds)), True)
+            return
+    pieces: list[tuple[int, int]] = []
+    for k in [k for k, kind in enumerate(kinds) if kind]:
+        if pieces and kinds[k] == kinds[pieces[-1][1]]:
+            pieces[-1] = (pieces[-1][0], k)
+        else:
+            pieces.append((k, k))
+    if not closed:
+        pieces[0] = (0, pieces[0][1])
+        pieces[-1] = (pieces[-1][0], len(chain) - 1)
+    found = [next(filter(None, kinds[first : last + 1])) for first, last in pieces]
+    for (first, last), kind in list(zip(pieces, found, strict=True))[: -1 if closed else None]:
+        _add_run(network, labels, (chain[first : last + 1], segments[first:last]), kind, False)
+    for k in range(len(pieces) - 1):
+        (come, came_on), (go, goes_on) = found[k], found[k + 1]
+        last, first = pieces[k][1], pieces[k + 1][0]
+        network.onward[come, 1 if came_on == RIGHT else 0] = (
+            (go, 0 if goes_on == RIGHT else 1), chain[last : first + 1], segments[last:first]
+        )  # fmt: skip
+
+
+def _kind(label: Label | None) -> tuple[int, int] | None:
+    return None if label is None or label.arc < 0 else (label.arc, label.side)
+
+
+def _add_run(
+    network: Network,
+    labels: list[Label | None],
+    found: tuple[list[int], list[int]],
+    kind: tuple[int, int],
+    closed: bool,
+) -> None:
+    chain, segments = found
+    if kind in network.runs or network.arcs[kind[0]].closed != closed:
+        raise NoRowsError
+    own = [labels[p] for p in chain]
+    known = [k for k, label in enumerate(own) if label is not None and label.arc >= 0]
+    ways = np.array([own[k].way for k in known])  # type: ignore[union-attr]
+    if kind[1] == LEFT:
+        chain, segments, ways = chain[::-1], segments[::-1], ways[::-1]
+        known = [len(chain) - 1 - k for k in known[::-1]]
+    arc = network.arcs[kind[0]]
+    if closed:
+        chain, segments, ways, known = _from_begin(chain, segments, ways, known, arc.length)
+    if (np.diff(ways) < -_SAME * arc.length).any():
+        raise NoRowsError
+    at = np.interp(np.arange(len(chain)), known, ways)
+    network.runs[kind] = Run(chain, segments, at, closed)
+
+
+def _from_begin(
+    chain: list[int], segments: list[int], ways: FloatArray, known: list[int], length: float
+) -> tuple[list[int], list[int], FloatArray, list[int]]:
+    """A closed run that begins where the way along the arc is least; its first point comes last, a turn later."""
+    drop = int(np.argmin(np.diff(ways))) + 1 if len(ways) > 1 and np.diff(ways).min() < -0.5 * length else 0
+    start = known[drop] if drop < len(known) else 0
+    count = len(chain) - 1
+    order = [(start + k) % count for k in range(count)]
+    at = {k: way for k, way in zip(known, ways.tolist(), strict=True) if k < count}
+    kept = [(place, at[k]) for place, k in enumerate(order) if k in at]
+    turned = np.array([way for _, way in kept])
+    return (
+        [*(chain[k] for k in order), chain[start]],
+        [segments[k] for k in order],
+        np.append(turned, turned[0] + length),
+        [*(place for place, _ in kept), count],
+    )

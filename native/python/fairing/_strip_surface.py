@@ -1,0 +1,115 @@
+"""The solved surface of a fillet: sections across its strips, and places for the quads where these meet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fairing import _core
+from fairing._columns import Column, Spot, Strip
+from fairing._seam_arcs import NoRowsError
+from fairing._types import FloatArray, IntArray
+
+_OFF = 0.1  # of the width: how far the surface may leave the quads between two columns, or one more comes between
+_MOST_HALVINGS = 8  # of the way between two columns
+_INSIDE = 1e-6  # of the strip: as far inside its ends are cut, since along them its boundary may lie in their planes
+_LEAST_NORMAL = 0.05  # sine between the chord and the mean normal of its ends: below no plane is known
+
+Placed = tuple[FloatArray, int, FloatArray]
+"""A place, the triangle under it and the weights there."""
+
+
+@dataclass
+class Solved:
+    """One component; its triangles have the numbers `numbers` among all."""
+
+    vertices: FloatArray
+    triangles: IntArray
+    numbers: IntArray
+    fixed: IntArray
+    normals: FloatArray
+
+    def distance(self, place: FloatArray) -> float:
+        """To the nearest vertex of the boundary."""
+        return float(np.linalg.norm(self.vertices[self.fixed] - place, axis=1).min())
+
+    def sections(self, strip: Strip, columns: Sequence[Column], rows: int) -> list[Placed]:
+        """rows − 1 places on each column, right to left. Raises NoRowsError."""
+        pairs = [strip.beside(column, _INSIDE * strip.sides[0].length) for column in columns]
+        if not pairs or rows < 2:
+            return []
+        starts, ends = (np.array([pair[k].place for pair in pairs]) for k in (0, 1))
+        found = _core.section_places(self._surface(), (starts, ends, self._planes(starts, ends)), rows)
+        if not found["found"].all():
+            raise NoRowsError
+        return self._placed(found)
+
+    def laid_out(self, quads: list[list[int]], known: FloatArray, count: int, sweeps: int) -> list[Placed]:
+        """Of `count` vertices after the known ones: at the means of their neighbours, and then relaxed."""
+        places = np.concatenate([known, _means(quads, known, count)])
+        return self._placed(_core.relaxed_places(self._surface(), quads, places, len(known), sweeps))[len(known) :]
+
+    def refine(self, strip: Strip, rows: int, width: float) -> None:
+        """Columns between others where the surface is not straight."""
+        fresh = list(zip(strip.columns, strip.columns[1:], strict=False))
+        known: dict[Column, FloatArray] = {}
+        for _ in range(_MOST_HALVINGS):
+            if not fresh:
+                return
+            middles = [before.between(after, 0.5) for before, after in fresh]
+            self._find(strip, [c for pair in fresh for c in pair] + middles, rows, known)
+            added = []
+            for (before, after), middle in zip(fresh, middles, strict=True):
+                straight = 0.5 * (known[before] + known[after])
+                off = np.linalg.norm(known[middle] - straight, axis=1).max(initial=0.0)
+                size = max(after.right - before.right, after.left - before.left)
+                if off > _OFF * width and size > 0.5 * width:
+                    strip.columns.insert(strip.columns.index(after), middle)
+                    added += [(before, middle), (middle, after)]
+            fresh = added
+
+    def _find(self, strip: Strip, columns: list[Column], rows: int, known: dict[Column, FloatArray]) -> None:
+        wanted = [c for c in dict.fromkeys(columns) if c not in known]
+        known |= {c: strip.walled[c] for c in wanted if c in strip.walled}
+        wanted = [c for c in wanted if c not in known]
+        found = self.sections(strip, wanted, rows)
+        for k, column in enumerate(wanted):
+            known[column] = np.array([place for place, _, _ in found[k * (rows - 1) : (k + 1) * (rows - 1)]])
+
+    def _surface(self) -> tuple[FloatArray, IntArray, IntArray, FloatArray]:
+        return self.vertices, self.triangles, self.fixed, self.normals
+
+    def _placed(self, found: dict[str, FloatArray]) -> list[Placed]:
+        numbers = self.numbers[found["triangle"]]
+        return list(zip(found["places"], numbers.tolist(), found["weights"], strict=True))
+
+    def _planes(self, starts: FloatArray, ends: FloatArray) -> FloatArray:
+        """(c, 3) normals of the planes through both ends and along the mean of the surface's normals there."""
+        upward = sum(self.normals[self._nearest(at)] for at in (starts, ends))
+        chords = ends - starts
+        normals = np.cross(chords, upward)
+        sizes = np.linalg.norm(normals, axis=1)
+        if (sizes < _LEAST_NORMAL * np.linalg.norm(chords, axis=1)).any():
+            raise NoRowsError
+        planes: FloatArray = normals / sizes[:, None]
+        return planes
+
+    def _nearest(self, at: FloatArray) -> IntArray:
+        rim = self.vertices[self.fixed]
+        nearest = np.array([np.linalg.norm(rim - place, axis=1).argmin() for place in at], dtype=np.int64)
+        return nearest
+
+
+def _means(quads: list[list[int]], known: FloatArray, count: int) -> FloatArray:
+    """(count, 3): each vertex after the known ones is the mean of its neighbours."""
+    total = len(known) + count
+    beside = np.zeros((total, total))
+    for quad in quads:
+        for k in range(4):
+            beside[quad[k], quad[k - 1]] = beside[quad[k - 1], quad[k]] = 1.0
+    new = slice(len(known), total)
+    system = np.diag(beside[new].sum(axis=1)) - beside[new, new]
+    places: FloatArray = np.linalg.solve(system, beside[new, : len(known)] @ known)
+    return places
