@@ -10,7 +10,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
-from .faces import Faces
+from .faces import Faces, faces_in_rows, faces_of
 from .new_part import NewPart, Stencil
 from .region import MeshArrays
 
@@ -60,8 +60,9 @@ def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
         gone_faces=gone_faces,
         gone_vertices=_without_faces(mesh, gone_faces, np.setdiff1d(touched, stay)),
     )
-    polygons, first = _merged(mesh, numbered, parents, outside)
-    return RoundedPart(part, _wound(polygons, mesh.mirrored), first)
+    polygons, first = _merged(mesh, numbered[:outside], parents, result.quads is not None)
+    faces = _joined(polygons, _new_faces(numbered, result, outside))
+    return RoundedPart(part, _wound(faces, mesh.mirrored), first)
 
 
 def _without_faces(mesh: MeshArrays, gone_faces: Ints, vertices: Ints) -> Ints:
@@ -173,8 +174,11 @@ def _corner_numbers(mesh: MeshArrays) -> Ints:
     return found
 
 
-def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, outside: int) -> tuple[Faces, int]:
-    """Return the faces, and how many of them are pieces: those of one flat face become polygons again."""
+def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, bent: bool) -> tuple[Faces, int]:
+    """Return the faces of the pieces, and how many there are: those of one face become polygons again.
+
+    bent: whether of faces that are not flat, too.
+    """
     polygons: list[list[int]] = []
     examples: list[int] = []
     corners: list[int] = []
@@ -184,21 +188,35 @@ def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, outside: int) -> t
         examples.append(places[0] // 3)
         corners.extend(places)
 
-    faces = mesh.triangle_faces[parents[:outside]]
+    faces = mesh.triangle_faces[parents[: len(triangles)]]
     for face in np.unique(faces).tolist():
         rows = np.flatnonzero(faces == face)
-        flat = _is_flat(mesh, face)
+        whole = bent or _is_flat(mesh, face)
         for piece in _pieces(triangles, rows):
-            loop = _outline(triangles, piece) if flat else None
+            loop = _outline(triangles, piece) if whole else None
             if loop is None:
                 for row in piece:
                     add(triangles[row].tolist(), [3 * row, 3 * row + 1, 3 * row + 2])
             else:
                 add([int(triangles[corner // 3, corner % 3]) for corner in loop], loop)
-    first = len(polygons)
-    for row in range(outside, len(triangles)):
-        add(triangles[row].tolist(), [3 * row, 3 * row + 1, 3 * row + 2])
-    return Faces(polygons, np.array(examples, dtype=np.int64), np.array(corners, dtype=np.int64)), first
+    return Faces(polygons, np.array(examples, dtype=np.int64), np.array(corners, dtype=np.int64)), len(polygons)
+
+
+def _new_faces(triangles: Ints, result: fairing.FilletResult, outside: int) -> Faces:
+    """Return those of the fillet; their triangles are the last of all."""
+    if result.quads is None:
+        own = faces_of(triangles[outside:])
+    else:
+        own = faces_in_rows(triangles[outside:], result.quads.pairs - result.outside, np.empty((0, 2), np.int64))
+    return Faces(own.polygons, own.triangles + outside, own.corners + 3 * outside)
+
+
+def _joined(first: Faces, second: Faces) -> Faces:
+    return Faces(
+        first.polygons + second.polygons,
+        np.concatenate([first.triangles, second.triangles]),
+        np.concatenate([first.corners, second.corners]),
+    )
 
 
 def _is_flat(mesh: MeshArrays, face: int) -> bool:

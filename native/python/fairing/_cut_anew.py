@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ class ChosenPoints:
     def __init__(self, line: FoundLine, given: FloatArray) -> None:
         self._line, self._given = line, given
         self._points = {int(p): -1 for p in np.flatnonzero(line.is_bound())}
+        self._wanted: set[int] = set()
         self._between: dict[int, dict[bytes, FloatArray]] = {}
         self._names: dict[tuple[int, bytes], int] = {}
         self._on_walls: list[tuple[int, int, FloatArray, float]] = []
@@ -29,6 +31,7 @@ class ChosenPoints:
     def add(self, spot: Spot) -> None:
         if spot.point >= 0:
             self._points[spot.point] = -1
+            self._wanted.add(spot.point)
         else:
             self._between.setdefault(spot.segment, {})[spot.place.tobytes()] = spot.place
 
@@ -102,6 +105,11 @@ class ChosenPoints:
         """The vertices on a wall from a point of the line to a vertex, which is not among them."""
         path = self._paths[spot.place.tobytes(), vertex]
         return [self.vertex(spot), *(int(self._vertices[self._first_on_walls + k]) for k in path)]
+
+    def not_needed(self, must: Callable[[int], bool]) -> list[int]:
+        """Vertices on diagonals, where no column is and nothing outside asks for one."""
+        left = [p for p in self._points if p not in self._wanted and not must(p)]
+        return [int(self._vertices[self._points[p]]) for p in left]
 
     def arrays(self) -> tuple[Any, ...]:
         """As `_core.cut_fillet` takes them."""

@@ -99,7 +99,7 @@ def fillet(
     corners = _arguments.triangles_within(triangles, len(points))
     _seams.check_finite(points, corners)
     wants_rows = _arguments.choice("faces", faces, FACES) == "quads"
-    counted = None if neighbours is None else _arguments.edges_of("neighbours", neighbours, corners)
+    counted = None if neighbours is None else _neighbours(neighbours, len(points))
     refuse_made_here(given, progress)
     seams, ends = _seams.seams_and_walls(points, corners, seam, walls)
     widths = (
@@ -124,6 +124,10 @@ def fillet(
     if not wants_rows:
         return result_of(mesh, made, wishes)
     return _with_quads(mesh, made, wishes, length, counted)
+
+
+def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
+    return _arguments.indices_within("neighbours", _arguments.integers("neighbours", value, 2), count)
 
 
 def _with_quads(

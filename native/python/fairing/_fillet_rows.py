@@ -172,7 +172,9 @@ class _Making:
                     self._chosen.add(spot)
         for end, spots in self._ends.around.items():
             count = self._turn_edges(end)
-            self._ends.around[end] = parted = _parted(spots, count, self._network.onward[end][2], end == self._other(end))
+            segments = self._network.onward[end][2]
+            parted = _parted(spots, segments, _shares(count, end == self._other(end)), self._seams.must)
+            self._ends.around[end] = parted
             for spot in parted:
                 self._chosen.add(spot)
         self._walls: dict[End, list[tuple[int, int, float]]] = {}
@@ -284,10 +286,24 @@ class _Making:
         return self._places[vertex - self._chosen.vertex_count][0]
 
 
-def _parted(spots: list[Spot], count: int, segments: list[int], fades: bool) -> list[Spot]:
-    """A way around a vertex in edges of one length; around an end that fades out the first and last are longer."""
-    whole = Side(spots, segments, np.zeros(len(spots)), [False] * len(spots))
-    shares = np.arange(count + 1) / count
-    if fades:
-        shares = np.concatenate([[0.0], 0.25 + 0.5 * np.arange(count - 1) / (count - 2), [1.0]])
-    return [whole.at(share * whole.length) for share in shares]
+def _shares(count: int, fades: bool) -> FloatArray:
+    """Of a way around a vertex: edges of one length; around an end that fades out the first and last are longer."""
+    even = np.arange(count + 1) / count
+    if not fades:
+        return even
+    return np.concatenate([[0.0], 0.25 + 0.5 * np.arange(count - 1) / (count - 2), [1.0]])
+
+
+def _parted(spots: list[Spot], segments: list[int], shares: FloatArray, must: Callable[[int], bool]) -> list[Spot]:
+    """Spots after these shares of a way; where edges outside come to it they take the place of the nearest one."""
+    whole = Side(spots, segments, np.zeros(len(spots)), [must(spot.point) for spot in spots])
+    found = [whole.at(share * whole.length) for share in shares]
+    taken: set[int] = set()
+    for k in np.flatnonzero(whole.must)[:].tolist():
+        if 0 < k < len(spots) - 1:
+            nearest = 1 + int(np.abs(shares[1:-1] - whole.ways[k] / whole.length).argmin())
+            if nearest in taken:
+                raise NoRowsError
+            taken.add(nearest)
+            found[nearest] = spots[k]
+    return found

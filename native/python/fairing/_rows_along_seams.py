@@ -6,8 +6,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from fairing import _core
+from fairing._dropped_points import without_points
 from fairing._fillet_rows import RowMesh, Seams, row_mesh
 from fairing._first_mesh import without_specks
 from fairing._new_mesh import read_only
@@ -17,7 +19,7 @@ from fairing._rows import halves_of
 from fairing._seam_arcs import FoundLine, NoRowsError
 from fairing._seam_edges import SeamEdges
 from fairing._strip_surface import Solved
-from fairing._types import FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray
 
 
 def in_rows(given: Given, made: Made, wishes: Wishes, rows: int, counted: IntArray | None) -> tuple[Made, IntArray]:
@@ -34,7 +36,7 @@ def in_rows(given: Given, made: Made, wishes: Wishes, rows: int, counted: IntArr
     seams = Seams(given.points, line, width, rows, leading.linked, leading.must)
     mesh = row_mesh(seams, _components(made))
     cut = given.cut(wishes, mesh.chosen.arrays(), None)
-    made = _with_rows(given, made, mesh, cut, wishes)
+    made = _with_rows(given, made, mesh, (cut, mesh.chosen.not_needed(leading.must)), wishes)
     count = len(mesh.quads)
     return made, np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
 
@@ -53,12 +55,15 @@ def _components(made: Made) -> list[Solved]:
     return found
 
 
-def _with_rows(given: Given, made: Made, mesh: RowMesh, cut: dict[str, Any], wishes: Wishes) -> Made:
+def _with_rows(
+    given: Given, made: Made, mesh: RowMesh, again: tuple[dict[str, Any], list[int]], wishes: Wishes
+) -> Made:
+    """again: the second cut, and points of it that are dropped."""
+    cut, dropped = again
     placed = np.concatenate([given.points, cut["points"]])
     inside = without_specks(cut, placed, wishes.spacing)
-    cut = {**cut, "inside": inside}
     vertices = np.concatenate([placed, mesh.places])
-    _check(vertices, mesh.quads, cut["triangles"][inside])
+    _check(vertices, mesh.quads, cut["triangles"][inside], set(dropped))
     halves = halves_of(vertices, mesh.quads)
     on_line, line_weights = line_places(cut, len(placed) - len(given.points))
     old, weights = _below(given, made, mesh)
@@ -69,10 +74,12 @@ def _with_rows(given: Given, made: Made, mesh: RowMesh, cut: dict[str, Any], wis
     )
     rim = cut["boundary"]
     rim = rim[np.isin(rim, mesh.quads)]
+    cut, inside = _without(cut, inside, placed, dropped)
     values = {**made.values, **_at_boundary(made, vertices, rim)}
     curvature = np.concatenate([np.zeros(len(given.points)), made.values["mean_curvature"]])
     inner = (curvature[made.triangles[mesh.triangle]] * mesh.weights).sum(axis=1)
     values["mean_curvature"] = np.concatenate([_nearest_values(made, curvature, cut["points"]), inner])
+    values["warnings"] = tuple(_moved(warning, made, vertices, mesh.quads) for warning in values["warnings"])
     values.update(cut=True, polished=False)
     patch = Patch(vertices, halves, rim, None)
     return replace(
@@ -81,23 +88,51 @@ def _with_rows(given: Given, made: Made, mesh: RowMesh, cut: dict[str, Any], wis
     )  # fmt: skip
 
 
-def _check(vertices: FloatArray, quads: IntArray, pieces: IntArray) -> None:
+def _without(
+    cut: dict[str, Any], inside: npt.NDArray[np.bool_], placed: FloatArray, dropped: list[int]
+) -> tuple[dict[str, Any], npt.NDArray[np.bool_]]:
+    """The cut without some points of its line."""
+    after = dict(cut["line"].tolist())
+    gone, groups = set(dropped), []
+    for a in [a for a in after if a not in gone]:
+        group = []
+        while after[a] in gone:
+            group.append(after[a])
+            after[a] = after.pop(group[-1])
+        groups += [group] if group else []
+    triangles, parents = without_points(cut["triangles"][~inside], cut["parent"][~inside], placed, groups)
+    within = np.arange(len(triangles) + inside.sum()) >= len(triangles)
+    changed = {
+        "triangles": np.concatenate([triangles, cut["triangles"][inside]]),
+        "parent": np.concatenate([parents, cut["parent"][inside]]),
+        "inside": within,
+        "line": np.array(list(after.items()), dtype=np.int32).reshape(-1, 2),
+    }
+    return {**cut, **changed}, within
+
+
+def _check(vertices: FloatArray, quads: IntArray, pieces: IntArray, dropped: set[int]) -> None:
     """NoRowsError where the boundary is not that of the old pieces, or an angle is none of a convex quad."""
-    sides = [np.concatenate([faces, np.roll(faces, -1, axis=1)], axis=1) for faces in (quads, pieces)]
-    borders = []
-    for own in sides:
-        width = own.shape[1] // 2
-        pairs = {tuple(pair) for pair in own.reshape(-1, 2, width).transpose(0, 2, 1).reshape(-1, 2).tolist()}
-        if len(pairs) != own.size // 2:
-            raise NoRowsError
-        borders.append({(a, b) for a, b in pairs if (b, a) not in pairs})
-    if borders[0] != borders[1]:
+    own, old = _border(quads), _border(pieces)
+    for a in old:
+        while old[a] in dropped:
+            old[a] = old[old[a]]
+    if own != {a: b for a, b in old.items() if a not in dropped}:
         raise NoRowsError
     corners = vertices[quads]
     normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     if ((np.cross(ahead, back) * normals[:, None]).sum(axis=2) <= 0).any():
         raise NoRowsError
+
+
+def _border(faces: IntArray) -> dict[int, int]:
+    """What comes after each vertex of the border. Raises NoRowsError where a side is there twice, or a vertex."""
+    sides = {(a, b) for row in faces.tolist() for a, b in zip(row, [*row[1:], row[0]], strict=True)}
+    border = [(a, b) for a, b in sides if (b, a) not in sides]
+    if len(sides) != faces.size or len(dict(border)) != len(border):
+        raise NoRowsError
+    return dict(border)
 
 
 def _below(given: Given, made: Made, mesh: RowMesh) -> tuple[IntArray, FloatArray]:
@@ -127,6 +162,14 @@ def _weights_in(corners: FloatArray, places: FloatArray) -> FloatArray:
     u = (normal * np.cross(c - b, places - b)).sum(axis=1) / squared
     v = (normal * np.cross(a - c, places - c)).sum(axis=1) / squared
     return np.column_stack([u, v, 1.0 - u - v])
+
+
+def _moved(warning: Diagnostic, made: Made, vertices: FloatArray, quads: IntArray) -> Diagnostic:
+    """For what it names on the solved mesh the nearest vertices of the quads."""
+    names = warning.elements if warning.kind == "vertex" else made.triangles[warning.elements].ravel()
+    used = np.unique(quads)
+    near = used[np.unique(_nearest(vertices[used], made.vertices[names]))]
+    return replace(warning, elements=read_only(near.astype(np.int32)), kind="vertex")
 
 
 def _at_boundary(made: Made, vertices: FloatArray, rim: IntArray) -> dict[str, Any]:
