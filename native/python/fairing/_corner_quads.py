@@ -43,22 +43,23 @@ def grid_quads(grid: list[list[int]]) -> list[Quad]:
 
 
 def end_cap(column: list[int], around: list[int], new: Callable[[], int]) -> list[Quad]:
-    """Quads over the half disc between a strip's last column and the line around its end.
+    """Quads over the half disc between a strip's last column and the line around its end, of as many edges.
 
-    Outer rows lead around the end and back. The inner ones end at an edge whose corners are poles.
-    ``column`` counter-clockwise, the cap on its left; ``around`` from its end back to its begin.
+    Outer rows lead around the end and back. The inner ones end at an edge whose corners are poles. ``column`` is
+    counter-clockwise, the cap on its left; ``around`` runs from its end back to its begin.
     """
     count = len(column) - 1
-    inner = len(around) - 1 - 2  # edges over which the rows turn
-    deep = (count - inner) // 2
-    ring = around[::-1]  # along the column's own direction
-    rings = [ring]
-    for level in range(1, deep):
-        rings.append([column[level], *(new() for _ in range(len(ring) - 2)), column[count - level]])
-    core = [new() for _ in range(inner + 1)]
-    rings.append([column[deep], *core, column[count - deep]])
+    inner = 2 * max(1, count // 4)  # rows that end
+    deep = (count - inner) // 2  # rows that lead around, and as many quads before the inner ones end
+    rings = [around[::-1]]
+    for level in range(1, deep + 1):
+        rings.append([column[level], *(new() for _ in range(count - 1)), column[count - level]])
     quads: list[Quad] = []
     for outer, within in zip(rings, rings[1:], strict=False):
         quads += grid_quads([outer, within])
-    quads += grid_quads([core, column[deep : count - deep + 1]])
-    return quads
+    last = rings[-1]
+    core = [last[deep : count - deep + 1]]
+    for step in range(deep - 1, 0, -1):
+        core.append([last[step], *(new() for _ in range(inner - 1)), last[count - step]])
+    core.append(column[deep : count - deep + 1])
+    return quads + grid_quads(core)

@@ -171,9 +171,9 @@ class _Making:
                 for spot in strip.spots(column):
                     self._chosen.add(spot)
         for end, spots in self._ends.around.items():
-            count = self._turn_edges(end)
-            segments = self._network.onward[end][2]
-            parted = _parted(spots, segments, _shares(count, end == self._other(end)), self._seams.must)
+            if end == self._other(end) and self._rows < 4:
+                raise NoRowsError
+            parted = _parted(spots, self._network.onward[end][2], self._rows, self._seams.must)
             self._ends.around[end] = parted
             for spot in parted:
                 self._chosen.add(spot)
@@ -185,14 +185,6 @@ class _Making:
 
     def _other(self, end: End) -> End:
         return self._network.onward[end][0]
-
-    def _turn_edges(self, end: End) -> int:
-        """How many edges the line has around a meeting's corner, or around an end that fades out."""
-        if end != self._other(end):
-            return self._rows
-        if self._rows < 4:
-            raise NoRowsError
-        return 2 * max(1, self._rows // 4) + 2
 
     def _choose_wall(self, end: End) -> None:
         number, which = end
@@ -286,16 +278,9 @@ class _Making:
         return self._places[vertex - self._chosen.vertex_count][0]
 
 
-def _shares(count: int, fades: bool) -> FloatArray:
-    """Of a way around a vertex: edges of one length; around an end that fades out the first and last are longer."""
-    even = np.arange(count + 1) / count
-    if not fades:
-        return even
-    return np.concatenate([[0.0], 0.25 + 0.5 * np.arange(count - 1) / (count - 2), [1.0]])
-
-
-def _parted(spots: list[Spot], segments: list[int], shares: FloatArray, must: Callable[[int], bool]) -> list[Spot]:
-    """Spots after these shares of a way; where edges outside come to it they take the place of the nearest one."""
+def _parted(spots: list[Spot], segments: list[int], count: int, must: Callable[[int], bool]) -> list[Spot]:
+    """A way in edges of one length; where edges outside come to it they take the place of the nearest spot."""
+    shares = np.arange(count + 1) / count
     whole = Side(spots, segments, np.zeros(len(spots)), [must(spot.point) for spot in spots])
     found = [whole.at(share * whole.length) for share in shares]
     taken: set[int] = set()
