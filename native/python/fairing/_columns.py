@@ -14,6 +14,9 @@ from fairing._types import FloatArray
 _NEAR = 0.3  # of the spacing: what is that near to each other is in one column (as fillet/parted_edges' clear_of_line)
 _ROUND = 0.6  # of the width: a longer way around a corner of the seam begins and ends with columns of its own
 _AHEAD = 0.25  # of such a way: as far before and after the corner these are on the other side
+_CORNER = 0.35  # radians, as fillet/limits' corner_angle: a line that turns by less may be passed in a chord
+_CROWDED = 0.2  # of the gap on the other side
+_MOST_SWEEPS = 50  # over columns in a row that make room for each other
 _STRAIGHT = 1e-3  # of the spacing: nearer to the chord is no corner of the line
 
 
@@ -74,16 +77,14 @@ class Side:
 
 
 class Column(NamedTuple):
-    """Ways along both sides."""
+    """Ways along both sides, and which of them stay: at edges outside, and where the line turns."""
 
     right: float
     left: float
-    must: bool = True
+    held: tuple[bool, bool] = (False, False)
 
     def between(self, other: Column, share: float) -> Column:
-        return Column(
-            (1 - share) * self.right + share * other.right, (1 - share) * self.left + share * other.left, False
-        )
+        return Column((1 - share) * self.right + share * other.right, (1 - share) * self.left + share * other.left)
 
 
 @dataclass
@@ -171,15 +172,24 @@ def strip_of(
     for side, own in zip(sides, marks, strict=True):
         _take_linked(side, own, [arc.vertices[k] for k in inner], linked, sizes[1])
     if arc.closed:
-        begin = next((k for k in range(len(inner)) if all(own[k].around is None for own in marks)), 0)
-        sides = sides[0].turned_to(marks[0][begin].spot), sides[1].turned_to(marks[1][begin].spot)
+        begin = _begin(marks)
+        first = [own[begin] for own in marks]
+        if first[RIGHT] is None or first[LEFT] is None:
+            raise NoRowsError
+        sides = sides[RIGHT].turned_to(first[RIGHT].spot), sides[LEFT].turned_to(first[LEFT].spot)
         marks = [[*own[begin + 1 :], *own[:begin]] for own in marks]
     anchors = _anchors(sides, marks)
     columns: list[Column] = []
     for before, after in zip(anchors, anchors[1:], strict=False):
         columns += [before, *_between(sides, before, after, sizes[1])]
-    columns.append(anchors[-1])
-    return Strip(arc, sides, _thinned(columns, _NEAR * sizes[1]))
+    columns = _spread(_thinned([*columns, anchors[-1]], _NEAR * sizes[1]))
+    return Strip(arc, sides, columns)
+
+
+def _begin(marks: list[list[_Mark | None]]) -> int:
+    """Where a closed strip is to begin: at a vertex that has marks, and no ways around it."""
+    pairs = list(zip(*marks, strict=True))
+    return next((k for k, pair in enumerate(pairs) if all(mark and mark.around is None for mark in pair)), 0)
 
 
 class _Mark(NamedTuple):
@@ -187,50 +197,56 @@ class _Mark(NamedTuple):
 
     spot: FloatArray
     around: tuple[FloatArray, FloatArray] | None
-    plain: bool
-    """Whether the line runs straight there."""
+    held: bool
+    """Whether the line turns there, or an edge outside comes to it."""
 
 
-def _mark(line: FoundLine, side: Side, foot: float, sizes: tuple[float, float]) -> _Mark:
-    """Put a spot there."""
+def _mark(line: FoundLine, side: Side, foot: float, sizes: tuple[float, float]) -> _Mark | None:
+    """Put a spot there; none where the line begins behind it, or ends before."""
     near = 1e-6 * float(side.feet[-1])
     last = int(np.searchsorted(side.feet, foot - near, side="left")) - 1
     first = int(np.searchsorted(side.feet, foot + near, side="right"))
-    last, first = max(last, 0), min(first, len(side.spots) - 1)
+    if last < 0 or first >= len(side.spots):
+        return None
     if first - last == 1:
-        spot, plain = _turn(line, side, last, foot, sizes[1])
+        spot = _turn(line, side, last, foot, sizes[1])
         if spot is not side.spots[last] and spot is not side.spots[first]:
             side.put(last, spot, foot)
-        return _Mark(spot.place, None, plain)
-    begin, end = last + 1, first - 1
-    way = float(side.ways[end] - side.ways[begin])
-    middle = side.at(0.5 * float(side.ways[begin] + side.ways[end]))
-    around = (side.spots[begin].place, side.spots[end].place) if way > _ROUND * sizes[0] else None
-    k = int(np.searchsorted(side.ways, 0.5 * (side.ways[begin] + side.ways[end]), side="right")) - 1
+        return _Mark(spot.place, None, _bends(side, spot.place, sizes[1]))
+    begin, end = float(side.ways[last + 1]), float(side.ways[first - 1])
+    middle = side.at(0.5 * (begin + end))
+    around = (side.spots[last + 1].place, side.spots[first - 1].place) if end - begin > _ROUND * sizes[0] else None
     if middle.point < 0:
-        side.put(k, middle, foot)
-    return _Mark(middle.place, around, way < sizes[1])
+        side.put(int(np.searchsorted(side.ways, 0.5 * (begin + end), side="right")) - 1, middle, foot)
+    return _Mark(middle.place, around, _bends(side, middle.place, sizes[1]))
 
 
-def _turn(line: FoundLine, side: Side, last: int, foot: float, spacing: float) -> tuple[Spot, bool]:
-    """Between two spots: where the line turns, or as far along as the foot, and whether it is straight."""
+def _bends(side: Side, place: FloatArray, spacing: float) -> bool:
+    way = _way(side, place)
+    ways = place - side.at(max(way - spacing, 0.0)).place, side.at(min(way + spacing, side.length)).place - place
+    sizes = [float(np.linalg.norm(each)) for each in ways]
+    return float(ways[0] @ ways[1]) < np.cos(_CORNER) * sizes[0] * sizes[1]
+
+
+def _turn(line: FoundLine, side: Side, last: int, foot: float, spacing: float) -> Spot:
+    """Between two spots: where the line turns, or as far along as the foot."""
     gap = float(side.feet[last + 1] - side.feet[last])
     step = float(side.ways[last + 1] - side.ways[last])
     ends = side.spots[last], side.spots[last + 1]
     if gap > 1.02 * step + 1e-3 * spacing and all(end.point >= 0 for end in ends):
         before = [spot.point for spot in side.spots[: last + 1][-4:] if spot.point >= 0]
         after = [spot.point for spot in side.spots[last + 1 :][:4] if spot.point >= 0]
-        return corner_between(line, before, after, side.segments[last], spacing), False
+        return corner_between(line, before, after, side.segments[last], spacing)
     share = (foot - float(side.feet[last])) / gap if gap > 0 else 0.5
-    return side.at(float(side.ways[last]) + np.clip(share, 0.0, 1.0) * step), True
+    return side.at(float(side.ways[last]) + np.clip(share, 0.0, 1.0) * step)
 
 
 def _take_linked(
-    side: Side, marks: list[_Mark], vertices: list[int], linked: Callable[[int], int], spacing: float
+    side: Side, marks: list[_Mark | None], vertices: list[int], linked: Callable[[int], int], spacing: float
 ) -> None:
     """The nearest of the edges that lead to a vertex of the seam, or are near its mark, come to its column."""
     number = {vertex: k for k, vertex in enumerate(vertices)}
-    places = np.array([mark.spot for mark in marks]).reshape(-1, 3)
+    places = np.array([np.full(3, np.inf) if mark is None else mark.spot for mark in marks]).reshape(-1, 3)
     best: dict[int, tuple[float, int]] = {}
     for at, spot in enumerate(side.spots):
         if not side.must[at] or not len(places):
@@ -239,34 +255,33 @@ def _take_linked(
         k = number.get(linked(spot.point), -1)
         if k < 0 and far.min() < _NEAR * spacing:
             k = int(far.argmin())
-        if k >= 0:
+        if k >= 0 and marks[k] is not None:
             best[k] = min(best.get(k, (np.inf, -1)), (float(far[k]), at))
     for k, (_, at) in best.items():
-        marks[k] = marks[k]._replace(spot=side.spots[at].place, plain=False)
+        mark = marks[k]
+        assert mark is not None
+        marks[k] = mark._replace(spot=side.spots[at].place, held=True)
 
 
-def _way(side: Side, place: FloatArray, least: float) -> float:
-    """Along a side to one of its spots, the first one that is not before."""
-    same = [k for k, spot in enumerate(side.spots) if spot.place is place or (spot.place == place).all()]
-    ways = [float(side.ways[k]) for k in same if side.ways[k] >= least]
-    if not ways:
-        raise NoRowsError
-    return ways[0]
+def _way(side: Side, place: FloatArray) -> float:
+    """Along a side to one of its spots."""
+    return float(next(way for way, spot in zip(side.ways, side.spots, strict=True) if (spot.place == place).all()))
 
 
-def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark]]) -> list[Column]:
-    """The columns at the seam's vertices, and at the ends of ways around them."""
-    found: list[Column] = []
+def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]]) -> list[Column]:
+    """The columns at the seam's vertices, and at the ends of ways around them, in their order."""
+    last = Column(sides[RIGHT].length, sides[LEFT].length, (True, True))
+    ordered = [Column(0.0, 0.0, (True, True))]
     for right, left in zip(*marks, strict=True):
-        at = Column(
-            _way(sides[RIGHT], right.spot, 0.0), _way(sides[LEFT], left.spot, 0.0), not (right.plain and left.plain)
-        )
-        found += _around(sides, at, (right, left))
-    last = Column(sides[RIGHT].length, sides[LEFT].length)
-    ordered = [Column(0.0, 0.0)]
-    for column in found:
-        if all(ordered[-1][side] < column[side] < last[side] for side in (RIGHT, LEFT)):
-            ordered.append(column)
+        if right is None or left is None:
+            continue
+        at = Column(_way(sides[RIGHT], right.spot), _way(sides[LEFT], left.spot), (right.held, left.held))
+        for column in _around(sides, at, (right, left)):
+            before = ordered[-1]
+            ways = [min(max(column[side], before[side]), last[side]) for side in (RIGHT, LEFT)]
+            held = [column.held[side] and before[side] < column[side] < last[side] for side in (RIGHT, LEFT)]
+            if any(before[side] < ways[side] < last[side] for side in (RIGHT, LEFT)):
+                ordered.append(Column(ways[0], ways[1], (held[0], held[1])))
     return [*ordered, last]
 
 
@@ -275,13 +290,14 @@ def _around(sides: tuple[Side, Side], at: Column, marks: tuple[_Mark, _Mark]) ->
     for which, mark in enumerate(marks):
         if mark.around is None:
             continue
-        begin, end = (_way(sides[which], place, 0.0) for place in mark.around)
+        begin, end = (_way(sides[which], place) for place in mark.around)
         own, other = (at.right, at.left) if which == RIGHT else (at.left, at.right)
         if not begin < own < end:
             return [at]
         ahead = _AHEAD * (end - begin)
-        pairs = [(begin, other - ahead), (own, other), (end, other + ahead)]
-        return [Column(*(pair if which == RIGHT else pair[::-1])) for pair in pairs]
+        turns = [(begin, other - ahead), (end, other + ahead)]
+        first, second = (Column(*(pair if which == RIGHT else pair[::-1])) for pair in turns)
+        return [first, at, second]
     return [at]
 
 
@@ -290,21 +306,22 @@ def _between(sides: tuple[Side, Side], before: Column, after: Column, spacing: f
     shares: list[tuple[float, int]] = []
     for which, side in enumerate(sides):
         low, high = before[which], after[which]
-        for at in np.flatnonzero(side.must).tolist():
-            if low < side.ways[at] < high:
-                shares.append(((float(side.ways[at]) - low) / (high - low), which))
+        shares += [
+            ((float(side.ways[at]) - low) / (high - low), which)
+            for at in np.flatnonzero(side.must).tolist()
+            if low < side.ways[at] < high
+        ]
     shares.sort()
     size = max(after.right - before.right, after.left - before.left)
     found, k = [], 0
     while k < len(shares):
         share, which = shares[k]
-        pair = [share, share]
+        pair, held = [share, share], [which == RIGHT, which == LEFT]
         if k + 1 < len(shares) and shares[k + 1][1] != which and (shares[k + 1][0] - share) * size < _NEAR * spacing:
             k += 1
-            pair[shares[k][1]] = shares[k][0]
-        found.append(
-            Column(*((1 - pair[side]) * before[side] + pair[side] * after[side] for side in (RIGHT, LEFT)), True)
-        )
+            pair[shares[k][1]], held = shares[k][0], [True, True]
+        ways = [(1 - pair[side]) * before[side] + pair[side] * after[side] for side in (RIGHT, LEFT)]
+        found.append(Column(ways[0], ways[1], (held[0], held[1])))
         k += 1
     return found
 
@@ -313,8 +330,30 @@ def _thinned(columns: list[Column], least: float) -> list[Column]:
     """Without columns that nothing outside asks for and that are nearer than that to their neighbours."""
     kept: list[Column] = []
     for k, column in enumerate(columns):
-        beside = [*kept[-1:], *(other for other in columns[k + 1 :][:1] if other.must)]
+        beside = [*kept[-1:], *(other for other in columns[k + 1 :][:1] if any(other.held))]
         near = any(abs(column[side] - other[side]) < least for other in beside for side in (RIGHT, LEFT))
-        if column.must or not near:
+        if any(column.held) or not near:
             kept.append(column)
     return kept
+
+
+def _spread(columns: list[Column]) -> list[Column]:
+    """Ways that nothing holds move where one side's are crowded; raises NoRowsError where that is of no avail."""
+    ways = np.array([[column.right, column.left] for column in columns])
+    for _ in range(_MOST_SWEEPS):
+        gaps = np.diff(ways, axis=0)
+        crowded = gaps < _CROWDED * gaps[:, ::-1]
+        moved = False
+        for k in range(1, len(columns) - 1):
+            for side in (RIGHT, LEFT):
+                if columns[k].held[side] or not (crowded[k - 1, side] or crowded[k, side]):
+                    continue
+                other = ways[k - 1 : k + 2, 1 - side]
+                share = (other[1] - other[0]) / (other[2] - other[0]) if other[2] > other[0] else 0.5
+                ways[k, side] = (1 - share) * ways[k - 1, side] + share * ways[k + 1, side]
+                moved = True
+        if not moved:
+            break
+    if (np.diff(ways, axis=0) <= 0.0).any():
+        raise NoRowsError
+    return [Column(*pair, column.held) for pair, column in zip(ways.tolist(), columns, strict=True)]

@@ -18,7 +18,7 @@ from fairing._rounded import Given, Made, Wishes, result_of, solved
 from fairing._rows import FACES, no_rows, quads_of
 from fairing._rows_along_seams import in_rows
 from fairing._seam_arcs import NoRowsError
-from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError, SolverError
 from fairing._watch import Progress, Watch
 
 _ROWS = 4  # edges across each side of a fillet by default: 90° then bend by less than 12° from row to row
@@ -136,7 +136,7 @@ def _with_quads(
     """Quads in rows; where there are none, pairs of triangles."""
     try:
         made, pairs = in_rows(mesh, made, wishes, length, counted)
-    except NoRowsError:
+    except (NoRowsError, MeshError, SolverError):
         _, pairs, _ = _core.paired_quads(made.vertices, made.triangles, np.empty((0, 2), np.int32))
         warning = no_rows(mesh.seams.ravel(), "seams")
         made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from fairing import _core
 from fairing._columns import Column, Spot, Strip
@@ -42,9 +43,24 @@ class Solved:
             return []
         starts, ends = (np.array([pair[k].place for pair in pairs]) for k in (0, 1))
         found = _core.section_places(self._surface(), (starts, ends, self._planes(starts, ends)), rows)
-        if not found["found"].all():
-            raise NoRowsError
-        return self._placed(found)
+        placed = self._placed(found)
+        return placed if found["found"].all() else self._mended(placed, found["found"], (starts, ends), rows)
+
+    def _mended(
+        self, placed: list[Placed], found: npt.NDArray[np.bool_], ends: tuple[FloatArray, FloatArray], rows: int
+    ) -> list[Placed]:
+        """With the places on columns whose planes lead elsewhere: those of the nearest column, moved with its ends."""
+        places = np.array([place for place, _, _ in placed]).reshape(len(found), rows - 1, 3)
+        shares = np.arange(1, rows)[:, None] / rows
+        middles = 0.5 * (ends[0] + ends[1])
+        for k in np.flatnonzero(~found).tolist():
+            places[k] = (1 - shares) * ends[0][k] + shares * ends[1][k]
+            if found.any():
+                near = np.flatnonzero(found)[np.linalg.norm(middles[found] - middles[k], axis=1).argmin()]
+                places[k] += places[near] - (1 - shares) * ends[0][near] - shares * ends[1][near]
+        lost = np.repeat(~found, rows - 1)
+        put = iter(self._placed(_core.relaxed_places(self._surface(), [], places.reshape(-1, 3)[lost], 0, 0)))
+        return [next(put) if gone else own for own, gone in zip(placed, lost.tolist(), strict=True)]
 
     def laid_out(self, quads: list[list[int]], known: FloatArray, count: int, sweeps: int) -> list[Placed]:
         """Of `count` vertices after the known ones: at the means of their neighbours, and then relaxed."""
