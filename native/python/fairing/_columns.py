@@ -43,8 +43,16 @@ class Side:
     """Where edges outside come to the line."""
 
     def __post_init__(self) -> None:
-        steps = np.linalg.norm(np.diff([spot.place for spot in self.spots], axis=0), axis=1)
+        self.places = np.array([spot.place for spot in self.spots])
+        self._measure()
+
+    def _measure(self) -> None:
+        steps = np.linalg.norm(np.diff(self.places, axis=0), axis=1)
         self.ways = np.concatenate([[0.0], np.cumsum(steps)])
+
+    def index(self, place: FloatArray) -> int:
+        """Of the first spot there."""
+        return int(np.flatnonzero((self.places == place).all(axis=1))[0])
 
     @property
     def length(self) -> float:
@@ -67,11 +75,12 @@ class Side:
         self.segments.insert(after, self.segments[after])
         self.feet = np.insert(self.feet, after + 1, foot)
         self.must.insert(after + 1, False)
-        self.__post_init__()
+        self.places = np.insert(self.places, after + 1, spot.place, axis=0)
+        self._measure()
 
     def turned_to(self, place: FloatArray) -> Side:
         """Of a closed one: begun at one of its spots."""
-        k = next(k for k, spot in enumerate(self.spots) if (spot.place == place).all())
+        k = self.index(place)
         own = [[*values[k:-1], *values[: k + 1]] for values in (self.spots, self.feet.tolist(), self.must)]
         return Side(own[0], [*self.segments[k:], *self.segments[:k]], np.array(own[1]), own[2])
 
@@ -265,7 +274,7 @@ def _take_linked(
 
 def _way(side: Side, place: FloatArray) -> float:
     """Along a side to one of its spots."""
-    return float(next(way for way, spot in zip(side.ways, side.spots, strict=True) if (spot.place == place).all()))
+    return float(side.ways[side.index(place)])
 
 
 def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]]) -> list[Column]:
