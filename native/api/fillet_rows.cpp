@@ -75,12 +75,16 @@ public:
             edge = out;
         }
         const double off = (place(result.back().triangle, result.back().to) - section.end).norm();
-        if (off > most_off * (section.end - section.start).norm()) return std::nullopt;
+        const double chord = (section.end - section.start).norm();
+        double length = 0.0;
+        for (const Crossed& each : result) length += each.length;
+        if (off > most_off * chord || length > most_long * chord) return std::nullopt;
         return result;
     }
 
 private:
-    static constexpr double most_off = 0.1;  // of its chord: an end that far off is another one
+    static constexpr double most_off = 0.1;   // of its chord: an end that far off is another one
+    static constexpr double most_long = 1.7;  // chords: a way that turns by 180° has 1.57
 
     [[nodiscard]] double height(const Section& section, int v) const {
         return (Vector3(points_.col(v)) - section.start).dot(section.normal);

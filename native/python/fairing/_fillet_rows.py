@@ -15,6 +15,8 @@ from fairing._seam_arcs import LEFT, RIGHT, End, FoundLine, Network, NoRowsError
 from fairing._strip_surface import Solved
 from fairing._types import FloatArray, IntArray
 
+_WIDE = 170.0  # degrees: a quad with a wider angle is mended
+_MOST_RINGS = 3  # of quads around those that are mended
 _SWEEPS = 60  # of the relaxation around poles: more move nothing that is seen
 
 
@@ -148,6 +150,7 @@ class _Making:
         self._rows = seams.rows
         self._chosen = ChosenPoints(seams.line, seams.points)
         self._quads: list[Quad] = []
+        self._surfaces: list[Solved] = []  # under each
         self._places: list[tuple[FloatArray, int, FloatArray]] = []
         self._columns: dict[End, list[int]] = {}  # from the right to the left of each arc's end
 
@@ -158,6 +161,9 @@ class _Making:
             self._add_strip(number)
         for loop in self._meetings():
             self._add_meeting(loop)
+        for rings in range(1, _MOST_RINGS + 1):
+            if not self._mend(rings):
+                break
         places, triangles, weights = zip(*self._places, strict=True) if self._places else ((), (), ())
         return RowMesh(
             self._chosen, np.array(self._quads, dtype=np.int32).reshape(-1, 4), np.array(places).reshape(-1, 3),
@@ -194,6 +200,32 @@ class _Making:
             spot = side.spots[-1 if which else 0]
             self._chosen.add_wall(spot, vertex, self._rows // 2)
 
+    def _mend(self, rings: int) -> bool:
+        """Relax so many rings around quads that are not convex; return whether there are any."""
+        quads = np.array(self._quads)
+        count = self._chosen.vertex_count
+        used, local = np.unique(quads, return_inverse=True)
+        local = local.reshape(quads.shape)
+        places = np.array([self._place(v) for v in used.tolist()])
+        near = np.zeros(len(used), dtype=bool)
+        near[local[widest(places[local]) > _WIDE]] = True
+        if not near.any():
+            return False
+        for _ in range(rings):
+            near[local[near[local].any(axis=1)]] = True
+        for surface in {id(each): each for each in self._on}.values():
+            own = np.array([self._surfaces[k] is surface for k in range(len(quads))])
+            free = near & (used >= count) & np.isin(np.arange(len(used)), local[own])
+            around = own & free[local].any(axis=1)
+            held = np.setdiff1d(local[around], np.flatnonzero(free))
+            order = np.concatenate([held, np.flatnonzero(free)])
+            name = np.zeros(len(used), dtype=np.int64)
+            name[order] = np.arange(len(order))
+            found = surface.relaxed(name[local[around]].tolist(), places[order], len(held), _SWEEPS)
+            for v, placed in zip(used[free].tolist(), found, strict=True):
+                self._places[v - count] = placed
+        return True
+
     def _add_strip(self, number: int) -> None:
         strip, surface = self._strips[number], self._on[number]
         pairs = [strip.spots(column) for column in strip.columns]
@@ -214,7 +246,7 @@ class _Making:
         if strip.arc.closed:
             grid[last] = grid[0]
         self._columns[number, 0], self._columns[number, 1] = grid[0], grid[last]
-        self._quads += grid_quads(grid)
+        self._add_quads(grid_quads(grid), surface)
 
     def _new(self, place: FloatArray, triangle: int, weights: FloatArray) -> int:
         self._places.append((place, triangle, weights))
@@ -268,7 +300,11 @@ class _Making:
         known = np.array([self._place(v) for v in rim])
         found = surface.laid_out(rows, known, count, _SWEEPS)
         names = {-1 - k: self._new(*found[k]) for k in range(count)}
-        self._quads += [tuple(names.get(v, v) for v in quad) for quad in quads]  # type: ignore[misc]
+        self._add_quads([(names.get(a, a), names.get(b, b), names.get(c, c), names.get(d, d)) for a, b, c, d in quads], surface)
+
+    def _add_quads(self, quads: list[Quad], surface: Solved) -> None:
+        self._quads += quads
+        self._surfaces += [surface] * len(quads)
 
     def _place(self, vertex: int) -> FloatArray:
         if vertex < len(self._seams.points):
@@ -276,6 +312,16 @@ class _Making:
         if vertex < self._chosen.vertex_count:
             return self._chosen.place(vertex)
         return self._places[vertex - self._chosen.vertex_count][0]
+
+
+def widest(corners: FloatArray) -> FloatArray:
+    """(q,) degrees: the widest angle of quads (q, 4, 3); 360 less the angle where one is not convex."""
+    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    cross = np.cross(ahead, back)
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    angles = np.degrees(np.arctan2(np.linalg.norm(cross, axis=2), (ahead * back).sum(axis=2)))
+    result: FloatArray = np.where((cross * normals[:, None]).sum(axis=2) <= 0, 360 - angles, angles).max(axis=1)
+    return result
 
 
 def _parted(spots: list[Spot], segments: list[int], count: int, must: Callable[[int], bool]) -> list[Spot]:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from fairing import _core
 from fairing._dropped_points import without_points
-from fairing._fillet_rows import RowMesh, Seams, row_mesh
+from fairing._fillet_rows import RowMesh, Seams, row_mesh, widest
 from fairing._first_mesh import without_specks
 from fairing._new_mesh import read_only
 from fairing._patch import Patch
@@ -119,10 +119,7 @@ def _check(vertices: FloatArray, quads: IntArray, pieces: IntArray, dropped: set
             old[a] = old[old[a]]
     if own != {a: b for a, b in old.items() if a not in dropped}:
         raise NoRowsError
-    corners = vertices[quads]
-    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    if ((np.cross(ahead, back) * normals[:, None]).sum(axis=2) <= 0).any():
+    if (widest(vertices[quads]) >= 180.0).any():
         raise NoRowsError
 
 

@@ -64,8 +64,11 @@ class Solved:
 
     def laid_out(self, quads: list[list[int]], known: FloatArray, count: int, sweeps: int) -> list[Placed]:
         """Of `count` vertices after the known ones: at the means of their neighbours, and then relaxed."""
-        places = np.concatenate([known, _means(quads, known, count)])
-        return self._placed(_core.relaxed_places(self._surface(), quads, places, len(known), sweeps))[len(known) :]
+        return self.relaxed(quads, np.concatenate([known, _means(quads, known, count)]), len(known), sweeps)
+
+    def relaxed(self, quads: list[list[int]], places: FloatArray, held: int, sweeps: int) -> list[Placed]:
+        """All but the first vertices of some quads."""
+        return self._placed(_core.relaxed_places(self._surface(), quads, places, held, sweeps))[held:]
 
     def refine(self, strip: Strip, rows: int, width: float) -> None:
         """Columns between others where the surface is not straight."""
