@@ -20,6 +20,16 @@ _MOST_SWEEPS = 50  # over columns in a row that make room for each other
 _STRAIGHT = 1e-3  # of the spacing: nearer to the chord is no corner of the line
 
 
+class WallPoint(NamedTuple):
+    """On a wall's edge, or one of its vertices."""
+
+    place: FloatArray
+    vertex: int
+    edge: int = -1
+    triangle: int = -1
+    along: float = 0.0
+
+
 class Spot(NamedTuple):
     """A place on the line."""
 
@@ -103,11 +113,17 @@ class Strip:
     arc: Arc
     sides: tuple[Side, Side]
     columns: list[Column]
-    walled: dict[Column, FloatArray] = field(default_factory=dict)
-    """Columns along walls, and their places between both sides."""
+    walled: dict[Column, tuple[list[WallPoint], list[WallPoint]]] = field(default_factory=dict)
+    """Columns along walls: what is between their right or left side and the arc's end."""
 
     def spots(self, column: Column) -> tuple[Spot, Spot]:
         return self.sides[RIGHT].at(column.right), self.sides[LEFT].at(column.left)
+
+    def along_walls(self, column: Column, points: FloatArray) -> FloatArray:
+        """The places between both sides."""
+        right, left = ([point.place for point in way] for way in self.walled[column])
+        middle = points[self.arc.vertices[0 if column == self.columns[0] else -1]]
+        return np.array([*right, middle, *left[::-1]])
 
     def beside(self, column: Column, way: float) -> tuple[Spot, Spot]:
         """Its spots; of the first and the last column of an open strip those that far inside, where it is a strip."""

@@ -7,9 +7,57 @@ from typing import Any
 
 import numpy as np
 
-from fairing._columns import Spot
+from fairing._columns import Spot, WallPoint
 from fairing._seam_arcs import FoundLine, NoRowsError
 from fairing._types import FloatArray
+
+
+def wall_way(line: FoundLine, given: FloatArray, spot: Spot, vertex: int, parts: int) -> list[WallPoint]:
+    """The points on walls that part the way from a point of the line to a vertex; vertices between are among them."""
+    edge = int(line.numbers[spot.point, 1]) if spot.point >= 0 else -1
+    walls = {number: (tail, head, triangle) for number, tail, head, triangle, _ in line.walls.tolist()}
+    if edge not in walls:
+        raise NoRowsError
+    steps = _steps(walls, vertex, edge)
+    places = [spot.place, *(given[v] for v, _ in steps)]
+    ways = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(places, axis=0), axis=1))])
+    slots = np.rint(parts * ways / ways[-1]).astype(int)
+    if (np.diff(slots) <= 0).any():
+        raise NoRowsError
+    found: list[WallPoint] = []
+    for k, (reached, over) in enumerate(steps):
+        low = min(walls[over][:2])
+        size = float(np.linalg.norm(given[walls[over][0]] - given[walls[over][1]]))
+        for slot in range(slots[k] + 1, slots[k + 1]):
+            share = (slot - slots[k]) / (slots[k + 1] - slots[k])
+            place = (1.0 - share) * places[k] + share * places[k + 1]
+            along = float(np.linalg.norm(place - given[low])) / size
+            found.append(WallPoint(place, -1, over, walls[over][2], along))
+        if k + 1 < len(steps):
+            found.append(WallPoint(given[reached], reached))
+    return found
+
+
+def _steps(walls: dict[int, tuple[int, int, int]], vertex: int, edge: int) -> list[tuple[int, int]]:
+    """The vertices passed from an edge to a vertex, which comes last, and the edges over which each is reached."""
+    before: dict[int, tuple[int, int]] = {vertex: (-1, -1)}
+    waiting = [vertex]
+    for at in waiting:
+        if at in walls[edge][:2]:
+            break
+        for number, (tail, head, _) in walls.items():
+            if at in (tail, head) and number != edge:
+                other = tail + head - at
+                if other not in before:
+                    before[other] = at, number
+                    waiting.append(other)
+    reached = next((v for v in waiting if v in walls[edge][:2]), -1)
+    if reached < 0:
+        raise NoRowsError
+    steps = [(reached, edge)]
+    while steps[-1][0] != vertex:
+        steps.append(before[steps[-1][0]])
+    return steps
 
 
 class ChosenPoints:
@@ -21,8 +69,8 @@ class ChosenPoints:
         self._wanted: set[int] = set()
         self._between: dict[int, dict[bytes, FloatArray]] = {}
         self._names: dict[tuple[int, bytes], int] = {}
-        self._on_walls: list[tuple[int, int, FloatArray, float]] = []
-        self._paths: dict[tuple[bytes, int], list[int]] = {}
+        self._on_walls: list[WallPoint] = []
+        self._paths: dict[tuple[bytes, int], list[WallPoint]] = {}
         self._rows: list[tuple[int, int, int]] = []
         self._places: list[FloatArray] = []
         self._along: list[float] = []
@@ -35,22 +83,10 @@ class ChosenPoints:
         else:
             self._between.setdefault(spot.segment, {})[spot.place.tobytes()] = spot.place
 
-    def add_wall(self, spot: Spot, vertex: int, parts: int) -> None:
-        """Points on a wall, which part it from a point of the line to a vertex."""
-        edge = int(self._line.numbers[spot.point, 1]) if spot.point >= 0 else -1
-        rows = self._line.walls[self._line.walls[:, 0] == edge] if edge >= 0 else self._line.walls[:0]
-        if not len(rows) or vertex not in rows[0, 1:3]:
-            raise NoRowsError
-        _, tail, head, triangle, _ = rows[0].tolist()
-        reach = float(self._line.along[spot.point])  # from the edge's smaller vertex
-        end = 0.0 if vertex == min(tail, head) else 1.0
-        path = []
-        for k in range(1, parts):
-            share = k / parts
-            place = (1.0 - share) * spot.place + share * self._given[vertex]
-            path.append(len(self._on_walls))
-            self._on_walls.append((edge, triangle, place, (1.0 - share) * reach + share * end))
-        self._paths[spot.place.tobytes(), vertex] = path
+    def add_wall(self, spot: Spot, vertex: int, way: list[WallPoint]) -> None:
+        """Points on walls between a point of the line and a vertex."""
+        self._on_walls += [point for point in way if point.vertex < 0]
+        self._paths[spot.place.tobytes(), vertex] = way
 
     def number(self) -> None:
         """Make the line anew; all points have their numbers from here on."""
@@ -58,11 +94,13 @@ class ChosenPoints:
             self._points[p] = self._add_row(self._line.numbers[p].tolist(), self._line.places[p], self._line.along[p])
         for chain, segments, closed in self._line.chains():
             self._add_chain(chain, segments, closed)
-        self._first_on_walls = len(self._rows)
-        for edge, triangle, place, along in self._on_walls:
-            self._add_row([-1, edge, triangle], place, along)
+        rows = {
+            point.place.tobytes(): self._add_row([-1, point.edge, point.triangle], point.place, point.along)
+            for point in self._on_walls
+        }
         new = np.array([row[0] < 0 for row in self._rows])
         self._vertices = np.where(new, len(self._given) + np.cumsum(new) - 1, [row[0] for row in self._rows]).tolist()
+        self._walls = {place: int(self._vertices[row]) for place, row in rows.items()}
         self.vertex_count = len(self._given) + int(new.sum())
 
     def _add_row(self, numbers: Any, place: FloatArray, along: float) -> int:
@@ -74,7 +112,7 @@ class ChosenPoints:
     def _add_chain(self, chain: list[int], segments: list[int], closed: bool) -> None:
         found: list[tuple[int, int]] = []  # points in their order, and the triangle of the way to each
         for k, segment in enumerate(segments):
-            triangle = int(self._line.segments[segment, 2])
+            triangle = int(self._line.segments[segment, 2]) if segment >= 0 else -1
             if chain[k] in self._points and not found and not closed:
                 found.append((self._points[chain[k]], triangle))
             found += [(name, triangle) for name in self._names_in(segment)]
@@ -82,10 +120,13 @@ class ChosenPoints:
                 found.append((self._points[chain[k + 1]], triangle))
         if closed and found:
             found.insert(0, found[-1])
-        self._segments += [(a, b, triangle) for (a, _), (b, triangle) in zip(found, found[1:], strict=False)]
+        pairs = zip(found, found[1:], strict=False)
+        self._segments += [(a, b, triangle) for (a, _), (b, triangle) in pairs if triangle >= 0]
 
     def _names_in(self, segment: int) -> list[int]:
         """New points within a segment, in its order."""
+        if segment < 0:
+            return []
         begin, end, triangle = self._line.segments[segment].tolist()
         way = self._line.places[end] - self._line.places[begin]
         inside = sorted(self._between.get(segment, {}).values(), key=lambda place: float(place @ way))
@@ -103,8 +144,9 @@ class ChosenPoints:
 
     def wall(self, spot: Spot, vertex: int) -> list[int]:
         """The vertices on a wall from a point of the line to a vertex, which is not among them."""
-        path = self._paths[spot.place.tobytes(), vertex]
-        return [self.vertex(spot), *(int(self._vertices[self._first_on_walls + k]) for k in path)]
+        way = self._paths[spot.place.tobytes(), vertex]
+        inner = [point.vertex if point.vertex >= 0 else self._walls[point.place.tobytes()] for point in way]
+        return [self.vertex(spot), *inner]
 
     def not_needed(self, must: Callable[[int], bool]) -> list[int]:
         """Vertices on diagonals, where no column is and nothing outside asks for one."""

@@ -10,7 +10,7 @@ import numpy as np
 from fairing import _core
 from fairing._columns import Side, Spot, Strip, corner_between, side_of, strip_of
 from fairing._corner_quads import Quad, blocks, end_cap, grid_quads
-from fairing._cut_anew import ChosenPoints
+from fairing._cut_anew import ChosenPoints, wall_way
 from fairing._seam_arcs import LEFT, RIGHT, End, FoundLine, Network, NoRowsError, network_of
 from fairing._strip_surface import Solved
 from fairing._types import FloatArray, IntArray
@@ -85,12 +85,9 @@ def _continues(network: Network, end: End) -> bool:
 def _add_walled(strip: Strip, ends: list[int], seams: Seams) -> None:
     for which in ends:
         column = strip.columns[-which]
-        middle = seams.points[strip.arc.vertices[-which]]
-        right, left = (spot.place for spot in strip.spots(column))
-        shares = np.arange(1, seams.rows // 2)[:, None] * 2 / seams.rows
-        strip.walled[column] = np.concatenate(
-            [right + shares * (middle - right), middle[None], middle + shares * (left - middle)]
-        )
+        middle = strip.arc.vertices[-which]
+        right, left = (wall_way(seams.line, seams.points, spot, middle, seams.rows // 2) for spot in strip.spots(column))
+        strip.walled[column] = (right, left)
 
 
 def _surface_at(solved: list[Solved], strip: Strip) -> Solved:
@@ -195,10 +192,9 @@ class _Making:
     def _choose_wall(self, end: End) -> None:
         number, which = end
         strip = self._strips[number]
-        vertex = strip.arc.vertices[-1 if which else 0]
-        for side in strip.sides:
-            spot = side.spots[-1 if which else 0]
-            self._chosen.add_wall(spot, vertex, self._rows // 2)
+        column = strip.columns[-which]
+        for spot, way in zip(strip.spots(column), strip.walled[column], strict=True):
+            self._chosen.add_wall(spot, strip.arc.vertices[-which], way)
 
     def _mend(self, rings: int) -> bool:
         """Relax so many rings around quads that are not convex; return whether there are any."""

@@ -56,21 +56,42 @@ class FoundLine:
         return bound
 
     def chains(self) -> Iterator[tuple[list[int], list[int], bool]]:
-        """The points of each chain, its segments, and whether it is closed: its first point then comes last, too."""
+        """The points of each chain, its segments, and whether it is closed: its first point then comes last, too.
+
+        Segment −1 leads along a wall.
+        """
         after: dict[int, int] = {}
         for number, (begin, _, _) in enumerate(self.segments.tolist()):
             if begin in after:
                 raise NoRowsError
             after[begin] = number
-        heads = {end for _, end, _ in self.segments.tolist()}
+        over = self._over_walls(after)
+        heads = {*self.segments[:, 1].tolist()} - {*over} | {*over.values()}
         starts = [begin for begin in after if begin not in heads]
         for start in [*starts, *after]:
             points, segments = [start], []
-            while points[-1] in after:
-                segments.append(after.pop(points[-1]))
-                points.append(int(self.segments[segments[-1], 1]))
+            while points[-1] in after or points[-1] in over:
+                segments.append(after.pop(points[-1], -1))
+                points.append(int(self.segments[segments[-1], 1]) if segments[-1] >= 0 else over.pop(points[-1]))
             if segments:
                 yield points, segments, points[0] == points[-1]
+
+    def _over_walls(self, after: dict[int, int]) -> dict[int, int]:
+        """Where the line ends at a wall: the point of the same fillet on the same wall at which it goes on."""
+        heads = {*self.segments[:, 1].tolist()}
+        starts = [p for p in after if p not in heads]
+        found: dict[int, int] = {}
+        for p in heads - {*after}:
+            own = self._reached_end(p)
+            beside = [q for q in starts if own and self._reached_end(q) == own]
+            if beside:
+                found[p] = min(beside, key=lambda q: abs(float(self.along[q] - self.along[p])))
+        return found
+
+    def _reached_end(self, point: int) -> tuple[int, int] | None:
+        """Of a point on a wall: the edge, and its end on the seam from which it is reached; none where it has none."""
+        ends = [v for v in self.ends[point].tolist() if v in self.feet[point]]
+        return (int(self.numbers[point, 1]), ends[0]) if len(ends) == 1 and ends[0] >= 0 else None
 
 
 @dataclass(frozen=True)
@@ -189,8 +210,8 @@ def _add_chain(
         chain = [*chain[turn:-1], *chain[: turn + 1]]
         segments = [*segments[turn:], *segments[:turn]]
         kinds = [*kinds[turn:-1], *kinds[: turn + 1]]
-        if len({kinds[k] for k in range(len(kinds)) if kinds[k]}) == 1:
-            _add_run(network, labels, (chain, segments), next(filter(None, kinds)), True)
+        if len(set(filter(None, kinds))) == 1:
+            _add_ring(network, labels, (chain, segments), next(filter(None, kinds)))
             return
     pieces: list[tuple[int, int]] = []
     for k in [k for k, kind in enumerate(kinds) if kind]:
@@ -210,6 +231,27 @@ def _add_chain(
         network.onward[come, 1 if came_on == RIGHT else 0] = (
             (go, 0 if goes_on == RIGHT else 1), chain[last : first + 1], segments[last:first]
         )  # fmt: skip
+
+
+def _add_ring(
+    network: Network, labels: list[Label | None], found: tuple[list[int], list[int]], kind: tuple[int, int]
+) -> None:
+    """A closed chain beside one arc, which is closed, or begins and ends at one meeting: then it is cut there."""
+    if network.arcs[kind[0]].closed:
+        _add_run(network, labels, found, kind, True)
+        return
+    chain, segments = found
+    ways = [(k, label.way) for k, label in enumerate(labels[p] for p in chain[:-1]) if label and label.arc >= 0]
+    falls = [(before[1] - after[1]) * (1 if kind[1] == RIGHT else -1) for before, after in zip(ways, ways[1:] + ways[:1], strict=True)]
+    cut = int(np.argmax(falls))
+    last, first = ways[cut][0], ways[(cut + 1) % len(ways)][0]
+    count = len(chain) - 1
+    run = [(first + k) % count for k in range((last - first) % count + 1)]
+    gap = [(last + k) % count for k in range((first - last) % count + 1)]
+    _add_run(network, labels, ([chain[k] for k in run], [segments[k] for k in run[:-1]]), kind, False)
+    ends = (kind[0], 1), (kind[0], 0)
+    end, other = ends if kind[1] == RIGHT else ends[::-1]
+    network.onward[end] = other, [chain[k] for k in gap], [segments[k] for k in gap[:-1]]
 
 
 def _kind(label: Label | None) -> tuple[int, int] | None:

@@ -91,7 +91,7 @@ class Solved:
 
     def _find(self, strip: Strip, columns: list[Column], rows: int, known: dict[Column, FloatArray]) -> None:
         wanted = [c for c in dict.fromkeys(columns) if c not in known]
-        known |= {c: strip.walled[c] for c in wanted if c in strip.walled}
+        known |= {c: strip.along_walls(c, self.vertices) for c in wanted if c in strip.walled}
         wanted = [c for c in wanted if c not in known]
         found = self.sections(strip, wanted, rows)
         for k, column in enumerate(wanted):
