@@ -95,26 +95,35 @@ class _CornerPlaces:
         old[new] = self._result.origin[0][corners[new] - count]
         weights[new] = self._result.origin[1][corners[new] - count]
         pieces = np.arange(triangles.size) < 3 * outside
-        old[pieces] = parent[pieces]
-        weights[pieces] = self._weights_in(parent[pieces], corners[pieces])
+        old[pieces], weights[pieces] = self._in_faces(parent[pieces], corners[pieces])
         for k in np.flatnonzero(~new & ~pieces).tolist():
             old[k], weights[k] = self._at_vertex(int(corners[k]), int(parent[k]))
         for k in np.flatnonzero(new & ~pieces).tolist():
             if self._side.get(int(old[k])) != self._side.get(int(parent[k])):
-                old[k], weights[k] = self._across(int(old[k]), weights[k])
+                old[k], weights[k] = self._across(int(old[k]), weights[k], int(parent[k]))
         return 3 * old[:, None] + np.arange(3), weights
 
+    def _in_faces(self, parents: Ints, corners: Ints) -> tuple[Ints, Floats]:
+        """Return triangles of the parents' faces that vertices lie on, and barycentric weights (k, 3) there."""
+        old, weights = parents.copy(), self._weights_in(parents, corners)
+        faces = self._mesh.triangle_faces
+        for k in np.flatnonzero(weights.min(axis=1) < -_ON_SIDE).tolist():  # a piece of several triangles of its face
+            own = np.flatnonzero(faces == faces[parents[k]])
+            found = self._weights_in(own, np.full(len(own), corners[k]))
+            best = int(found.min(axis=1).argmax())
+            old[k], weights[k] = own[best], found[best]
+        weights = np.clip(weights, 0.0, 1.0)
+        return old, weights / weights.sum(axis=1, keepdims=True)
+
     def _weights_in(self, parents: Ints, corners: Ints) -> Floats:
-        """Return barycentric weights (k, 3) of vertices in triangles that they lie on."""
+        """Return barycentric weights (k, 3) of vertices in the planes of triangles."""
         places = np.concatenate([self._mesh.positions, self._result.vertices])[corners]
         a, b, c = (self._mesh.positions[self._mesh.triangles[parents, k]] for k in range(3))
         normal = np.cross(b - a, c - a)
         squared = np.maximum((normal * normal).sum(axis=1), 1e-300)
         u = (normal * np.cross(c - b, places - b)).sum(axis=1) / squared
         v = (normal * np.cross(a - c, places - c)).sum(axis=1) / squared
-        weights = np.clip(np.column_stack([u, v, 1.0 - u - v]), 0.0, 1.0)
-        result: Floats = weights / weights.sum(axis=1, keepdims=True)
-        return result
+        return np.column_stack([u, v, 1.0 - u - v])
 
     def _at_vertex(self, vertex: int, parent: int) -> tuple[int, Floats]:
         """Return a triangle at an old vertex, on the parent's side if there is one."""
@@ -128,9 +137,11 @@ class _CornerPlaces:
         weights[self._mesh.triangles[best].tolist().index(vertex)] = 1.0
         return best, weights
 
-    def _across(self, triangle: int, weights: Floats) -> tuple[int, Floats]:
+    def _across(self, triangle: int, weights: Floats, parent: int) -> tuple[int, Floats]:
         """Return the same place on a seam or a wall in the triangle on its other side; elsewhere as it was."""
         corners = self._mesh.triangles[triangle].tolist()
+        if (weights > _ON_SIDE).sum() == 1:
+            return self._at_vertex(corners[int(weights.argmax())], parent)
         for k in range(3):
             if weights[k] > _ON_SIDE:
                 continue

@@ -3,186 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
-from fairing._seam_arcs import LEFT, RIGHT, Arc, FoundLine, NoRowsError, Run
+from fairing._found_line import FoundLine, NoRowsError
+from fairing._seam_arcs import LEFT, RIGHT, Arc
+from fairing._strips import Column, Side, Spot, Strip, corner_between
 from fairing._types import FloatArray
 
-_NEAR = 0.3  # of the spacing: what is that near to each other is in one column (as fillet/parted_edges' clear_of_line)
+_NEAR = 0.3  # of the spacing, as clear_of_line in fillet/parted_edges: what is that near is in one column
 _ROUND = 0.6  # of the width: a longer way around a corner of the seam begins and ends with columns of its own
 _AHEAD = 0.25  # of such a way: as far before and after the corner these are on the other side
 _CORNER = 0.35  # radians, as fillet/limits' corner_angle: a line that turns by less may be passed in a chord
 _CROWDED = 0.2  # of the gap on the other side
 _MOST_SWEEPS = 50  # over columns in a row that make room for each other
-_STRAIGHT = 1e-3  # of the spacing: nearer to the chord is no corner of the line
-
-
-class WallPoint(NamedTuple):
-    """On a wall's edge, or one of its vertices."""
-
-    place: FloatArray
-    vertex: int
-    edge: int = -1
-    triangle: int = -1
-    along: float = 0.0
-
-
-class Spot(NamedTuple):
-    """A place on the line."""
-
-    place: FloatArray
-    point: int
-    """Of the line, or −1:"""
-    segment: int = -1
-    """within that one of its segments."""
-
-
-@dataclass
-class Side:
-    """The line on one side of a seam."""
-
-    spots: list[Spot]
-    segments: list[int]
-    """Between one spot and the next."""
-    feet: FloatArray
-    """Ways along the seam."""
-    must: list[bool]
-    """Where edges outside come to the line."""
-
-    def __post_init__(self) -> None:
-        self.places = np.array([spot.place for spot in self.spots])
-        self._measure()
-
-    def _measure(self) -> None:
-        steps = np.linalg.norm(np.diff(self.places, axis=0), axis=1)
-        self.ways = np.concatenate([[0.0], np.cumsum(steps)])
-
-    def index(self, place: FloatArray) -> int:
-        """Of the first spot there."""
-        return int(np.flatnonzero((self.places == place).all(axis=1))[0])
-
-    @property
-    def length(self) -> float:
-        return float(self.ways[-1])
-
-    def at(self, way: float) -> Spot:
-        """The spot after that way."""
-        k = int(np.clip(np.searchsorted(self.ways, way, side="right") - 1, 0, len(self.segments) - 1))
-        step = self.ways[k + 1] - self.ways[k]
-        share = (way - self.ways[k]) / step if step > 0 else 0.0
-        for near, far in ((k, share), (k + 1, 1.0 - share)):
-            if far * step <= 1e-9 * self.length:
-                return self.spots[near]
-        place = (1.0 - share) * self.spots[k].place + share * self.spots[k + 1].place
-        return Spot(place, -1, self.segments[k])
-
-    def put(self, after: int, spot: Spot, foot: float) -> None:
-        """A spot between two others."""
-        self.spots.insert(after + 1, spot)
-        self.segments.insert(after, self.segments[after])
-        self.feet = np.insert(self.feet, after + 1, foot)
-        self.must.insert(after + 1, False)
-        self.places = np.insert(self.places, after + 1, spot.place, axis=0)
-        self._measure()
-
-    def turned_to(self, place: FloatArray) -> Side:
-        """Of a closed one: begun at one of its spots."""
-        k = self.index(place)
-        own = [[*values[k:-1], *values[: k + 1]] for values in (self.spots, self.feet.tolist(), self.must)]
-        return Side(own[0], [*self.segments[k:], *self.segments[:k]], np.array(own[1]), own[2])
-
-
-class Column(NamedTuple):
-    """Ways along both sides, and which of them stay: at edges outside, and where the line turns."""
-
-    right: float
-    left: float
-    held: tuple[bool, bool] = (False, False)
-
-    def between(self, other: Column, share: float) -> Column:
-        return Column((1 - share) * self.right + share * other.right, (1 - share) * self.left + share * other.left)
-
-
-@dataclass
-class Strip:
-    """What is between both sides of an arc."""
-
-    arc: Arc
-    sides: tuple[Side, Side]
-    columns: list[Column]
-    walled: dict[Column, tuple[list[WallPoint], list[WallPoint]]] = field(default_factory=dict)
-    """Columns along walls: what is between their right or left side and the arc's end."""
-
-    def spots(self, column: Column) -> tuple[Spot, Spot]:
-        return self.sides[RIGHT].at(column.right), self.sides[LEFT].at(column.left)
-
-    def along_walls(self, column: Column, points: FloatArray) -> FloatArray:
-        """The places between both sides."""
-        right, left = ([point.place for point in way] for way in self.walled[column])
-        middle = points[self.arc.vertices[0 if column == self.columns[0] else -1]]
-        return np.array([*right, middle, *left[::-1]])
-
-    def beside(self, column: Column, way: float) -> tuple[Spot, Spot]:
-        """Its spots; of the first and the last column of an open strip those that far inside, where it is a strip."""
-        if self.arc.closed or column not in (self.columns[0], self.columns[-1]):
-            return self.spots(column)
-        other = self.columns[1 if column == self.columns[0] else -2]
-        size = max(abs(column.right - other.right), abs(column.left - other.left))
-        return self.spots(column.between(other, way / size))
-
-
-def side_of(line: FoundLine, run: Run, must: Callable[[int], bool], ends: tuple[Spot | None, Spot | None]) -> Side:
-    """A run with the corners at its ends, where it has some."""
-    spots = [Spot(line.places[p], p) for p in run.points]
-    segments, feet = list(run.segments), run.ways
-    for which, end in enumerate(ends):
-        if end is None or end.point in (run.points[0 if which == 0 else -1],):
-            continue
-        where = 0 if which == 0 else len(spots)
-        spots.insert(where, end)
-        segments.insert(0 if which == 0 else len(segments), end.segment)
-        feet = np.insert(feet, where, feet[0 if which == 0 else -1])
-    return Side(spots, segments, feet, [spot.point >= 0 and must(spot.point) for spot in spots])
-
-
-def corner_between(line: FoundLine, before: list[int], after: list[int], segment: int, spacing: float) -> Spot:
-    """Where the line turns within a segment: its ways before (to `before`'s last point) and after, prolonged, meet."""
-    start, end = line.places[before[-1]], line.places[after[0]]
-    come, go = _direction(line, before[::-1], spacing), _direction(line, after, spacing)
-    middle = Spot(0.5 * (start + end), -1, segment)
-    for spot in (Spot(start, before[-1]), Spot(end, after[0])):
-        if np.linalg.norm(end - start) < _STRAIGHT * spacing:
-            return spot
-    if come is None or go is None:
-        return middle
-    normal = np.cross(come, go)
-    size = float(normal @ normal)
-    if size < 1e-12:
-        return middle
-    first = float(np.cross(end - start, -go) @ -normal) / size
-    second = float(np.cross(end - start, come) @ normal) / size
-    if first < _STRAIGHT * spacing or second > -_STRAIGHT * spacing:
-        near = (first < _STRAIGHT * spacing) and abs(first) < _STRAIGHT * spacing
-        far = abs(second) < _STRAIGHT * spacing
-        return Spot(start, before[-1]) if near else Spot(end, after[0]) if far else middle
-    place = start + first * come
-    if np.linalg.norm(place - middle.place) > np.linalg.norm(end - start):
-        return middle
-    return Spot(place, -1, segment)
-
-
-def _direction(line: FoundLine, points: list[int], spacing: float) -> FloatArray | None:
-    """From a point further on to the first one, unit."""
-    for p in points[1:4]:
-        way = line.places[points[0]] - line.places[p]
-        size = float(np.linalg.norm(way))
-        if size > _STRAIGHT * spacing:
-            direction: FloatArray = way / size
-            return direction
-    return None
 
 
 def strip_of(
@@ -198,14 +34,14 @@ def strip_of(
         _take_linked(side, own, [arc.vertices[k] for k in inner], linked, sizes[1])
     if arc.closed:
         begin = _begin(marks)
-        first = [own[begin] for own in marks]
-        if first[RIGHT] is None or first[LEFT] is None:
+        right, left = (own[begin] for own in marks)
+        if right is None or left is None:
             raise NoRowsError
-        sides = sides[RIGHT].turned_to(first[RIGHT].spot), sides[LEFT].turned_to(first[LEFT].spot)
+        sides = sides[RIGHT].turned_to(right.spot), sides[LEFT].turned_to(left.spot)
         marks = [[*own[begin + 1 :], *own[:begin]] for own in marks]
     anchors = _anchors(sides, marks)
     columns: list[Column] = []
-    for before, after in zip(anchors, anchors[1:], strict=False):
+    for before, after in pairwise(anchors):
         columns += [before, *_between(sides, before, after, sizes[1])]
     columns = _spread(_thinned([*columns, anchors[-1]], _NEAR * sizes[1]))
     return Strip(arc, sides, columns)
@@ -250,7 +86,7 @@ def _bends(side: Side, place: FloatArray, spacing: float) -> bool:
     way = _way(side, place)
     ways = place - side.at(max(way - spacing, 0.0)).place, side.at(min(way + spacing, side.length)).place - place
     sizes = [float(np.linalg.norm(each)) for each in ways]
-    return float(ways[0] @ ways[1]) < np.cos(_CORNER) * sizes[0] * sizes[1]
+    return bool(ways[0] @ ways[1] < np.cos(_CORNER) * sizes[0] * sizes[1])
 
 
 def _turn(line: FoundLine, side: Side, last: int, foot: float, spacing: float) -> Spot:
@@ -303,9 +139,9 @@ def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]]) -> list[
         at = Column(_way(sides[RIGHT], right.spot), _way(sides[LEFT], left.spot), (right.held, left.held))
         for column in _around(sides, at, (right, left)):
             before = ordered[-1]
-            ways = [min(max(column[side], before[side]), last[side]) for side in (RIGHT, LEFT)]
-            held = [column.held[side] and before[side] < column[side] < last[side] for side in (RIGHT, LEFT)]
-            if any(before[side] < ways[side] < last[side] for side in (RIGHT, LEFT)):
+            ways = [min(max(column.ways[k], before.ways[k]), last.ways[k]) for k in (RIGHT, LEFT)]
+            held = [column.held[k] and before.ways[k] < column.ways[k] < last.ways[k] for k in (RIGHT, LEFT)]
+            if any(before.ways[k] < ways[k] < last.ways[k] for k in (RIGHT, LEFT)):
                 ordered.append(Column(ways[0], ways[1], (held[0], held[1])))
     return [*ordered, last]
 
@@ -330,7 +166,7 @@ def _between(sides: tuple[Side, Side], before: Column, after: Column, spacing: f
     """Columns at the edges outside that come to either side between two others."""
     shares: list[tuple[float, int]] = []
     for which, side in enumerate(sides):
-        low, high = before[which], after[which]
+        low, high = before.ways[which], after.ways[which]
         shares += [
             ((float(side.ways[at]) - low) / (high - low), which)
             for at in np.flatnonzero(side.must).tolist()
@@ -345,7 +181,7 @@ def _between(sides: tuple[Side, Side], before: Column, after: Column, spacing: f
         if k + 1 < len(shares) and shares[k + 1][1] != which and (shares[k + 1][0] - share) * size < _NEAR * spacing:
             k += 1
             pair[shares[k][1]], held = shares[k][0], [True, True]
-        ways = [(1 - pair[side]) * before[side] + pair[side] * after[side] for side in (RIGHT, LEFT)]
+        ways = [(1 - pair[k]) * before.ways[k] + pair[k] * after.ways[k] for k in (RIGHT, LEFT)]
         found.append(Column(ways[0], ways[1], (held[0], held[1])))
         k += 1
     return found
@@ -356,7 +192,7 @@ def _thinned(columns: list[Column], least: float) -> list[Column]:
     kept: list[Column] = []
     for k, column in enumerate(columns):
         beside = [*kept[-1:], *(other for other in columns[k + 1 :][:1] if any(other.held))]
-        near = any(abs(column[side] - other[side]) < least for other in beside for side in (RIGHT, LEFT))
+        near = any(abs(column.ways[k] - other.ways[k]) < least for other in beside for k in (RIGHT, LEFT))
         if any(column.held) or not near:
             kept.append(column)
     return kept
@@ -381,4 +217,4 @@ def _spread(columns: list[Column]) -> list[Column]:
             break
     if (np.diff(ways, axis=0) <= 0.0).any():
         raise NoRowsError
-    return [Column(*pair, column.held) for pair, column in zip(ways.tolist(), columns, strict=True)]
+    return [Column(right, left, column.held) for (right, left), column in zip(ways.tolist(), columns, strict=True)]

@@ -135,14 +135,28 @@ def chain_end(chain: _Floats) -> tuple[_Floats, _Floats]: ...
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> tuple[_Floats, float, _Ints]: ...
-def cut_fillet(
+def fillet_line(
     vertices: _Floats,
     triangles: _Ints,
-    seams: list[list[int]],
-    walls: list[list[int]],
+    edges: tuple[list[list[int]], list[list[int]]],
     widths: tuple[_Floats, _Floats],
     spacing: float,
     progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def cut_fillet(
+    vertices: _Floats,
+    triangles: _Ints,
+    edges: tuple[list[list[int]], list[list[int]]],
+    widths: tuple[_Floats, _Floats],
+    spacing: float,
+    line: tuple[Any, ...] | None,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
+def section_places(
+    surface: tuple[_Floats, _Ints, _Ints, _Floats], planes: tuple[_Floats, _Floats, _Floats], rows: int
+) -> dict[str, Any]: ...
+def relaxed_places(
+    surface: tuple[_Floats, _Ints, _Ints, _Floats], quads: list[list[int]], points: _Floats, held: int, sweeps: int
 ) -> dict[str, Any]: ...
 def denoised(
     vertices: _Floats,

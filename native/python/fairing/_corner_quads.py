@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 Quad = tuple[int, int, int, int]
 Sides = list[list[int]]
@@ -35,11 +36,7 @@ def blocks(sides: Sides, new: Callable[[], int]) -> list[Quad]:
 
 def grid_quads(grid: list[list[int]]) -> list[Quad]:
     """Of vertices by place along and across, counter-clockwise where across is on the left of along."""
-    return [
-        (low[k], high[k], high[k + 1], low[k + 1])
-        for low, high in zip(grid, grid[1:], strict=False)
-        for k in range(len(low) - 1)
-    ]
+    return [(low[k], high[k], high[k + 1], low[k + 1]) for low, high in pairwise(grid) for k in range(len(low) - 1)]
 
 
 def end_cap(column: list[int], around: list[int], new: Callable[[], int]) -> list[Quad]:
@@ -55,7 +52,7 @@ def end_cap(column: list[int], around: list[int], new: Callable[[], int]) -> lis
     for level in range(1, deep + 1):
         rings.append([column[level], *(new() for _ in range(count - 1)), column[count - level]])
     quads: list[Quad] = []
-    for outer, within in zip(rings, rings[1:], strict=False):
+    for outer, within in pairwise(rings):
         quads += grid_quads([outer, within])
     last = rings[-1]
     core = [last[deep : count - deep + 1]]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from fairing._columns import Spot, WallPoint
-from fairing._seam_arcs import FoundLine, NoRowsError
+from fairing._found_line import FoundLine, NoRowsError
+from fairing._strips import Spot, WallPoint
 from fairing._types import FloatArray
 
 
@@ -120,7 +121,7 @@ class ChosenPoints:
                 found.append((self._points[chain[k + 1]], triangle))
         if closed and found:
             found.insert(0, found[-1])
-        pairs = zip(found, found[1:], strict=False)
+        pairs = pairwise(found)
         self._segments += [(a, b, triangle) for (a, _), (b, triangle) in pairs if triangle >= 0]
 
     def _names_in(self, segment: int) -> list[int]:
@@ -142,6 +143,18 @@ class ChosenPoints:
             return int(self._vertices[self._points[spot.point]])
         return int(self._vertices[self._names[spot.segment, spot.place.tobytes()]])
 
+    def is_walled(self, spot: Spot) -> bool:
+        return spot.point >= 0 and bool(np.isin(self._line.numbers[spot.point, 1], self._line.walls[:, 0]))
+
+    def triangle(self, spot: Spot) -> int:
+        """An old one that it is in, or beside."""
+        row = self._line.numbers[spot.point] if spot.point >= 0 else self._line.segments[spot.segment]
+        return int(row[2])
+
+    def triangle_at(self, vertex: int) -> int:
+        """The same of one of the line's points."""
+        return int(self._rows[self._vertices.index(vertex)][2])
+
     def wall(self, spot: Spot, vertex: int) -> list[int]:
         """The vertices on a wall from a point of the line to a vertex, which is not among them."""
         way = self._paths[spot.place.tobytes(), vertex]
@@ -158,4 +171,5 @@ class ChosenPoints:
         return self._rows, [place.tolist() for place in self._places], self._along, self._segments
 
     def place(self, vertex: int) -> FloatArray:
-        return self._places[self._vertices.index(vertex)]
+        found: FloatArray = self._places[self._vertices.index(vertex)]
+        return found

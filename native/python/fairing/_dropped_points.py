@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from fairing._seam_arcs import NoRowsError
+from fairing._found_line import NoRowsError
 from fairing._types import FloatArray, IntArray
 
 _FLAT = 1e-6  # of its longest side: a triangle that low is none

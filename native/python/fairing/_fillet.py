@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
 from fairing._adopted import taken
+from fairing._found_line import NoRowsError
 from fairing._groups import Options
 from fairing._new_mesh import FilletResult
 from fairing._patch import refuse_made_here
@@ -17,7 +18,6 @@ from fairing._proportion import Limit
 from fairing._rounded import Given, Made, Wishes, result_of, solved
 from fairing._rows import FACES, no_rows, quads_of
 from fairing._rows_along_seams import in_rows
-from fairing._seam_arcs import NoRowsError
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError, SolverError
 from fairing._watch import Progress, Watch
 
@@ -130,9 +130,7 @@ def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
     return _arguments.indices_within("neighbours", _arguments.integers("neighbours", value, 2), count)
 
 
-def _with_quads(
-    mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None
-) -> FilletResult:
+def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:
     """Quads in rows; where there are none, pairs of triangles."""
     try:
         made, pairs = in_rows(mesh, made, wishes, length, counted)

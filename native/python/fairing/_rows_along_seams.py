@@ -10,19 +10,23 @@ import numpy.typing as npt
 
 from fairing import _core
 from fairing._dropped_points import without_points
-from fairing._fillet_rows import RowMesh, Seams, row_mesh, widest
+from fairing._fillet_strips import Seams
 from fairing._first_mesh import without_specks
+from fairing._found_line import FoundLine, NoRowsError
 from fairing._new_mesh import read_only
 from fairing._patch import Patch
 from fairing._rounded import Given, Made, Wishes, line_places
+from fairing._row_origins import RowOrigins
+from fairing._row_quads import RowMesh, row_mesh, widest
 from fairing._rows import halves_of
-from fairing._seam_arcs import FoundLine, NoRowsError
 from fairing._seam_edges import SeamEdges
 from fairing._strip_surface import Solved
 from fairing._types import Diagnostic, FloatArray, IntArray
 
 
-def in_rows(given: Given, made: Made, wishes: Wishes, rows: int, counted: IntArray | None) -> tuple[Made, IntArray]:
+def in_rows(
+    given: Given, made: Made, wishes: Wishes, spacing: float, counted: IntArray | None
+) -> tuple[Made, IntArray]:
     """And the pairs (q, 2) of its triangles that are quads. Raises NoRowsError."""
     edges = given.seams.tolist(), wishes.walls.tolist()
     found = _core.fillet_line(given.points, given.triangles, edges, wishes.widths, wishes.spacing, None)
@@ -33,7 +37,7 @@ def in_rows(given: Given, made: Made, wishes: Wishes, rows: int, counted: IntArr
     near = given.triangles[np.isin(given.triangles, within).any(axis=1)]
     leading = SeamEdges(line, given.points, near, counted)
     width = min(float(side[given.seams].min()) for side in wishes.widths)
-    seams = Seams(given.points, line, width, rows, leading.linked, leading.must)
+    seams = Seams(given.points, line, width, spacing, leading.linked, leading.must)
     mesh = row_mesh(seams, _components(made))
     cut = given.cut(wishes, mesh.chosen.arrays(), None)
     made = _with_rows(given, made, mesh, (cut, mesh.chosen.not_needed(leading.must)), wishes)
@@ -51,7 +55,8 @@ def _components(made: Made) -> list[Solved]:
         rows = np.flatnonzero(part == number)
         triangles = np.ascontiguousarray(patch.triangles[rows])
         own = np.isin(patch.fixed, triangles)
-        found.append(Solved(patch.vertices, triangles, rows, patch.fixed[own], np.ascontiguousarray(patch.normals[own])))
+        normals = np.ascontiguousarray(patch.normals[own])
+        found.append(Solved(patch.vertices, triangles, rows, patch.fixed[own], normals))
     return found
 
 
@@ -66,7 +71,7 @@ def _with_rows(
     _check(vertices, mesh.quads, cut["triangles"][inside], set(dropped))
     halves = halves_of(vertices, mesh.quads)
     on_line, line_weights = line_places(cut, len(placed) - len(given.points))
-    old, weights = _below(given, made, mesh)
+    old, weights = _below(given, made, mesh, np.concatenate([given.seams, wishes.walls]))
     line_weights = np.clip(line_weights, 0.0, None)
     origins = (
         np.concatenate([on_line, old]).astype(np.int32),
@@ -84,7 +89,8 @@ def _with_rows(
     patch = Patch(vertices, halves, rim, None)
     return replace(
         made, cut=cut, inside=inside, triangles=halves, vertices=vertices, line_count=len(cut["points"]), patch=patch,
-        old=origins[0], weights=origins[1], on_seam=np.empty(0, np.int64), values=values,
+        old=origins[0], weights=origins[1], on_seam=len(placed) + np.flatnonzero((weights == 0.0).any(axis=1)),
+        values=values,
     )  # fmt: skip
 
 
@@ -132,33 +138,16 @@ def _border(faces: IntArray) -> dict[int, int]:
     return dict(border)
 
 
-def _below(given: Given, made: Made, mesh: RowMesh) -> tuple[IntArray, FloatArray]:
-    """Old triangles under the new vertices and weights there: of those under the solved triangle's corners the one
-    that the place is least out of."""
+def _below(given: Given, made: Made, mesh: RowMesh, parting: IntArray) -> tuple[IntArray, FloatArray]:
+    """Old triangles (k,) under the new vertices, and weights (k, 3) there."""
     count = len(given.points)
     carried = np.einsum("kc,kcd->kd", made.weights, given.points[given.triangles[made.old]])
     before = np.concatenate([given.points, carried])
     corners = made.triangles[mesh.triangle]
     places = np.einsum("kc,kcd->kd", mesh.weights, before[corners])
-    old = np.where(corners >= count, made.old[np.maximum(corners - count, 0)], -1)
-    best, least = np.zeros(len(places), np.int64), np.full(len(places), -np.inf)
-    weights = np.full((len(places), 3), 1 / 3)
-    for k in range(3):
-        own = _weights_in(given.points[given.triangles[old[:, k]]], places)
-        better = (own.min(axis=1) > least) & (old[:, k] >= 0)
-        best[better], weights[better], least[better] = old[better, k], own[better], own.min(axis=1)[better]
-    weights = np.clip(weights, 0.0, None)
-    return best, weights / weights.sum(axis=1, keepdims=True)
-
-
-def _weights_in(corners: FloatArray, places: FloatArray) -> FloatArray:
-    """Barycentric weights (k, 3) of the feet of places (k, 3) in the planes of triangles (k, 3, 3)."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    normal = np.cross(b - a, c - a)
-    squared = np.maximum((normal * normal).sum(axis=1), 1e-300)
-    u = (normal * np.cross(c - b, places - b)).sum(axis=1) / squared
-    v = (normal * np.cross(a - c, places - c)).sum(axis=1) / squared
-    return np.column_stack([u, v, 1.0 - u - v])
+    under = np.where(corners >= count, made.old[np.maximum(corners - count, 0)], -1)
+    inside = np.unique(made.cut["parent"][made.inside])
+    return RowOrigins(given.points, given.triangles, inside, parting).of(places, under, mesh.wanted)
 
 
 def _moved(warning: Diagnostic, made: Made, vertices: FloatArray, quads: IntArray) -> Diagnostic:

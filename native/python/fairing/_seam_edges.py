@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fairing import _seams
-from fairing._seam_arcs import FoundLine
+from fairing._found_line import FoundLine
 from fairing._types import FloatArray, IntArray
 
 _FARTHEST = 32  # edges from the line to the seam
@@ -35,7 +35,7 @@ class SeamEdges:
         inner, outer = (a, b) if self._far(a, point) < self._far(b, point) else (b, a)
         for _ in range(_FARTHEST):
             if inner in self._seam:
-                return inner
+                return int(inner)
             around = self._around(inner)
             if len(around) != 4 or outer not in around:
                 return -1

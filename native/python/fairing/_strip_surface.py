@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing._columns import Column, Spot, Strip
-from fairing._seam_arcs import NoRowsError
+from fairing._found_line import NoRowsError
+from fairing._strips import Column, Strip
 from fairing._types import FloatArray, IntArray
 
 _OFF = 0.1  # of the width: how far the surface may leave the quads between two columns, or one more comes between
@@ -117,8 +117,7 @@ class Solved:
 
     def _nearest(self, at: FloatArray) -> IntArray:
         rim = self.vertices[self.fixed]
-        nearest = np.array([np.linalg.norm(rim - place, axis=1).argmin() for place in at], dtype=np.int64)
-        return nearest
+        return np.array([np.linalg.norm(rim - place, axis=1).argmin() for place in at], dtype=np.int64)
 
 
 def _means(quads: list[list[int]], known: FloatArray, count: int) -> FloatArray:

@@ -3,39 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from fairing import _core
-from fairing._columns import Side, Spot, Strip, corner_between, side_of, strip_of
 from fairing._corner_quads import Quad, blocks, end_cap, grid_quads
-from fairing._cut_anew import ChosenPoints, wall_way
-from fairing._seam_arcs import LEFT, RIGHT, End, FoundLine, Network, NoRowsError, network_of
-from fairing._strip_surface import Solved
+from fairing._cut_anew import ChosenPoints
+from fairing._fillet_strips import Seams, Strips, continues, strips_of
+from fairing._found_line import NoRowsError
+from fairing._row_origins import Wanted
+from fairing._seam_arcs import Arc, End
+from fairing._strip_surface import Placed, Solved
+from fairing._strips import Side, Spot, Strip
 from fairing._types import FloatArray, IntArray
 
 _WIDE = 170.0  # degrees: a quad with a wider angle is mended
 _MOST_RINGS = 3  # of quads around those that are mended
 _SWEEPS = 60  # of the relaxation around poles: more move nothing that is seen
-
-
-@dataclass
-class Seams:
-    """What the rows are made for."""
-
-    points: FloatArray
-    line: FoundLine
-    width: float
-    spacing: float
-    linked: Callable[[int], int]
-    """The seam's vertex to which the edge at a point of the line leads, or −1."""
-    must: Callable[[int], bool]
-    """Whether the mesh outside needs a point of the line."""
-
-    @property
-    def rows(self) -> int:
-        return 2 * max(1, round(self.width / self.spacing))
 
 
 @dataclass
@@ -49,106 +33,27 @@ class RowMesh:
     triangle: IntArray
     """(k,) where they lie on the solved mesh,"""
     weights: FloatArray
-    """(k, 3) and where there."""
-
-
-@dataclass
-class _Ends:
-    """The corners where the lines of two arcs meet, or the ways around them."""
-
-    corners: dict[End, Spot] = field(default_factory=dict)
-    """By the arc's end at which the line arrives,"""
-    around: dict[End, list[Spot]] = field(default_factory=dict)
-    """or a way from where it arrives to where it leaves."""
+    """(k, 3) and where there;"""
+    wanted: list[Wanted]
+    """where they have to lie on the old one."""
 
 
 def row_mesh(seams: Seams, solved: list[Solved]) -> RowMesh:
     """Raises NoRowsError."""
-    network = network_of(seams.line, seams.points)
-    ends = _ends_of(network, seams)
-    strips = [_strip(network, ends, number, seams) for number in range(len(network.arcs))]
-    on = [_surface_at(solved, strip) for strip in strips]
-    for number, (strip, surface) in enumerate(zip(strips, on, strict=True)):
-        _add_walled(strip, [which for which in (0, 1) if not _continues(network, (number, which))], seams)
-        surface.refine(strip, seams.rows, seams.width)
-    return _Making(seams, network, ends, strips, on).made()
-
-
-def _continues(network: Network, end: End) -> bool:
-    """Whether lines lead on beyond an arc's end; else it is at walls."""
-    goes_on, comes = end in network.onward, any(end == other for other, _, _ in network.onward.values())
-    if goes_on != comes:
-        raise NoRowsError
-    return goes_on or network.arcs[end[0]].closed
-
-
-def _add_walled(strip: Strip, ends: list[int], seams: Seams) -> None:
-    for which in ends:
-        column = strip.columns[-which]
-        middle = strip.arc.vertices[-which]
-        right, left = (wall_way(seams.line, seams.points, spot, middle, seams.rows // 2) for spot in strip.spots(column))
-        strip.walled[column] = (right, left)
-
-
-def _surface_at(solved: list[Solved], strip: Strip) -> Solved:
-    place = strip.sides[RIGHT].at(0.5 * strip.sides[RIGHT].length).place
-    return min(solved, key=lambda each: each.distance(place))
-
-
-def _ends_of(network: Network, seams: Seams) -> _Ends:
-    found = _Ends()
-    for end, (other, between, segments) in network.onward.items():
-        if len(between) == 2:
-            come, go = _run(network, end, True), _run(network, other, False)
-            found.corners[end] = corner_between(seams.line, come, go, segments[0], seams.spacing)
-        else:
-            found.around[end] = [Spot(seams.line.places[p], p) for p in between]
-            if end != other and len(between) == 3:
-                found.corners[end] = found.around.pop(end)[1]
-    return found
-
-
-def _run(network: Network, end: End, arrives: bool) -> list[int]:
-    """The points of the line that comes to an arc's end, or leaves it, as the line runs; a few of them."""
-    arc, which = end
-    side = _arriving(which) if arrives else 1 - _arriving(which)
-    points = network.runs[arc, side].points
-    if side == LEFT:
-        points = points[::-1]
-    return points[-4:] if arrives else points[:4]
-
-
-def _arriving(which: int) -> int:
-    """The side on which the line runs to an arc's end."""
-    return RIGHT if which == 1 else LEFT
-
-
-def _strip(network: Network, ends: _Ends, number: int, seams: Seams) -> Strip:
-    before = {other: end for end, (other, _, _) in network.onward.items()}
-    sides = []
-    for side in (RIGHT, LEFT):
-        corners: list[Spot | None] = []
-        for which in (0, 1):
-            arrives = _arriving(which) == side
-            end: End | None = (number, which) if arrives else before.get((number, which))
-            corners.append(None if end is None else ends.corners.get(end))
-        run = network.runs[number, side]
-        sides.append(side_of(seams.line, run, seams.must, (corners[0], corners[1])))
-    return strip_of(seams.line, network.arcs[number], (sides[0], sides[1]), seams.linked, (seams.width, seams.spacing))
+    return _Making(seams, strips_of(seams, solved)).made()
 
 
 class _Making:
     """One mesh in the making."""
 
-    def __init__(
-        self, seams: Seams, network: Network, ends: _Ends, strips: list[Strip], on: list[Solved]
-    ) -> None:
-        self._seams, self._network, self._ends, self._strips, self._on = seams, network, ends, strips, on
-        self._rows = seams.rows
+    def __init__(self, seams: Seams, found: Strips) -> None:
+        self._seams, self._rows = seams, seams.rows
+        self._network, self._ends, self._strips, self._on = found.network, found.ends, found.strips, found.on
         self._chosen = ChosenPoints(seams.line, seams.points)
         self._quads: list[Quad] = []
         self._surfaces: list[Solved] = []  # under each
-        self._places: list[tuple[FloatArray, int, FloatArray]] = []
+        self._places: list[Placed] = []
+        self._wanted: list[Wanted] = []
         self._columns: dict[End, list[int]] = {}  # from the right to the left of each arc's end
 
     def made(self) -> RowMesh:
@@ -164,7 +69,7 @@ class _Making:
         places, triangles, weights = zip(*self._places, strict=True) if self._places else ((), (), ())
         return RowMesh(
             self._chosen, np.array(self._quads, dtype=np.int32).reshape(-1, 4), np.array(places).reshape(-1, 3),
-            np.array(triangles, dtype=np.int32), np.array(weights).reshape(-1, 3),
+            np.array(triangles, dtype=np.int32), np.array(weights).reshape(-1, 3), self._wanted,
         )  # fmt: skip
 
     def _choose(self) -> None:
@@ -180,10 +85,9 @@ class _Making:
             self._ends.around[end] = parted
             for spot in parted:
                 self._chosen.add(spot)
-        self._walls: dict[End, list[tuple[int, int, float]]] = {}
-        for number, strip in enumerate(self._strips):
+        for number in range(len(self._strips)):
             for which in (0, 1):
-                if not _continues(self._network, (number, which)):
+                if not continues(self._network, (number, which)):
                     self._choose_wall((number, which))
 
     def _other(self, end: End) -> End:
@@ -226,14 +130,13 @@ class _Making:
         strip, surface = self._strips[number], self._on[number]
         pairs = [strip.spots(column) for column in strip.columns]
         last = len(pairs) - 1
-        walled = [
-            k for which, k in ((0, 0), (1, last)) if not _continues(self._network, (number, which))
-        ]
+        walled = [k for which, k in ((0, 0), (1, last)) if not continues(self._network, (number, which))]
         inner = [k for k in range(last + 1) if k not in walled and not (strip.arc.closed and k == last)]
         found = surface.sections(strip, [strip.columns[k] for k in inner], self._rows)
         grid: list[list[int]] = [[] for _ in pairs]
         for at, k in enumerate(inner):
-            new = [self._new(*found[at * (self._rows - 1) + row]) for row in range(self._rows - 1)]
+            wanted = self._wanted_across(strip, pairs[k])
+            new = [self._new(found[at * (self._rows - 1) + row], wanted[row]) for row in range(self._rows - 1)]
             grid[k] = [self._chosen.vertex(pairs[k][0]), *new, self._chosen.vertex(pairs[k][1])]
         for k in walled:
             vertex = strip.arc.vertices[-1 if k else 0]
@@ -244,8 +147,19 @@ class _Making:
         self._columns[number, 0], self._columns[number, 1] = grid[0], grid[last]
         self._add_quads(grid_quads(grid), surface)
 
-    def _new(self, place: FloatArray, triangle: int, weights: FloatArray) -> int:
-        self._places.append((place, triangle, weights))
+    def _wanted_across(self, strip: Strip, spots: tuple[Spot, Spot]) -> list[Wanted]:
+        """On both sides of the seam, or on the walls that lead to it; the middle one on the seam."""
+        right, left = (
+            Wanted(edges=self._seams.line.walls[:, 1:3]) if self._chosen.is_walled(spot) else
+            Wanted(triangle=self._chosen.triangle(spot))
+            for spot in spots
+        )  # fmt: skip
+        half = self._rows // 2
+        return [*[right] * (half - 1), Wanted(edges=_edges(strip.arc)), *[left] * (half - 1)]
+
+    def _new(self, placed: Placed, wanted: Wanted) -> int:
+        self._places.append(placed)
+        self._wanted.append(wanted)
         return self._chosen.vertex_count + len(self._places) - 1
 
     def _meetings(self) -> list[list[End]]:
@@ -265,19 +179,32 @@ class _Making:
 
     def _add_meeting(self, loop: list[End]) -> None:
         sides: list[list[int]] = []
+        wanted: list[Wanted] = []
         for end in loop:
             column = self._columns[end]
             sides.append(column if end[1] == 0 else column[::-1])
+            wanted.append(Wanted(edges=_edges(self._strips[end[0]].arc)))
             if end in self._ends.around:
-                sides.append([self._chosen.vertex(spot) for spot in self._ends.around[end]])
+                spots = self._ends.around[end]
+                sides.append([self._chosen.vertex(spot) for spot in spots])
+                wanted.append(Wanted(self._chosen.triangle(spots[len(spots) // 2])))
         rim = [v for side in sides for v in side[:-1]]
         if len(sides) == 2 and len(loop) == 1:
             quads, count = self._filled(lambda new: end_cap(sides[0], sides[1], new))
+            own = [Wanted()] * count
         elif len(sides) > 2:
             quads, count = self._filled(lambda new: blocks(sides, new))
+            half = self._rows // 2
+            corners = [Wanted(self._chosen.triangle_at(side[-1])) for side in sides]
+            arc = self._strips[loop[0][0]].arc
+            own = [
+                Wanted(vertex=arc.vertices[-loop[0][1]]),
+                *(wish for wish in wanted for _ in range(half - 1)),
+                *(wish for wish in corners for _ in range((half - 1) ** 2)),
+            ]
         else:
             raise NoRowsError
-        self._lay_out(quads, rim, count, self._on[loop[0][0]])
+        self._lay_out(quads, rim, own, self._on[loop[0][0]])
 
     def _filled(self, make: Callable[[Callable[[], int]], list[Quad]]) -> tuple[list[Quad], int]:
         """Quads with new vertices −1, −2 …, and how many of these there are."""
@@ -289,14 +216,16 @@ class _Making:
 
         return make(new), -made[0]
 
-    def _lay_out(self, quads: list[Quad], rim: list[int], count: int, surface: Solved) -> None:
+    def _lay_out(self, quads: list[Quad], rim: list[int], wanted: list[Wanted], surface: Solved) -> None:
         """Put the new vertices of some quads on the surface."""
+        count = len(wanted)
         local = {v: k for k, v in enumerate(rim)} | {-1 - k: len(rim) + k for k in range(count)}
         rows = [[local[v] for v in quad] for quad in quads]
         known = np.array([self._place(v) for v in rim])
         found = surface.laid_out(rows, known, count, _SWEEPS)
-        names = {-1 - k: self._new(*found[k]) for k in range(count)}
-        self._add_quads([(names.get(a, a), names.get(b, b), names.get(c, c), names.get(d, d)) for a, b, c, d in quads], surface)
+        names = {-1 - k: self._new(found[k], wanted[k]) for k in range(count)}
+        named = [[names.get(v, v) for v in quad] for quad in quads]
+        self._add_quads([(a, b, c, d) for a, b, c, d in named], surface)
 
     def _add_quads(self, quads: list[Quad], surface: Solved) -> None:
         self._quads += quads
@@ -304,10 +233,15 @@ class _Making:
 
     def _place(self, vertex: int) -> FloatArray:
         if vertex < len(self._seams.points):
-            return self._seams.points[vertex]
+            found: FloatArray = self._seams.points[vertex]
+            return found
         if vertex < self._chosen.vertex_count:
             return self._chosen.place(vertex)
         return self._places[vertex - self._chosen.vertex_count][0]
+
+
+def _edges(arc: Arc) -> IntArray:
+    return np.column_stack([arc.vertices[:-1], arc.vertices[1:]])
 
 
 def widest(corners: FloatArray) -> FloatArray:
