@@ -3,40 +3,45 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "api/old_surface.h"
 
 namespace fairing {
 
-namespace {
-
-struct Surface {
-    explicit Surface(const MeshInput& input)
-        : mesh(check_mesh(input)),
+struct FilletSurface::Solved {
+    Solved(Points points, Triangles triangles, Indices fixed, Points normals)
+        : vertices(std::move(points)),
+          input{vertices, std::move(triangles), std::move(fixed), std::move(normals)},
+          mesh(check_mesh(input)),
           patches(patches_with_vertices(mesh)),
           old(input, mesh, patches.front()),
           target(old.patch, old.points, old.normals) {}
 
-    CheckedMesh mesh;
-    std::vector<Patch> patches;
-    OldSurface old;
-    TargetSurface target;
+    [[nodiscard]] PlacesOnFillet given_back(const std::vector<SurfacePoint>& where) const {
+        PlacesOnFillet result;
+        const auto count = static_cast<Eigen::Index>(where.size());
+        Points places(3, count);
+        result.weights.resize(3, count);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const SurfacePoint& at = where[static_cast<std::size_t>(k)];
+            places.col(k) = target.position(at);
+            result.triangle.push_back(old.patch.input_triangle[at.triangle]);
+            result.weights.col(k) = at.weights;
+        }
+        result.places = old.unit.from_unit(places);
+        return result;
+    }
+
+    const Points vertices;
+    const MeshInput input;
+    const CheckedMesh mesh;
+    const std::vector<Patch> patches;
+    const OldSurface old;
+    const TargetSurface target;
 };
 
-PlacesOnFillet given_back(const Surface& surface, const std::vector<SurfacePoint>& where) {
-    PlacesOnFillet result;
-    const auto count = static_cast<Eigen::Index>(where.size());
-    Points places(3, count);
-    result.weights.resize(3, count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-        const SurfacePoint& at = where[static_cast<std::size_t>(k)];
-        places.col(k) = surface.target.position(at);
-        result.triangle.push_back(surface.old.patch.input_triangle[at.triangle]);
-        result.weights.col(k) = at.weights;
-    }
-    result.places = surface.old.unit.from_unit(places);
-    return result;
-}
+namespace {
 
 // A section's way through one triangle.
 struct Crossed {
@@ -47,7 +52,7 @@ struct Crossed {
 
 class Sectioning {
 public:
-    explicit Sectioning(const Surface& surface) : patch_(surface.old.patch), points_(surface.old.points) {
+    Sectioning(const Patch& patch, const Points& points) : patch_(patch), points_(points) {
         for (int e = 0; e < patch_.edge_count(); ++e) {
             if (patch_.edge_triangles[e][1] == none) border_.push_back(e);
         }
@@ -141,10 +146,15 @@ void part(const std::vector<Crossed>& way, int rows, std::vector<SurfacePoint>& 
 
 }  // namespace
 
-PlacesOnFillet section_places(const MeshInput& input, const std::vector<Section>& sections, int rows) {
-    const Surface surface(input);
-    const Sectioning sectioning(surface);
-    const Normalisation& unit = surface.old.unit;
+FilletSurface::FilletSurface(Points vertices, Triangles triangles, Indices fixed, Points normals)
+    : solved_(std::make_unique<const Solved>(std::move(vertices), std::move(triangles), std::move(fixed),
+                                             std::move(normals))) {}
+
+FilletSurface::~FilletSurface() = default;
+
+PlacesOnFillet FilletSurface::sections(const std::vector<Section>& sections, int rows) const {
+    const Sectioning sectioning(solved_->old.patch, solved_->old.points);
+    const Normalisation& unit = solved_->old.unit;
     std::vector<SurfacePoint> where;
     std::vector<char> found;
     for (const Section& each : sections) {
@@ -155,26 +165,25 @@ PlacesOnFillet section_places(const MeshInput& input, const std::vector<Section>
         else
             where.resize(where.size() + static_cast<std::size_t>(rows - 1));
     }
-    PlacesOnFillet result = given_back(surface, where);
+    PlacesOnFillet result = solved_->given_back(where);
     result.found = std::move(found);
     return result;
 }
 
-PlacesOnFillet relaxed_places(const MeshInput& input, const QuadPattern& pattern, const Points& given, int sweeps) {
-    const Surface surface(input);
-    const Patch& patch = surface.old.patch;
-    Points points = surface.old.unit.to_unit(given);
+PlacesOnFillet FilletSurface::relaxed(const QuadPattern& pattern, const Points& given, int sweeps) const {
+    const Patch& patch = solved_->old.patch;
+    Points points = solved_->old.unit.to_unit(given);
     Points centres(3, patch.triangle_count());
     for (int t = 0; t < patch.triangle_count(); ++t)
-        centres.col(t) = surface.old.points(Eigen::all, patch.triangles.col(t)).rowwise().mean();
+        centres.col(t) = solved_->old.points(Eigen::all, patch.triangles.col(t)).rowwise().mean();
     Points normals = Points::Zero(3, points.cols());
     std::vector<SurfacePoint> where(static_cast<std::size_t>(points.cols()));
     const auto put = [&](Eigen::Index v, const Vector3& wanted, int start) {
         SurfacePoint& at = where[static_cast<std::size_t>(v)];
-        at = surface.target.project(wanted, start);
-        normals.col(v) = surface.target.face_normal(at.triangle);
+        at = solved_->target.project(wanted, start);
+        normals.col(v) = solved_->target.face_normal(at.triangle);
         if (v >= pattern.boundary_count)
-            points.col(v) = surface.old.points(Eigen::all, patch.triangles.col(at.triangle)) * at.weights;
+            points.col(v) = solved_->old.points(Eigen::all, patch.triangles.col(at.triangle)) * at.weights;
     };
     for (Eigen::Index v = 0; v < points.cols(); ++v) {
         Eigen::Index nearest = 0;
@@ -187,7 +196,7 @@ PlacesOnFillet relaxed_places(const MeshInput& input, const QuadPattern& pattern
         for (Eigen::Index v = pattern.boundary_count; v < points.cols(); ++v)
             put(v, wanted.col(v), where[static_cast<std::size_t>(v)].triangle);
     }
-    return given_back(surface, where);
+    return solved_->given_back(where);
 }
 
 }  // namespace fairing

@@ -1,6 +1,8 @@
 // Places for rows of quads on a fillet's surface.
 #pragma once
 
+#include <memory>
+
 #include "api/fair.h"
 #include "quads/shapes.h"
 
@@ -20,12 +22,24 @@ struct PlacesOnFillet {
     std::vector<char> found;  // of each section: whether it leads to its end
 };
 
-// `rows` − 1 places on each section of the only component of a mesh, which part it into ways of one length. Throws what
-// check_mesh throws, and NO_FREE_VERTICES.
-PlacesOnFillet section_places(const MeshInput& surface, const std::vector<Section>& sections, int rows);
+// The only component of a mesh.
+class FilletSurface {
+public:
+    // Throws what check_mesh throws, and NO_FREE_VERTICES.
+    FilletSurface(Points vertices, Triangles triangles, Indices fixed, Points normals);
+    ~FilletSurface();
+    FilletSurface(const FilletSurface&) = delete;
+    FilletSurface& operator=(const FilletSurface&) = delete;
 
-// The new vertices of a pattern whose first ones stay, moved on the surface so that its quads become squares, or
-// rectangles at least. Throws the same.
-PlacesOnFillet relaxed_places(const MeshInput& surface, const QuadPattern& pattern, const Points& points, int sweeps);
+    // `rows` − 1 places on each section, which part it into ways of one length.
+    [[nodiscard]] PlacesOnFillet sections(const std::vector<Section>& sections, int rows) const;
+    // The vertices of a pattern, of which the new ones are moved on the surface so that its quads become squares, or
+    // rectangles at least.
+    [[nodiscard]] PlacesOnFillet relaxed(const QuadPattern& pattern, const Points& points, int sweeps) const;
+
+private:
+    struct Solved;
+    std::unique_ptr<const Solved> solved_;
+};
 
 }  // namespace fairing

@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "api/fillet.h"
 #include "api/fillet_rows.h"
 #include "bindings/python_run.h"
@@ -114,11 +116,6 @@ py::dict cut_arrays(const DoubleArray& vertices, const IntArray& triangles, cons
     return dict;
 }
 
-MeshInput surface_of(const std::tuple<DoubleArray, IntArray, IntArray, DoubleArray>& surface) {
-    const auto& [vertices, triangles, fixed, normals] = surface;
-    return {view_points(vertices), to_triangles(triangles), to_indices(fixed), to_points(normals)};
-}
-
 py::dict from_places(const PlacesOnFillet& found) {
     py::dict dict;
     dict["places"] = from_points(found.places);
@@ -128,29 +125,36 @@ py::dict from_places(const PlacesOnFillet& found) {
     return dict;
 }
 
-py::dict sections_of(const std::tuple<DoubleArray, IntArray, IntArray, DoubleArray>& surface,
-                     const std::tuple<DoubleArray, DoubleArray, DoubleArray>& planes, int rows) {
+std::unique_ptr<FilletSurface> surface_of(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
+                                          const DoubleArray& normals) {
     PythonRun run;
-    const MeshInput input = surface_of(surface);
-    const Points start = to_points(std::get<0>(planes));
-    const Points end = to_points(std::get<1>(planes));
-    const Points normal = to_points(std::get<2>(planes));
-    std::vector<Section> sections;
-    for (Eigen::Index k = 0; k < start.cols(); ++k) sections.push_back({start.col(k), end.col(k), normal.col(k)});
-    return from_places(run.without_gil([&](const ProgressCallback&) { return section_places(input, sections, rows); }));
+    return run.without_gil([&](const ProgressCallback&) {
+        return std::make_unique<FilletSurface>(to_points(vertices), to_triangles(triangles), to_indices(fixed),
+                                               to_points(normals));
+    });
 }
 
-py::dict relaxed_of(const std::tuple<DoubleArray, IntArray, IntArray, DoubleArray>& surface,
-                    const std::vector<std::array<int, 4>>& quads, const DoubleArray& points, int held, int sweeps) {
+py::dict sections_of(const FilletSurface& surface, const DoubleArray& starts, const DoubleArray& ends,
+                     const DoubleArray& normals, int rows) {
     PythonRun run;
-    const MeshInput input = surface_of(surface);
+    const Points from = to_points(starts);
+    const Points to = to_points(ends);
+    const Points normal = to_points(normals);
+    std::vector<Section> sections;
+    for (Eigen::Index k = 0; k < from.cols(); ++k) sections.push_back({from.col(k), to.col(k), normal.col(k)});
+    return from_places(run.without_gil([&](const ProgressCallback&) { return surface.sections(sections, rows); }));
+}
+
+py::dict relaxed_of(const FilletSurface& surface, const std::vector<std::array<int, 4>>& quads,
+                    const DoubleArray& points, int held, int sweeps) {
+    PythonRun run;
     const Points from = to_points(points);
     QuadPattern pattern;
     pattern.boundary_count = held;
     pattern.vertex_count = static_cast<int>(from.cols());
     pattern.quads = quads;
     return from_places(
-        run.without_gil([&](const ProgressCallback&) { return relaxed_places(input, pattern, from, sweeps); }));
+        run.without_gil([&](const ProgressCallback&) { return surface.relaxed(pattern, from, sweeps); }));
 }
 
 py::array drawn_arrays(const DoubleArray& points, const IntArray& triangles, const IntArray& fixed,
@@ -168,9 +172,10 @@ py::array drawn_arrays(const DoubleArray& points, const IntArray& triangles, con
 void bind_fillet(py::module_& module) {
     module.def("drawn_to", &drawn_arrays, py::arg("points"), py::arg("triangles"), py::arg("fixed"), py::arg("target"),
                py::arg("pull"));
-    module.def("section_places", &sections_of, py::arg("surface"), py::arg("planes"), py::arg("rows"));
-    module.def("relaxed_places", &relaxed_of, py::arg("surface"), py::arg("quads"), py::arg("points"), py::arg("held"),
-               py::arg("sweeps"));
+    py::class_<FilletSurface>(module, "FilletSurface", py::module_local())
+        .def(py::init(&surface_of), py::arg("vertices"), py::arg("triangles"), py::arg("fixed"), py::arg("normals"))
+        .def("sections", &sections_of, py::arg("starts"), py::arg("ends"), py::arg("normals"), py::arg("rows"))
+        .def("relaxed", &relaxed_of, py::arg("quads"), py::arg("points"), py::arg("held"), py::arg("sweeps"));
     module.def("fillet_line", &line_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),
                py::arg("widths"), py::arg("spacing"), py::arg("progress"));
     module.def("cut_fillet", &cut_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),

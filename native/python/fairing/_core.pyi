@@ -68,6 +68,11 @@ class Solver:
         preview: Callable[[_Floats], object] | None,
     ) -> dict[str, Any]: ...
 
+class FilletSurface:
+    def __init__(self, vertices: _Floats, triangles: _Ints, fixed: _Ints, normals: _Floats) -> None: ...
+    def sections(self, starts: _Floats, ends: _Floats, normals: _Floats, rows: int) -> dict[str, Any]: ...
+    def relaxed(self, quads: list[list[int]], points: _Floats, held: int, sweeps: int) -> dict[str, Any]: ...
+
 def fair(
     vertices: _Floats,
     triangles: _Ints,
@@ -151,12 +156,6 @@ def cut_fillet(
     spacing: float,
     line: tuple[Any, ...] | None,
     progress: Callable[[float, str], bool | None] | None,
-) -> dict[str, Any]: ...
-def section_places(
-    surface: tuple[_Floats, _Ints, _Ints, _Floats], planes: tuple[_Floats, _Floats, _Floats], rows: int
-) -> dict[str, Any]: ...
-def relaxed_places(
-    surface: tuple[_Floats, _Ints, _Ints, _Floats], quads: list[list[int]], points: _Floats, held: int, sweeps: int
 ) -> dict[str, Any]: ...
 def denoised(
     vertices: _Floats,

@@ -32,6 +32,9 @@ class Solved:
     fixed: IntArray
     normals: FloatArray
 
+    def __post_init__(self) -> None:
+        self._surface = _core.FilletSurface(self.vertices, self.triangles, self.fixed, self.normals)
+
     def distance(self, place: FloatArray) -> float:
         """To the nearest vertex of the boundary."""
         return float(np.linalg.norm(self.vertices[self.fixed] - place, axis=1).min())
@@ -42,7 +45,7 @@ class Solved:
         if not pairs or rows < 2:
             return []
         starts, ends = (np.array([pair[k].place for pair in pairs]) for k in (0, 1))
-        found = _core.section_places(self._surface(), (starts, ends, self._planes(starts, ends)), rows)
+        found = self._surface.sections(starts, ends, self._planes(starts, ends), rows)
         placed = self._placed(found)
         return placed if found["found"].all() else self._mended(placed, found["found"], (starts, ends), rows)
 
@@ -59,7 +62,7 @@ class Solved:
                 near = np.flatnonzero(found)[np.linalg.norm(middles[found] - middles[k], axis=1).argmin()]
                 places[k] += places[near] - (1 - shares) * ends[0][near] - shares * ends[1][near]
         lost = np.repeat(~found, rows - 1)
-        put = iter(self._placed(_core.relaxed_places(self._surface(), [], places.reshape(-1, 3)[lost], 0, 0)))
+        put = iter(self._placed(self._surface.relaxed([], places.reshape(-1, 3)[lost], 0, 0)))
         return [next(put) if gone else own for own, gone in zip(placed, lost.tolist(), strict=True)]
 
     def laid_out(self, quads: list[list[int]], known: FloatArray, count: int, sweeps: int) -> list[Placed]:
@@ -68,7 +71,7 @@ class Solved:
 
     def relaxed(self, quads: list[list[int]], places: FloatArray, held: int, sweeps: int) -> list[Placed]:
         """All but the first vertices of some quads."""
-        return self._placed(_core.relaxed_places(self._surface(), quads, places, held, sweeps))[held:]
+        return self._placed(self._surface.relaxed(quads, places, held, sweeps))[held:]
 
     def refine(self, strip: Strip, rows: int, width: float) -> None:
         """Columns between others where the surface is not straight."""
@@ -96,9 +99,6 @@ class Solved:
         found = self.sections(strip, wanted, rows)
         for k, column in enumerate(wanted):
             known[column] = np.array([place for place, _, _ in found[k * (rows - 1) : (k + 1) * (rows - 1)]])
-
-    def _surface(self) -> tuple[FloatArray, IntArray, IntArray, FloatArray]:
-        return self.vertices, self.triangles, self.fixed, self.normals
 
     def _placed(self, found: dict[str, FloatArray]) -> list[Placed]:
         numbers = self.numbers[found["triangle"]]
