@@ -13,7 +13,10 @@ from fairing._found_line import NoRowsError
 from fairing._strips import Column, Strip
 from fairing._types import FloatArray, IntArray
 
-_OFF = 0.1  # of the width: how far the surface may leave the quads between two columns, or one more comes between
+# Of the bulge over a column's chord: where the surface leaves the quads between two columns by more, one comes between.
+_OFF = 0.6  # where strips meet at corners it is up to 0.47, between vertices of a ring less
+_OFF_AT_WALLS = 0.25  # where it ends at a wall and fades, 1.4 from one end to the other
+_FLAT = 0.02  # of the width: what bulges less is flat
 _MOST_HALVINGS = 8  # of the way between two columns
 _INSIDE = 1e-6  # of the strip: as far inside its ends are cut, since along them its boundary may lie in their planes
 _LEAST_NORMAL = 0.05  # sine between the chord and the mean normal of its ends: below no plane is known
@@ -77,6 +80,7 @@ class Solved:
         """Columns between others where the surface is not straight."""
         fresh = list(zip(strip.columns, strip.columns[1:], strict=False))
         known: dict[Column, FloatArray] = {}
+        most = _OFF_AT_WALLS if strip.walled else _OFF
         for _ in range(_MOST_HALVINGS):
             if not fresh:
                 return
@@ -86,8 +90,10 @@ class Solved:
             for (before, after), middle in zip(fresh, middles, strict=True):
                 straight = 0.5 * (known[before] + known[after])
                 off = np.linalg.norm(known[middle] - straight, axis=1).max(initial=0.0)
+                ends = [spot.place for spot in strip.spots(middle)]
+                bulge = np.linalg.norm(known[middle] - 0.5 * (ends[0] + ends[1]), axis=1).min(initial=np.inf)
                 size = max(after.right - before.right, after.left - before.left)
-                if off > _OFF * width and size > 0.5 * width:
+                if off > max(most * bulge, _FLAT * width) and size > 0.5 * width:
                     strip.columns.insert(strip.columns.index(after), middle)
                     added += [(before, middle), (middle, after)]
             fresh = added

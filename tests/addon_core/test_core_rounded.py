@@ -1,0 +1,65 @@
+"""Fillets in quads: what is left of cut faces, and where the corners of new ones take their values from."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from core.region import MeshArrays
+from core.rounding import FilletOptions, Rounded, hard, round_arrays
+from polygon_mesh import polygon_mesh
+
+ALL = np.eye(4)
+
+
+def prism(sides: int, levels: int = 1) -> MeshArrays:
+    """Over a regular polygon, from z = 0 to 1, with one face at each end."""
+    turn = 2 * np.pi * np.arange(sides) / sides
+    rings = [np.column_stack([np.cos(turn), np.sin(turn), np.full(sides, k / levels)]) for k in range(levels + 1)]
+    walls = [
+        [sides * row + k, sides * row + (k + 1) % sides, sides * (row + 1) + (k + 1) % sides, sides * (row + 1) + k]
+        for row in range(levels)
+        for k in range(sides)
+    ]
+    ends = [list(range(sides))[::-1], [sides * levels + k for k in range(sides)]]
+    polygons = [*walls, *ends]
+    return polygon_mesh(np.concatenate(rings), polygons, np.zeros(len(polygons), dtype=bool))
+
+
+def rounded(mesh: MeshArrays, width: float) -> Rounded:
+    return round_arrays(mesh, hard(mesh), ALL, FilletOptions(width=width, quads=True))
+
+
+@pytest.mark.parametrize(("sides", "width"), [(4, 0.2), (5, 0.2), (24, 0.1)])
+def test_what_is_left_of_a_face_has_as_many_corners_as_it_had(sides: int, width: float) -> None:
+    mesh = prism(sides)
+    result = rounded(mesh, width)
+    assert result.warnings == ()
+    outside, new = result.polygons.polygons[: result.unselected], result.polygons.polygons[result.unselected :]
+    assert sorted(map(len, outside)) == sorted([4] * sides + [sides] * 2)
+    assert {len(polygon) for polygon in new} == {4}
+
+
+def test_corners_of_a_face_take_their_values_from_one_side() -> None:
+    """So that a texture whose sides lie apart is not smeared; those of the pieces from just where they lie."""
+    mesh = prism(4, 2)
+    result = rounded(mesh, 0.15)
+    part = result.part
+    places = np.concatenate([mesh.positions[part.stay], result.new_positions])
+    at = 0
+    for number, polygon in enumerate(result.polygons.polygons):
+        corners = result.polygons.corners[at : at + len(polygon)]
+        at += len(polygon)
+        sources, weights = part.corners.sources[corners], part.corners.weights[corners]
+        used = sources[weights > 1e-6]
+        normals = {tuple(np.round(_normal(mesh, face), 6)) for face in mesh.corner_faces[used].tolist()}
+        assert len(normals) == 1
+        if number < result.unselected:
+            carried = np.einsum("cs,csd->cd", weights, mesh.positions[mesh.corner_vertices[sources]])
+            assert abs(carried - places[polygon]).max() < 1e-12
+
+
+def _normal(mesh: MeshArrays, face: int) -> np.ndarray:
+    a, b, c = mesh.positions[mesh.corner_vertices[mesh.corner_faces == face]][:3]
+    normal = np.cross(b - a, c - b)
+    return normal / np.linalg.norm(normal)
