@@ -40,6 +40,8 @@ def strip_of(
         sides = sides[RIGHT].turned_to(right.spot), sides[LEFT].turned_to(left.spot)
         marks = [[*own[begin + 1 :], *own[:begin]] for own in marks]
     anchors = _anchors(sides, marks)
+    if not arc.closed:
+        anchors = _with_turns(sides, anchors, sizes[0])
     columns: list[Column] = []
     for before, after in pairwise(anchors):
         columns += [before, *_between(sides, before, after, sizes[1])]
@@ -144,6 +146,30 @@ def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]]) -> list[
             if any(before.ways[k] < ways[k] < last.ways[k] for k in (RIGHT, LEFT)):
                 ordered.append(Column(ways[0], ways[1], (held[0], held[1])))
     return [*ordered, last]
+
+
+def _with_turns(sides: tuple[Side, Side], anchors: list[Column], width: float) -> list[Column]:
+    """And columns where long ways around the ends of an arc begin."""
+    lengths = [side.length for side in sides]
+    tails = [[_tail(side, at) if _tail(side, at) > _ROUND * width else 0.0 for side in sides] for at in (0, -1)]
+    found = []
+    for tail, at in zip(tails, (0, -1), strict=True):
+        own = [tail[k] or min(_AHEAD * tail[1 - k], 0.5 * lengths[k]) for k in (RIGHT, LEFT)]
+        ways = [own[k] if at == 0 else lengths[k] - own[k] for k in (RIGHT, LEFT)]
+        found += [Column(ways[0], ways[1])] if any(tail) else []
+    for column in found:
+        before = [k for k, each in enumerate(anchors) if each.right < column.right and each.left < column.left]
+        k = before[-1] + 1 if before else len(anchors)
+        if 0 < k < len(anchors) and column.right < anchors[k].right and column.left < anchors[k].left:
+            anchors = [*anchors[:k], column, *anchors[k:]]
+    return anchors
+
+
+def _tail(side: Side, at: int) -> float:
+    """How far a side goes on, at its begin or end, from the seam's own end."""
+    near = 1e-6 * abs(float(side.feet[-1] - side.feet[0]))
+    ways = side.ways[np.abs(side.feet - side.feet[at]) <= near]
+    return float(np.ptp(ways))
 
 
 def _around(sides: tuple[Side, Side], at: Column, marks: tuple[_Mark, _Mark]) -> list[Column]:
