@@ -45,7 +45,10 @@ def strip_of(
     columns: list[Column] = []
     for before, after in pairwise(anchors):
         columns += [before, *_between(sides, before, after, sizes[1])]
-    columns = _spread(_thinned([*columns, anchors[-1]], _NEAR * sizes[1]))
+    columns = _paired(_thinned([*columns, anchors[-1]], _NEAR * sizes[1]), _NEAR * sizes[1])
+    columns = _paired(_spread(columns), 1e-6 * sizes[1])
+    if any(after.right <= before.right or after.left <= before.left for before, after in pairwise(columns)):
+        raise NoRowsError
     return Strip(arc, sides, columns)
 
 
@@ -224,8 +227,22 @@ def _thinned(columns: list[Column], least: float) -> list[Column]:
     return kept
 
 
+def _paired(columns: list[Column], least: float) -> list[Column]:
+    """One column for two that follow each other, nearer than that, where each holds another side."""
+    found: list[Column] = []
+    for column in columns:
+        before = found[-1] if found else column
+        near = all(abs(column.ways[k] - before.ways[k]) < least for k in (RIGHT, LEFT))
+        if near and sum(before.held) == sum(column.held) == 1 and before.held != column.held:
+            first, second = (before, column) if before.held[RIGHT] else (column, before)
+            found[-1] = Column(first.right, second.left, (True, True))
+        else:
+            found.append(column)
+    return found
+
+
 def _spread(columns: list[Column]) -> list[Column]:
-    """Ways that nothing holds move where one side's are crowded; raises NoRowsError where that is of no avail."""
+    """Ways that nothing holds move where one side's are crowded."""
     ways = np.array([[column.right, column.left] for column in columns])
     for _ in range(_MOST_SWEEPS):
         gaps = np.diff(ways, axis=0)
@@ -241,6 +258,4 @@ def _spread(columns: list[Column]) -> list[Column]:
                 moved = True
         if not moved:
             break
-    if (np.diff(ways, axis=0) <= 0.0).any():
-        raise NoRowsError
     return [Column(right, left, column.held) for (right, left), column in zip(ways.tolist(), columns, strict=True)]
