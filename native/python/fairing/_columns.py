@@ -42,6 +42,7 @@ def strip_of(
     anchors = _anchors(sides, marks)
     if not arc.closed:
         anchors = _with_turns(sides, anchors, sizes[0])
+    anchors = _with_musts(sides, anchors)
     columns: list[Column] = []
     for before, after in pairwise(anchors):
         columns += [before, *_between(sides, before, after, sizes[1])]
@@ -166,6 +167,19 @@ def _with_turns(sides: tuple[Side, Side], anchors: list[Column], width: float) -
         if 0 < k < len(anchors) and column.right < anchors[k].right and column.left < anchors[k].left:
             anchors = [*anchors[:k], column, *anchors[k:]]
     return anchors
+
+
+def _with_musts(sides: tuple[Side, Side], anchors: list[Column]) -> list[Column]:
+    """The same, held where they happen to be at edges outside, and no other column holds these."""
+    held = [[column.held[k] for column in anchors] for k in (RIGHT, LEFT)]
+    for k, side in enumerate(sides):
+        free = set(side.ways[side.must].tolist())
+        free -= {column.ways[k] for column in anchors if column.held[k]}
+        for at, column in enumerate(anchors):
+            if column.ways[k] in free:
+                free.discard(column.ways[k])
+                held[k][at] = True
+    return [Column(*column.ways, both) for column, both in zip(anchors, zip(*held, strict=True), strict=True)]
 
 
 def _tail(side: Side, at: int) -> float:
