@@ -17,6 +17,7 @@ _NEAR = 0.3  # of the spacing, as clear_of_line in fillet/parted_edges: what is 
 _ROUND = 0.6  # of the width: a longer way around a corner of the seam begins and ends with columns of its own
 _AHEAD = 0.25  # of such a way: as far before and after the corner these are on the other side
 _CORNER = 0.35  # radians, as fillet/limits' corner_angle: a line that turns by less may be passed in a chord
+_AROUND = 0.5  # of a side's length: places that are further from each other than that are nearer the other way around
 _CROWDED = 0.2  # of the gap on the other side
 _MOST_SWEEPS = 50  # over columns in a row that make room for each other
 
@@ -39,7 +40,7 @@ def strip_of(
             raise NoRowsError
         sides = sides[RIGHT].turned_to(right.spot), sides[LEFT].turned_to(left.spot)
         marks = [[*own[begin + 1 :], *own[:begin]] for own in marks]
-    anchors = _anchors(sides, marks)
+    anchors = _anchors(sides, marks, arc.closed)
     if not arc.closed:
         anchors = _with_turns(sides, anchors, sizes[0])
     anchors = _with_musts(sides, anchors)
@@ -135,14 +136,19 @@ def _way(side: Side, place: FloatArray) -> float:
     return float(side.ways[side.index(place)])
 
 
-def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]]) -> list[Column]:
+def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]], closed: bool) -> list[Column]:
     """The columns at the seam's vertices, and at the ends of ways around them, in their order."""
     last = Column(sides[RIGHT].length, sides[LEFT].length, (True, True))
     ordered = [Column(0.0, 0.0, (True, True))]
     for right, left in zip(*marks, strict=True):
         if right is None or left is None:
             continue
-        at = Column(_way(sides[RIGHT], right.spot), _way(sides[LEFT], left.spot), (right.held, left.held))
+        ways = [_way(side, mark.spot) for side, mark in zip(sides, (right, left), strict=True)]
+        shares = [way / side.length for way, side in zip(ways, sides, strict=True)]
+        ahead = int(shares[LEFT] > shares[RIGHT]) if closed and abs(shares[RIGHT] - shares[LEFT]) > _AROUND else -1
+        if ahead >= 0:  # before the begin of a closed strip
+            ways[ahead] = 0.0
+        at = Column(ways[RIGHT], ways[LEFT], (right.held and ahead != RIGHT, left.held and ahead != LEFT))
         for column in _around(sides, at, (right, left)):
             before = ordered[-1]
             ways = [min(max(column.ways[k], before.ways[k]), last.ways[k]) for k in (RIGHT, LEFT)]
