@@ -75,7 +75,13 @@ def fillet(
         over that length the seam, or the chamfer's edges, stay rounded. It is tangent for all but ±1, which are these
         two themselves.
     spacing : float
-        Length of the new edges. 0: a quarter of the least width.
+        Length of the new edges, of quads across the seam. 0: a quarter of the least width.
+    faces : {"triangles", "quads"}
+        "quads": rows along the seams. A column crosses them at each of their vertices and at each edge outside that
+        comes to the line, which so goes on to the other side, and where the surface asks for one. ``result.quads``
+        says which triangles are halves of one. NO_QUAD_ROWS tells where pairs of triangles stand in (docs/quads.md).
+    neighbours : (e, 2) int
+        For quads, those edges of the mesh that count, of quads and polygons. Default: all edges of the triangles.
     max_vertices : int
         More new vertices than that are refused, as by :func:`fairing.remesh`.
     progress : callable(fraction, stage) -> None | bool
@@ -135,6 +141,9 @@ def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted:
     try:
         made, pairs = in_rows(mesh, made, wishes, length, counted)
     except (NoRowsError, MeshError, SolverError):
+        if length > wishes.spacing:
+            wishes = replace(wishes, spacing=length)
+            made = solved(mesh, mesh.cut(wishes, None, None), wishes)
         _, pairs, _ = _core.paired_quads(made.vertices, made.triangles, np.empty((0, 2), np.int32))
         warning = no_rows(mesh.seams.ravel(), "seams")
         made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
