@@ -10,11 +10,10 @@ import numpy as np
 
 from fairing._found_line import FoundLine, NoRowsError
 from fairing._seam_arcs import LEFT, RIGHT, Arc
-from fairing._strips import Column, Side, Spot, Strip, corner_between
+from fairing._strips import ROUND, Column, Side, Spot, Strip, corner_between
 from fairing._types import FloatArray
 
 _NEAR = 0.3  # of the spacing, as clear_of_line in fillet/parted_edges: what is that near is in one column
-_ROUND = 0.6  # of the width: a longer way around a corner of the seam begins and ends with columns of its own
 _AHEAD = 0.25  # of such a way: as far before and after the corner these are on the other side
 _CORNER = 0.35  # radians, as fillet/limits' corner_angle: a line that turns by less may be passed in a chord
 _AROUND = 0.5  # of a side's length: places that are further from each other than that are nearer the other way around
@@ -40,10 +39,7 @@ def strip_of(
             raise NoRowsError
         sides = sides[RIGHT].turned_to(right.spot), sides[LEFT].turned_to(left.spot)
         marks = [[*own[begin + 1 :], *own[:begin]] for own in marks]
-    anchors = _anchors(sides, marks, arc.closed)
-    if not arc.closed:
-        anchors = _with_turns(sides, anchors, sizes[0])
-    anchors = _with_musts(sides, anchors)
+    anchors = _with_musts(sides, _anchors(sides, marks, arc.closed))
     columns: list[Column] = []
     for before, after in pairwise(anchors):
         columns += [before, *_between(sides, before, after, sizes[1])]
@@ -83,7 +79,7 @@ def _mark(line: FoundLine, side: Side, foot: float, sizes: tuple[float, float]) 
         return _Mark(spot.place, None, _bends(side, spot.place, sizes[1]))
     begin, end = float(side.ways[last + 1]), float(side.ways[first - 1])
     middle = side.at(0.5 * (begin + end))
-    around = (side.spots[last + 1].place, side.spots[first - 1].place) if end - begin > _ROUND * sizes[0] else None
+    around = (side.spots[last + 1].place, side.spots[first - 1].place) if end - begin > ROUND * sizes[0] else None
     if middle.point < 0:
         side.put(int(np.searchsorted(side.ways, 0.5 * (begin + end), side="right")) - 1, middle, foot)
     return _Mark(middle.place, around, _bends(side, middle.place, sizes[1]))
@@ -158,23 +154,6 @@ def _anchors(sides: tuple[Side, Side], marks: list[list[_Mark | None]], closed: 
     return [*ordered, last]
 
 
-def _with_turns(sides: tuple[Side, Side], anchors: list[Column], width: float) -> list[Column]:
-    """And columns where long ways around the ends of an arc begin."""
-    lengths = [side.length for side in sides]
-    tails = [[_tail(side, at) if _tail(side, at) > _ROUND * width else 0.0 for side in sides] for at in (0, -1)]
-    found = []
-    for tail, at in zip(tails, (0, -1), strict=True):
-        own = [tail[k] or min(_AHEAD * tail[1 - k], 0.5 * lengths[k]) for k in (RIGHT, LEFT)]
-        ways = [own[k] if at == 0 else lengths[k] - own[k] for k in (RIGHT, LEFT)]
-        found += [Column(ways[0], ways[1])] if any(tail) else []
-    for column in found:
-        before = [k for k, each in enumerate(anchors) if each.right < column.right and each.left < column.left]
-        k = before[-1] + 1 if before else len(anchors)
-        if 0 < k < len(anchors) and column.right < anchors[k].right and column.left < anchors[k].left:
-            anchors = [*anchors[:k], column, *anchors[k:]]
-    return anchors
-
-
 def _with_musts(sides: tuple[Side, Side], anchors: list[Column]) -> list[Column]:
     """The same, held where they happen to be at edges outside, and no other column holds these."""
     held = [[column.held[k] for column in anchors] for k in (RIGHT, LEFT)]
@@ -186,13 +165,6 @@ def _with_musts(sides: tuple[Side, Side], anchors: list[Column]) -> list[Column]
                 free.discard(column.ways[k])
                 held[k][at] = True
     return [Column(*column.ways, both) for column, both in zip(anchors, zip(*held, strict=True), strict=True)]
-
-
-def _tail(side: Side, at: int) -> float:
-    """How far a side goes on, at its begin or end, from the seam's own end."""
-    near = 1e-6 * abs(float(side.feet[-1] - side.feet[0]))
-    ways = side.ways[np.abs(side.feet - side.feet[at]) <= near]
-    return float(np.ptp(ways))
 
 
 def _around(sides: tuple[Side, Side], at: Column, marks: tuple[_Mark, _Mark]) -> list[Column]:

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from fairing._columns import strip_of
 from fairing._cut_anew import wall_way
 from fairing._found_line import FoundLine, NoRowsError
 from fairing._seam_arcs import LEFT, RIGHT, End, Network, network_of
 from fairing._strip_surface import Solved
-from fairing._strips import Spot, Strip, corner_between, side_of
+from fairing._strips import Hook, Spot, Strip, WallPoint, corner_between, side_of, without_hook
 from fairing._types import FloatArray
 
 
@@ -73,10 +75,20 @@ def continues(network: Network, end: End) -> bool:
 
 
 def _add_walled(strip: Strip, ends: list[int], seams: Seams) -> None:
+    """The points on walls, and on straight ways to the ends of seams beside hooks."""
+    half = seams.rows // 2
     for which in ends:
         column = strip.columns[-which]
         middle = strip.arc.vertices[-which]
-        ways = [wall_way(seams.line, seams.points, spot, middle, seams.rows // 2) for spot in strip.spots(column)]
+        ways = []
+        for side, spot in enumerate(strip.spots(column)):
+            hook = strip.hooks.get((which, side))
+            if hook is None:
+                ways.append(wall_way(seams.line, seams.points, spot, middle, half))
+                continue
+            hook.wall = wall_way(seams.line, seams.points, hook.spots[-1], middle, half)
+            shares = np.arange(1, half)[:, None] / half
+            ways.append([WallPoint(place, -1) for place in spot.place + shares * (seams.points[middle] - spot.place)])
         strip.walled[column] = (ways[0], ways[1])
 
 
@@ -101,14 +113,14 @@ def _ends_of(network: Network, seams: Seams) -> Ends:
 def _run(network: Network, end: End, arrives: bool) -> list[int]:
     """The points of the line that comes to an arc's end, or leaves it, as the line runs; a few of them."""
     arc, which = end
-    side = _arriving(which) if arrives else 1 - _arriving(which)
+    side = arriving(which) if arrives else 1 - arriving(which)
     points = network.runs[arc, side].points
     if side == LEFT:
         points = points[::-1]
     return points[-4:] if arrives else points[:4]
 
 
-def _arriving(which: int) -> int:
+def arriving(which: int) -> int:
     """The side on which the line runs to an arc's end."""
     return RIGHT if which == 1 else LEFT
 
@@ -119,9 +131,18 @@ def _strip(network: Network, ends: Ends, number: int, seams: Seams) -> Strip:
     for side in (RIGHT, LEFT):
         corners: list[Spot | None] = []
         for which in (0, 1):
-            arrives = _arriving(which) == side
+            arrives = arriving(which) == side
             end: End | None = (number, which) if arrives else before.get((number, which))
             corners.append(None if end is None else ends.corners.get(end))
         run = network.runs[number, side]
         sides.append(side_of(seams.line, run, seams.must, (corners[0], corners[1])))
-    return strip_of(seams.line, network.arcs[number], (sides[0], sides[1]), seams.linked, (seams.width, seams.spacing))
+    hooks: dict[tuple[int, int], Hook] = {}
+    for which in (0, 1):
+        if seams.rows % 4 or continues(network, (number, which)):
+            continue
+        for side in (RIGHT, LEFT):
+            sides[side], hook = without_hook(sides[side], which, seams.width)
+            hooks |= {(which, side): hook} if hook else {}
+    strip = strip_of(seams.line, network.arcs[number], (sides[0], sides[1]), seams.linked, (seams.width, seams.spacing))
+    strip.hooks = hooks
+    return strip

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
 
 import numpy as np
 
 from fairing._corner_quads import Quad, blocks, end_cap, grid_quads
 from fairing._cut_anew import ChosenPoints
-from fairing._fillet_strips import Seams, Strips, continues, strips_of
+from fairing._fillet_strips import Seams, Strips, arriving, continues, strips_of
 from fairing._found_line import NoRowsError
 from fairing._row_origins import Wanted
-from fairing._seam_arcs import Arc, End
+from fairing._seam_arcs import LEFT, RIGHT, Arc, End
 from fairing._strip_surface import Placed, Solved
-from fairing._strips import Side, Spot, Strip
+from fairing._strips import Spot, Strip, parted
 from fairing._types import FloatArray, IntArray
 
 _WIDE = 170.0  # degrees: a quad with a wider angle is mended
@@ -81,9 +83,9 @@ class _Making:
         for end, spots in self._ends.around.items():
             if end == self._other(end) and self._rows < 4:
                 raise NoRowsError
-            parted = _parted(spots, self._network.onward[end][2], self._rows, self._seams.must)
-            self._ends.around[end] = parted
-            for spot in parted:
+            places = parted(spots, self._network.onward[end][2], self._rows, self._seams.must)
+            self._ends.around[end] = places
+            for spot in places:
                 self._chosen.add(spot)
         for number in range(len(self._strips)):
             for which in (0, 1):
@@ -97,8 +99,17 @@ class _Making:
         number, which = end
         strip = self._strips[number]
         column = strip.columns[-which]
-        for spot, way in zip(strip.spots(column), strip.walled[column], strict=True):
-            self._chosen.add_wall(spot, strip.arc.vertices[-which], way)
+        vertex = strip.arc.vertices[-which]
+        for side, (spot, way) in enumerate(zip(strip.spots(column), strip.walled[column], strict=True)):
+            hook = strip.hooks.get((which, side))
+            if hook is None:
+                self._chosen.add_wall(spot, vertex, way)
+                continue
+            quarters = max(1, round(hook.length / (0.5 * np.pi * self._seams.width)))
+            hook.spots = parted(hook.spots, hook.segments, quarters * self._rows // 2, self._seams.must)
+            for each in hook.spots:
+                self._chosen.add(each)
+            self._chosen.add_wall(hook.spots[-1], vertex, hook.wall)
 
     def _mend(self, rings: int) -> bool:
         """Relax so many rings around quads that are not convex; return whether there are any."""
@@ -139,13 +150,35 @@ class _Making:
             new = [self._new(found[at * (self._rows - 1) + row], wanted[row]) for row in range(self._rows - 1)]
             grid[k] = [self._chosen.vertex(pairs[k][0]), *new, self._chosen.vertex(pairs[k][1])]
         for k in walled:
-            vertex = strip.arc.vertices[-1 if k else 0]
-            right, left = (self._chosen.wall(spot, vertex) for spot in pairs[k])
-            grid[k] = [*right, vertex, *left[::-1]]
+            right, left = (self._half(number, (1 if k else 0, side), pairs[k][side]) for side in (RIGHT, LEFT))
+            grid[k] = [*right, strip.arc.vertices[-1 if k else 0], *left[::-1]]
         if strip.arc.closed:
             grid[last] = grid[0]
         self._columns[number, 0], self._columns[number, 1] = grid[0], grid[last]
         self._add_quads(grid_quads(grid), surface)
+
+    def _half(self, number: int, at: tuple[int, int], spot: Spot) -> list[int]:
+        """Of a column at walls: from one side's spot to the arc's end, which is not among them."""
+        strip = self._strips[number]
+        which, side = at
+        vertex, hook = strip.arc.vertices[-which], strip.hooks.get(at)
+        if hook is None:
+            return self._chosen.wall(spot, vertex)
+        half, surface = self._rows // 2, self._on[number]
+        wanted = Wanted(self._chosen.triangle(hook.spots[half // 2]))
+        columns = []
+        for each in hook.spots[:-1:half]:
+            found = surface.across([each.place], [self._seams.points[vertex]], half)
+            columns.append([self._chosen.vertex(each), *(self._new(placed, wanted) for placed in found)])
+        columns.append(self._chosen.wall(hook.spots[-1], vertex))
+        for k, (column, after) in enumerate(pairwise(columns)):
+            around = [self._chosen.vertex(each) for each in hook.spots[k * half : (k + 1) * half + 1]]
+            sides = [around, [*after, vertex], [vertex, *column[::-1]]]
+            if arriving(which) != side:
+                sides = [[vertex, *after[::-1]], around[::-1], [*column, vertex]]
+            quads, count = self._filled(partial(blocks, sides))
+            self._lay_out(quads, [v for own in sides for v in own[:-1]], [wanted] * count, surface)
+        return columns[0]
 
     def _wanted_across(self, strip: Strip, spots: tuple[Spot, Spot]) -> list[Wanted]:
         """On both sides of the seam, or on the walls that lead to it; the middle one on the seam."""
@@ -190,10 +223,10 @@ class _Making:
                 wanted.append(Wanted(self._chosen.triangle(spots[len(spots) // 2])))
         rim = [v for side in sides for v in side[:-1]]
         if len(sides) == 2 and len(loop) == 1:
-            quads, count = self._filled(lambda new: end_cap(sides[0], sides[1], new))
+            quads, count = self._filled(partial(end_cap, sides[0], sides[1]))
             own = [Wanted()] * count
         elif len(sides) > 2:
-            quads, count = self._filled(lambda new: blocks(sides, new))
+            quads, count = self._filled(partial(blocks, sides))
             half = self._rows // 2
             corners = [Wanted(self._chosen.triangle_at(side[-1])) for side in sides]
             arc = self._strips[loop[0][0]].arc
@@ -252,19 +285,3 @@ def widest(corners: FloatArray) -> FloatArray:
     angles = np.degrees(np.arctan2(np.linalg.norm(cross, axis=2), (ahead * back).sum(axis=2)))
     result: FloatArray = np.where((cross * normals[:, None]).sum(axis=2) <= 0, 360 - angles, angles).max(axis=1)
     return result
-
-
-def _parted(spots: list[Spot], segments: list[int], count: int, must: Callable[[int], bool]) -> list[Spot]:
-    """A way in edges of one length; where edges outside come to it they take the place of the nearest spot."""
-    shares = np.arange(count + 1) / count
-    whole = Side(spots, segments, np.zeros(len(spots)), [must(spot.point) for spot in spots])
-    found = [whole.at(share * whole.length) for share in shares]
-    taken: set[int] = set()
-    for k in np.flatnonzero(whole.must)[:].tolist():
-        if 0 < k < len(spots) - 1:
-            nearest = 1 + int(np.abs(shares[1:-1] - whole.ways[k] / whole.length).argmin())
-            if nearest in taken:
-                raise NoRowsError
-            taken.add(nearest)
-            found[nearest] = spots[k]
-    return found

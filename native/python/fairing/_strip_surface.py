@@ -45,9 +45,13 @@ class Solved:
     def sections(self, strip: Strip, columns: Sequence[Column], rows: int) -> list[Placed]:
         """rows − 1 places on each column, right to left. Raises NoRowsError."""
         pairs = [strip.beside(column, _INSIDE * strip.sides[0].length) for column in columns]
-        if not pairs or rows < 2:
+        return self.across([pair[0].place for pair in pairs], [pair[1].place for pair in pairs], rows)
+
+    def across(self, first: Sequence[FloatArray], last: Sequence[FloatArray], rows: int) -> list[Placed]:
+        """rows − 1 places on the way from each place of the boundary to another one. Raises NoRowsError."""
+        if not first or rows < 2:
             return []
-        starts, ends = (np.array([pair[k].place for pair in pairs]) for k in (0, 1))
+        starts, ends = np.array(first), np.array(last)
         found = self._surface.sections(starts, ends, self._planes(starts, ends), rows)
         placed = self._placed(found)
         return placed if found["found"].all() else self._mended(placed, found["found"], (starts, ends), rows)

@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fairing._found_line import FoundLine
+from fairing._found_line import FoundLine, NoRowsError
 from fairing._seam_arcs import LEFT, RIGHT, Arc, Run
 from fairing._types import FloatArray
 
+ROUND = 0.6  # of the width: a longer way around a corner of the seam begins and ends with columns of its own
 _STRAIGHT = 1e-3  # of the spacing: nearer to the chord is no corner of the line
 
 
@@ -83,6 +84,15 @@ class Side:
         self.places = np.insert(self.places, after + 1, spot.place, axis=0)
         self._measure()
 
+    def cut(self, first: int, last: int) -> Side:
+        """From one of its spots to another."""
+        return Side(
+            self.spots[first : last + 1],
+            self.segments[first:last],
+            self.feet[first : last + 1],
+            self.must[first : last + 1],
+        )
+
     def turned_to(self, place: FloatArray) -> Side:
         """Of a closed one: begun at one of its spots."""
         k = self.index(place)
@@ -107,6 +117,21 @@ class Column:
 
 
 @dataclass
+class Hook:
+    """A long way around the end of a seam, on one side, to a wall."""
+
+    spots: list[Spot]
+    """From where the way around begins,"""
+    segments: list[int]
+    wall: list[WallPoint] = field(default_factory=list)
+    """and from the wall back to the seam's end."""
+
+    @property
+    def length(self) -> float:
+        return float(np.linalg.norm(np.diff([spot.place for spot in self.spots], axis=0), axis=1).sum())
+
+
+@dataclass
 class Strip:
     """What is between both sides of an arc."""
 
@@ -114,7 +139,9 @@ class Strip:
     sides: tuple[Side, Side]
     columns: list[Column]
     walled: dict[Column, tuple[list[WallPoint], list[WallPoint]]] = field(default_factory=dict)
-    """Columns along walls: what is between their right or left side and the arc's end."""
+    """Columns along walls, or beside hooks: what is between their right or left side and the arc's end."""
+    hooks: dict[tuple[int, int], Hook] = field(default_factory=dict)
+    """By the arc's end, and the side."""
 
     def spots(self, column: Column) -> tuple[Spot, Spot]:
         return self.sides[RIGHT].at(column.right), self.sides[LEFT].at(column.left)
@@ -132,6 +159,19 @@ class Strip:
         other = self.columns[1 if column == self.columns[0] else -2]
         size = max(abs(column.right - other.right), abs(column.left - other.left))
         return self.spots(column.between(other, way / size))
+
+
+def without_hook(side: Side, end: int, width: float) -> tuple[Side, Hook | None]:
+    """A side without the long way around one of its ends."""
+    near = np.abs(side.feet - side.feet[-end]) <= 1e-6 * abs(float(side.feet[-1] - side.feet[0]))
+    tail = np.flatnonzero(near)
+    if float(np.ptp(side.ways[tail])) <= ROUND * width or near.all():
+        return side, None
+    if end == 0:
+        around = side.cut(0, int(tail[-1]))
+        return side.cut(int(tail[-1]), len(side.spots) - 1), Hook(around.spots[::-1], around.segments[::-1])
+    around = side.cut(int(tail[0]), len(side.spots) - 1)
+    return side.cut(0, int(tail[0])), Hook(around.spots, around.segments)
 
 
 def side_of(line: FoundLine, run: Run, must: Callable[[int], bool], ends: tuple[Spot | None, Spot | None]) -> Side:
@@ -183,3 +223,19 @@ def _direction(line: FoundLine, points: list[int], spacing: float) -> FloatArray
             direction: FloatArray = way / size
             return direction
     return None
+
+
+def parted(spots: list[Spot], segments: list[int], count: int, must: Callable[[int], bool]) -> list[Spot]:
+    """A way in edges of one length; where edges outside come to it they take the place of the nearest spot."""
+    shares = np.arange(count + 1) / count
+    whole = Side(spots, segments, np.zeros(len(spots)), [must(spot.point) for spot in spots])
+    found = [whole.at(share * whole.length) for share in shares]
+    taken: set[int] = set()
+    for k in np.flatnonzero(whole.must)[:].tolist():
+        if 0 < k < len(spots) - 1:
+            nearest = 1 + int(np.abs(shares[1:-1] - whole.ways[k] / whole.length).argmin())
+            if nearest in taken:
+                raise NoRowsError
+            taken.add(nearest)
+            found[nearest] = spots[k]
+    return found
