@@ -126,10 +126,20 @@ def fillet(
     if len(cut["swallowed"]):
         raise _too_wide(cut["swallowed"], both, seams)
     watch.lap("cut")
-    made = solved(mesh, cut, wishes)
+    try:
+        made = solved(mesh, cut, wishes)
+    except MeshError as error:
+        raise _named(error, len(points)) from error
     if not wants_rows:
         return result_of(mesh, made, wishes)
     return _with_quads(mesh, made, wishes, length, counted)
+
+
+def _named(error: MeshError, count: int) -> MeshError:
+    """With those of its vertices that are the caller's: others, and triangles, are of the mesh that was cut."""
+    said = error.diagnostic
+    own = said.elements[said.elements < count] if said.kind == "vertex" else said.elements[:0]
+    return MeshError(replace(said, elements=own, kind="vertex"))
 
 
 def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
