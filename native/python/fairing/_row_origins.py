@@ -36,23 +36,24 @@ class RowOrigins:
 
     def of(self, places: FloatArray, under: IntArray, wanted: list[Wanted]) -> tuple[IntArray, FloatArray]:
         """Old triangles (k,) and weights (k, 3) there of places that lie on one of three triangles (k, 3), or near."""
-        found = [self._at(*row) for row in zip(places, under.tolist(), wanted, strict=True)]
+        rows = zip(places, under.tolist(), self._weights(places, under), wanted, strict=True)
+        found = [self._at(*row) for row in rows]
         old, weights = zip(*found, strict=True) if found else ((), ())
         names: IntArray = np.array(old, dtype=np.int32)
         return names, np.array(weights).reshape(-1, 3)
 
-    def _at(self, place: FloatArray, under: list[int], wish: Wanted) -> tuple[int, FloatArray]:
+    def _at(self, place: FloatArray, under: list[int], weights: FloatArray, wish: Wanted) -> tuple[int, FloatArray]:
         if wish.edges is not None and len(wish.edges):
             return self._on_edge(place, wish.edges, -1)
         if wish.vertex >= 0:
             return self._at_vertex(wish.vertex)
         own = self._side.get(wish.triangle, -1)
-        alike = [t for t in dict.fromkeys(under) if t >= 0 and own in (-1, self._side.get(t, -1))]
+        alike = [k for k, t in enumerate(under) if t >= 0 and own in (-1, self._side.get(t, -1))]
         if not alike:
             return self._on_edge(place, self._border(own), own)
-        best = max(((self._weights(t, place), t) for t in alike), key=lambda each: float(each[0].min()))
-        weights = np.clip(best[0], 0.0, None)
-        return best[1], weights / weights.sum()
+        best = max(alike, key=lambda k: float(weights[k].min()))
+        inside = np.clip(weights[best], 0.0, None)
+        return under[best], inside / inside.sum()
 
     def _at_vertex(self, vertex: int) -> tuple[int, FloatArray]:
         t = next(t for (a, _), t in self._beside.items() if a == vertex)
@@ -82,13 +83,14 @@ class RowOrigins:
         weights[corners.index(a)], weights[corners.index(b)] = 1.0 - share[k], share[k]
         return t, weights
 
-    def _weights(self, t: int, place: FloatArray) -> FloatArray:
-        a, b, c = self._points[self._triangles[t]]
+    def _weights(self, places: FloatArray, under: IntArray) -> FloatArray:
+        """(k, 3, 3) barycentric weights of the places' feet in the planes of the triangles under them."""
+        a, b, c = np.moveaxis(self._points[self._triangles[np.maximum(under, 0)]], 2, 0)
         normal = np.cross(b - a, c - a)
-        squared = max(float(normal @ normal), 1e-300)
-        u = float(normal @ np.cross(c - b, place - b)) / squared
-        v = float(normal @ np.cross(a - c, place - c)) / squared
-        return np.array([u, v, 1.0 - u - v])
+        squared = np.maximum((normal * normal).sum(axis=2), 1e-300)
+        u = (normal * np.cross(c - b, places[:, None] - b)).sum(axis=2) / squared
+        v = (normal * np.cross(a - c, places[:, None] - c)).sum(axis=2) / squared
+        return np.stack([u, v, 1.0 - u - v], axis=2)
 
     def _sides(self, parting: set[int]) -> dict[int, int]:
         """A number for each triangle: the same where nothing parts them."""
