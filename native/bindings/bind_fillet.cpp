@@ -72,9 +72,11 @@ py::dict line_arrays(const DoubleArray& vertices, const IntArray& triangles, con
         corner.push_back(found.feet[k].corner ? 1 : 0);
     }
     std::vector<std::array<int, 3>> segments;
+    segments.reserve(found.line.segments.size());
     for (const LineSegment& segment : found.line.segments)
         segments.push_back({segment.from, segment.to, segment.triangle});
     std::vector<std::array<int, 5>> walls;
+    walls.reserve(found.walls.size());
     for (const ReachedWall& wall : found.walls)
         walls.push_back({wall.edge, wall.tail, wall.head, wall.triangle, wall.corner});
     py::dict dict;
@@ -141,6 +143,7 @@ py::dict sections_of(const FilletSurface& surface, const DoubleArray& starts, co
     const Points to = to_points(ends);
     const Points normal = to_points(normals);
     std::vector<Section> sections;
+    sections.reserve(static_cast<std::size_t>(from.cols()));
     for (Eigen::Index k = 0; k < from.cols(); ++k) sections.push_back({from.col(k), to.col(k), normal.col(k)});
     return from_places(run.without_gil([&](const ProgressCallback&) { return surface.sections(sections, rows); }));
 }

@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -68,9 +68,10 @@ TEST_CASE("fillets in rows: new vertices go to the middle of the quads around th
     pattern.vertex_count = 9;
     pattern.quads = {{0, 1, 8, 7}, {1, 2, 3, 8}, {8, 3, 4, 5}, {7, 8, 5, 6}};
     Points points(3, 9);
-    const double places[9][2] = {{.2, .2}, {.5, .2}, {.8, .2}, {.8, .5}, {.8, .8},
-                                 {.5, .8}, {.2, .8}, {.2, .5}, {.3, .6}};
-    for (int v = 0; v < 9; ++v) points.col(v) = on_pipe(places[v][0], places[v][1]);
+    const std::array<std::array<double, 2>, 9> places{
+        {{.2, .2}, {.5, .2}, {.8, .2}, {.8, .5}, {.8, .8}, {.5, .8}, {.2, .8}, {.2, .5}, {.3, .6}}};
+    for (std::size_t v = 0; v < places.size(); ++v)
+        points.col(static_cast<Eigen::Index>(v)) = on_pipe(places[v][0], places[v][1]);
     const PlacesOnFillet found = pipe.relaxed(pattern, points, 60);
     CHECK((found.places.col(8) - on_pipe(0.5, 0.5)).norm() < 2e-2);
     CHECK(std::abs(std::hypot(found.places(0, 8), found.places(2, 8)) - 1.0) < 1e-3);
