@@ -62,8 +62,10 @@ def _around(group: set[int], star: list[Corners]) -> Corners:
 
 def _meshed(polygon: Corners, points: FloatArray) -> list[Corners]:
     """Triangles of a polygon that is about plane: of all ways to cut it that whose flattest triangle is roundest."""
-    flat = _flattened(points[polygon])
     count = len(polygon)
+    if count == 2:  # a triangle without area, over the side that now is the border
+        return []
+    flat = _flattened(points[polygon])
     best: dict[tuple[int, int], tuple[float, int]] = {(k, k + 1): (np.inf, -1) for k in range(count - 1)}
     for width in range(2, count):
         for i in range(count - width):
@@ -71,7 +73,7 @@ def _meshed(polygon: Corners, points: FloatArray) -> list[Corners]:
             best[i, j] = max(
                 (min(best[i, k][0], best[k, j][0], _roundness(flat[i], flat[k], flat[j])), k) for k in range(i + 1, j)
             )
-    if count < 3 or best[0, count - 1][0] < _FLAT:
+    if best[0, count - 1][0] < _FLAT:
         raise NoRowsError
     found, waiting = [], [(0, count - 1)]
     while waiting:
