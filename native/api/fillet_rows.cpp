@@ -1,11 +1,13 @@
 #include "api/fillet_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "api/old_surface.h"
+#include "fillet/limits.h"
 
 namespace fairing {
 
@@ -25,12 +27,23 @@ struct FilletSurface::Solved {
         result.weights.resize(3, count);
         for (Eigen::Index k = 0; k < count; ++k) {
             const SurfacePoint& at = where[static_cast<std::size_t>(k)];
-            places.col(k) = target.position(at);
+            const auto corners = old.patch.triangles.col(at.triangle);
+            places.col(k) =
+                is_smooth(at.triangle) ? target.position(at) : Vector3(old.points(Eigen::all, corners) * at.weights);
             result.triangle.push_back(old.patch.input_triangle[at.triangle]);
             result.weights.col(k) = at.weights;
         }
         result.places = old.unit.from_unit(places);
         return result;
+    }
+
+    // Whether the normals at a triangle's corners are of one side with its own: at walls that meet they are means, over
+    // which it must not be curved.
+    [[nodiscard]] bool is_smooth(int triangle) const {
+        const Vector3 own = target.face_normal(triangle);
+        const auto corners = old.patch.triangles.col(triangle);
+        return std::all_of(corners.begin(), corners.end(),
+                           [&](int v) { return old.normals.col(v).dot(own) > std::cos(corner_angle); });
     }
 
     const Points vertices;
