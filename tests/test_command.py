@@ -72,6 +72,9 @@ def test_fillet(tmp_path: Path) -> None:
     rounded = trimesh.load(report["written"], force="mesh", process=False)
     assert status in (0, 1) and report["converged"]
     assert 0.85 < rounded.volume < 1.0 and rounded.is_watertight
+    given = ("--width", 0.2, "--faces", "quads")
+    status, (report,) = report_of(tmp_path, "fillet", tmp_path / "box.obj", *given)
+    assert status in (0, 1) and report["converged"]
 
 
 def test_measure(scan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

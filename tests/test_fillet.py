@@ -421,3 +421,17 @@ def test_edges_without_length_in_a_seam_are_got_over(count: int) -> None:
     seam = np.concatenate([along[1:], list(pairwise([a, *doubled, b]))])
     result = fairing.fillet(more, cut, seam, width=0.2)
     is_round(more, cut, result)
+
+
+def test_errors_name_vertices_of_the_mesh_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not those of the mesh that was cut from it."""
+    vertices, triangles = solids.box(1)
+
+    def broken(*_: object) -> None:
+        names = np.array([3, 900], dtype=np.int32)
+        raise fairing.MeshError(fairing.Diagnostic("NONMANIFOLD_EDGE", "edge 3–900", names, "vertex", {}))
+
+    monkeypatch.setattr("fairing._fillet.solved", broken)
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.fillet(vertices, triangles, width=0.2)
+    assert caught.value.elements.tolist() == [3]

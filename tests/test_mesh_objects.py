@@ -202,6 +202,18 @@ def test_edges_of_a_librarys_mesh(library: Callable[[], Any]) -> None:
     assert abs(at - points[:, 2]).max() < 0.2
 
 
+def test_edges_of_polygons_are_rounded_by_quads() -> None:
+    """A cube of six quads: rows along its edges, three blocks at each corner, and the data of one old face on each."""
+    corner = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    (points, faces), result = fairing.fillet_edges((corner, quads), width=0.2, faces="quads")
+    sizes = [len(face) for face in faces]
+    assert (sizes.count(4), sizes.count(3)) == (12 * 8 + 8 * 48, result.outside)
+    used = {v for face in faces for v in face}
+    assert used == set(range(len(points)))
+    assert points.min() > -1e-9 and points.max() < 1 + 1e-9
+
+
 def test_arrays_and_polygons() -> None:
     points, quads, selected = dented()
     mesh, result = fairing.fair_faces((points, quads), selected)

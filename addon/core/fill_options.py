@@ -101,13 +101,21 @@ FILLET: Table = (
     Option(
         "spacing",
         "Edge Length",
-        "Length of the new edges, in world space; 0: a quarter of the least width",
+        "Length of the new edges, in world space, with Quads across the seam; 0: a quarter of the least width",
         0.0,
         VERTICES,
         bounds=(0.0, 1e9),
         slider=(0.0, 1.0),
         digits=4,
         kind="DISTANCE",
+    ),
+    Option(
+        "quads",
+        "Quads",
+        "Quads in rows along the seam that continue the edges outside from side to side. Where the sides have no "
+        "pairs, pairs of triangles",
+        False,
+        VERTICES,
     ),
     Option(
         "width_group",

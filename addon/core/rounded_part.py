@@ -10,7 +10,7 @@ import numpy as np
 import fairing
 
 from .arrays import Floats, Ints
-from .faces import Faces
+from .faces import Faces, faces_in_rows, faces_of
 from .new_part import NewPart, Stencil
 from .pairs import pair_keys, places_of
 from .region import MeshArrays
@@ -61,8 +61,9 @@ def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
         gone_faces=gone_faces,
         gone_vertices=_without_faces(mesh, gone_faces, np.setdiff1d(touched, stay)),
     )
-    polygons, first = _merged(mesh, numbered, parents, outside)
-    return RoundedPart(part, _wound(polygons, mesh.mirrored), first)
+    polygons, first = _merged(mesh, numbered[:outside], parents, result.quads is not None)
+    faces = _joined(polygons, _new_faces(numbered, result, outside))
+    return RoundedPart(part, _wound(faces, mesh.mirrored), first)
 
 
 def _without_faces(mesh: MeshArrays, gone_faces: Ints, vertices: Ints) -> Ints:
@@ -95,26 +96,35 @@ class _CornerPlaces:
         old[new] = self._result.origin[0][corners[new] - count]
         weights[new] = self._result.origin[1][corners[new] - count]
         pieces = np.arange(triangles.size) < 3 * outside
-        old[pieces] = parent[pieces]
-        weights[pieces] = self._weights_in(parent[pieces], corners[pieces])
+        old[pieces], weights[pieces] = self._in_faces(parent[pieces], corners[pieces])
         for k in np.flatnonzero(~new & ~pieces).tolist():
             old[k], weights[k] = self._at_vertex(int(corners[k]), int(parent[k]))
         for k in np.flatnonzero(new & ~pieces).tolist():
             if self._side.get(int(old[k])) != self._side.get(int(parent[k])):
-                old[k], weights[k] = self._across(int(old[k]), weights[k])
+                old[k], weights[k] = self._across(int(old[k]), weights[k], int(parent[k]))
         return 3 * old[:, None] + np.arange(3), weights
 
+    def _in_faces(self, parents: Ints, corners: Ints) -> tuple[Ints, Floats]:
+        """Return triangles of the parents' faces that vertices lie on, and barycentric weights (k, 3) there."""
+        old, weights = parents.copy(), self._weights_in(parents, corners)
+        faces = self._mesh.triangle_faces
+        for k in np.flatnonzero(weights.min(axis=1) < -_ON_SIDE).tolist():  # a piece of several triangles of its face
+            own = np.flatnonzero(faces == faces[parents[k]])
+            found = self._weights_in(own, np.full(len(own), corners[k]))
+            best = int(found.min(axis=1).argmax())
+            old[k], weights[k] = own[best], found[best]
+        weights = np.clip(weights, 0.0, 1.0)
+        return old, weights / weights.sum(axis=1, keepdims=True)
+
     def _weights_in(self, parents: Ints, corners: Ints) -> Floats:
-        """Return barycentric weights (k, 3) of vertices in triangles that they lie on."""
+        """Return barycentric weights (k, 3) of vertices in the planes of triangles."""
         places = np.concatenate([self._mesh.positions, self._result.vertices])[corners]
         a, b, c = (self._mesh.positions[self._mesh.triangles[parents, k]] for k in range(3))
         normal = np.cross(b - a, c - a)
         squared = np.maximum((normal * normal).sum(axis=1), 1e-300)
         u = (normal * np.cross(c - b, places - b)).sum(axis=1) / squared
         v = (normal * np.cross(a - c, places - c)).sum(axis=1) / squared
-        weights = np.clip(np.column_stack([u, v, 1.0 - u - v]), 0.0, 1.0)
-        result: Floats = weights / weights.sum(axis=1, keepdims=True)
-        return result
+        return np.column_stack([u, v, 1.0 - u - v])
 
     def _at_vertex(self, vertex: int, parent: int) -> tuple[int, Floats]:
         """Return a triangle at an old vertex, on the parent's side if there is one."""
@@ -128,9 +138,11 @@ class _CornerPlaces:
         weights[self._mesh.triangles[best].tolist().index(vertex)] = 1.0
         return best, weights
 
-    def _across(self, triangle: int, weights: Floats) -> tuple[int, Floats]:
+    def _across(self, triangle: int, weights: Floats, parent: int) -> tuple[int, Floats]:
         """Return the same place on a seam or a wall in the triangle on its other side; elsewhere as it was."""
         corners = self._mesh.triangles[triangle].tolist()
+        if (weights > _ON_SIDE).sum() == 1:
+            return self._at_vertex(corners[int(weights.argmax())], parent)
         for k in range(3):
             if weights[k] > _ON_SIDE:
                 continue
@@ -170,8 +182,11 @@ def _corner_numbers(mesh: MeshArrays) -> Ints:
     return places_of(wanted, pair_keys(mesh.corner_faces, mesh.corner_vertices))
 
 
-def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, outside: int) -> tuple[Faces, int]:
-    """Return the faces, and how many of them are pieces: those of one flat face become polygons again."""
+def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, bent: bool) -> tuple[Faces, int]:
+    """Return the faces of the pieces, and how many there are: those of one face become polygons again.
+
+    bent: whether of faces that are not flat, too.
+    """
     polygons: list[list[int]] = []
     examples: list[int] = []
     corners: list[int] = []
@@ -181,21 +196,35 @@ def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, outside: int) -> t
         examples.append(places[0] // 3)
         corners.extend(places)
 
-    faces = mesh.triangle_faces[parents[:outside]]
+    faces = mesh.triangle_faces[parents[: len(triangles)]]
     for face in np.unique(faces).tolist():
         rows = np.flatnonzero(faces == face)
-        flat = _is_flat(mesh, face)
+        whole = bent or _is_flat(mesh, face)
         for piece in _pieces(triangles, rows):
-            loop = _outline(triangles, piece) if flat else None
+            loop = _outline(triangles, piece) if whole else None
             if loop is None:
                 for row in piece:
                     add(triangles[row].tolist(), [3 * row, 3 * row + 1, 3 * row + 2])
             else:
                 add([int(triangles[corner // 3, corner % 3]) for corner in loop], loop)
-    first = len(polygons)
-    for row in range(outside, len(triangles)):
-        add(triangles[row].tolist(), [3 * row, 3 * row + 1, 3 * row + 2])
-    return Faces(polygons, np.array(examples, dtype=np.int64), np.array(corners, dtype=np.int64)), first
+    return Faces(polygons, np.array(examples, dtype=np.int64), np.array(corners, dtype=np.int64)), len(polygons)
+
+
+def _new_faces(triangles: Ints, result: fairing.FilletResult, outside: int) -> Faces:
+    """Return those of the fillet; their triangles are the last of all."""
+    if result.quads is None:
+        own = faces_of(triangles[outside:])
+    else:
+        own = faces_in_rows(triangles[outside:], result.quads.pairs - result.outside, np.empty((0, 2), np.int64))
+    return Faces(own.polygons, own.triangles + outside, own.corners + 3 * outside)
+
+
+def _joined(first: Faces, second: Faces) -> Faces:
+    return Faces(
+        first.polygons + second.polygons,
+        np.concatenate([first.triangles, second.triangles]),
+        np.concatenate([first.corners, second.corners]),
+    )
 
 
 def _is_flat(mesh: MeshArrays, face: int) -> bool:

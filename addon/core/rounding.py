@@ -43,6 +43,7 @@ class FilletOptions:
     profile: float = 0.0  # -1 flat … 1 sharp
     continuity: str = "G1"
     spacing: float = 0.0  # length of new edges; 0: a quarter of the least width
+    quads: bool = False
     width_group: str = ""  # a vertex group whose weights the widths are multiplied by
     max_vertices: int = 0
     limit_total: int = 0
@@ -147,6 +148,7 @@ def round_arrays(
             fairing.Options(fairing.Surface(continuity=options.continuity)),
             width=options.width * factors, width_2=None if second == options.width else second * factors,
             walls=world.edges[hard(world) & ~seams], profile=options.profile, spacing=options.spacing,
+            faces="quads" if options.quads else "triangles", neighbours=world.edges,
             max_vertices=options.max_vertices,
             progress=progress,
         )  # fmt: skip

@@ -132,6 +132,7 @@ WORDS: dict[str, tuple[Words, ...]] = {
     "NO_QUAD_ROWS": (
         Words("The quads are in no rows: edges that stay run through them", when="curves"),
         Words("The quads are in no rows: more than two boundary loops are joined", when="several"),
+        Words("The quads are in no rows: the lines beside the seam have no pairs", when="seams"),
         Words("The quads are in no rows: no pattern of them fits the corners of the boundary"),
     ),
     "OUT_OF_PROPORTION": (

@@ -263,32 +263,88 @@ void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
         cut.parent[turned.cap] = cut.parent[turned.beside];
 }
 
+// What both calls begin with.
+struct Prepared {
+    explicit Prepared(const FilletInput& given)
+        : input(with_parted(given)),
+          plane(turned(input)),
+          mesh(input.vertices, input.triangles, input.seams, input.walls),
+          distance(directed_mesh(), input.widths, widest() + input.spacing),
+          sides(mesh, joined(input.seams, input.walls)) {}
+
+    FilletInput input;
+    Indices plane;
+    SeamMesh mesh;
+    SeamDistance distance;
+    SideNormals sides;
+
+private:
+    static FilletInput with_parted(FilletInput input) {
+        part_doubled(input);
+        return input;
+    }
+    static Indices turned(FilletInput& input) {
+        Indices plane(static_cast<std::size_t>(input.triangles.cols()));
+        std::iota(plane.begin(), plane.end(), 0);
+        turn_caps_at_seams(input, plane);
+        return plane;
+    }
+    const SeamMesh& directed_mesh() {
+        mesh.redirect(directed(mesh, input.seams));
+        return mesh;
+    }
+    [[nodiscard]] double widest() const {
+        double result = 0.0;
+        for (const auto& [a, b] : input.seams) {
+            for (const int v : {a, b}) result = std::max({result, input.widths.left[v], input.widths.right[v]});
+        }
+        return result;
+    }
+};
+
 }  // namespace
 
-FilletCut cut_fillet(const FilletInput& given, const ProgressCallback& callback) {
+FilletLine fillet_line(const FilletInput& given, const ProgressCallback& callback) {
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
-    FilletInput input = given;
-    part_doubled(input);
-    Indices plane(static_cast<std::size_t>(given.triangles.cols()));
-    std::iota(plane.begin(), plane.end(), 0);
-    turn_caps_at_seams(input, plane);
-    SeamMesh mesh(input.vertices, input.triangles, input.seams, input.walls);
-    mesh.redirect(directed(mesh, input.seams));
-    double widest = 0.0;
-    for (const auto& [a, b] : input.seams) {
-        for (const int v : {a, b}) widest = std::max({widest, input.widths.left[v], input.widths.right[v]});
+    const Prepared made(given);
+    const SeamMesh& mesh = made.mesh;
+    FilletLine result;
+    result.seams = made.input.seams;
+    result.line = level_line(mesh, made.distance, resolution * given.spacing, snap * given.spacing);
+    join_at_walls(mesh, given.spacing, result.line);
+    std::map<int, VertexPair> ends;
+    for (int h = 0; h < mesh.half_edge_count(); ++h) {
+        ends[mesh.edge[h]] = {mesh.tail(h), mesh.head(h)};
+        if (mesh.twin[h] == none && made.distance.reaches(h / 3))
+            result.walls.push_back({mesh.edge[h], mesh.tail(h), mesh.head(h), h / 3, h % 3});
     }
-    const SeamDistance distance(mesh, input.widths, widest + input.spacing);
+    for (const LinePoint& point : result.line.points) {
+        const SeamFoot foot = made.distance.foot(point.triangle, point.weights);
+        const int h = foot.half_edge;
+        result.feet.push_back(
+            {h == none ? VertexPair{none, none} : VertexPair{mesh.tail(h), mesh.head(h)}, foot.corner, foot.along});
+        result.ends.push_back(point.edge == none ? VertexPair{none, none} : ends.at(point.edge));
+    }
+    progress.report(1.0, "done");
+    return result;
+}
+
+FilletCut cut_fillet(const FilletInput& given, const std::optional<LevelLine>& line, const ProgressCallback& callback) {
+    const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    Prepared made(given);
     progress.report(0.3, "distance");
     FilletCut result;
-    SideNormals sides(mesh, joined(input.seams, input.walls));
-    result.mesh = cut_along(mesh, distance, points_of_fillet(mesh, distance, input, sides));
-    result.swallowed = swallowed_vertices(mesh, distance, result.mesh, 0.5 * input.spacing);
+    LevelLine along = line ? *line : points_of_fillet(made.mesh, made.distance, made.input, made.sides);
+    for (LinePoint& point : along.points)
+        if (line) point.weights = weights_in(made.mesh.points, made.mesh.triangles, point.triangle, point.place);
+    result.mesh = cut_along(made.mesh, made.distance, along);
+    result.swallowed = swallowed_vertices(made.mesh, made.distance, result.mesh, 0.5 * made.input.spacing);
     progress.report(0.7, "cut");
-    if (result.swallowed.empty()) add_boundary(mesh, input, sides, result);
-    for (int& parent : result.mesh.parent) parent = plane[parent];
-    turn_caps_inside(input, result.mesh);
+    if (result.swallowed.empty()) add_boundary(made.mesh, made.input, made.sides, result);
+    for (int& parent : result.mesh.parent) parent = made.plane[parent];
+    turn_caps_inside(made.input, result.mesh);
     result.weights = weights_in_parents(given, result.mesh);
     progress.report(1.0, "done");
     return result;

@@ -48,7 +48,8 @@ void SeamDistance::seed_edges(const SeamWidths& widths) {
     for (int h = 0; h < mesh_.half_edge_count(); ++h) {
         if (mesh_.seam[h] == none) continue;
         const double length = mesh_.length[h];
-        sources_.push_back({0.0, length, width_of(h, true, widths), width_of(h, false, widths), true});
+        sources_.push_back(
+            {0.0, length, width_of(h, true, widths), width_of(h, false, widths), true, {h, false, infinite}});
         const int source = static_cast<int>(sources_.size()) - 1;
         add({h, false, Vector2::Zero(), Vector2(1.0, 0.0), 0.0, 0.0, length, 0.0, source}, 0.0);
     }
@@ -83,7 +84,7 @@ void SeamDistance::seed_sector(int first_half_edge, const SeamWidths& widths) {
     if (!(end > begin)) return;
     const double before = width_of(from_seam || !to_seam ? first_half_edge : closing, from_seam || !to_seam, widths);
     const double after = width_of(to_seam || !from_seam ? closing : first_half_edge, !to_seam && from_seam, widths);
-    sources_.push_back({-end, -begin, after, before, false});
+    sources_.push_back({-end, -begin, after, before, false, {first_half_edge, true, infinite}});
     const int source = static_cast<int>(sources_.size()) - 1;
     double angle = 0.0;
     for (int h = first_half_edge;; h = mesh_.turned(h)) {
@@ -181,12 +182,13 @@ bool SeamDistance::bends(int half_edge) const {
 }
 
 // The tail of a half-edge, reached by a ray.
-void SeamDistance::touch(int half_edge, double reached, double wide) {
+void SeamDistance::touch(int half_edge, double reached, const Window& window, double ray) {
     double& known = vertex_[mesh_.sheet[half_edge]];
     if (!(reached < known)) return;
     known = reached;
     if (reached > reach_ || !bends(half_edge)) return;
-    sources_.push_back({0.0, 0.0, wide, wide, false});
+    const double wide = width(window, ray);
+    sources_.push_back({0.0, 0.0, wide, wide, false, foot(sources_[window.source], ray)});
     queue_.push_back({reached, none, half_edge, static_cast<int>(sources_.size()) - 1});
     std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
 }
@@ -199,7 +201,7 @@ void SeamDistance::propagate(int w) {
     const double tolerated = tolerance(window);
     const auto touch_at = [&](int vertex, const Vector2& place, double ray) {
         if (ray > window.first - tolerated && ray < window.last + tolerated)
-            touch(vertex, distance(window, place), width(window, ray));
+            touch(vertex, distance(window, place), window, ray);
     };
     const double ray = window.corner ? window.base - mesh_.opening[h] : coordinate(window, mesh_.apex[h]);
     touch_at(previous, mesh_.apex[h], ray);
@@ -244,8 +246,22 @@ void SeamDistance::pass(const Window& window, int through, double first, double 
     if (key <= reach_) add(there, key);
 }
 
-SeamPlace SeamDistance::at(int triangle, const Vector3& weights) const {
-    SeamPlace best{infinite, 0.0};
+SeamFoot SeamDistance::foot(const Source& source, double ray) const {
+    SeamFoot result = source.foot;
+    if (std::isinf(result.along)) result.along = result.corner ? -ray : ray;
+    return result;
+}
+
+SeamFoot SeamDistance::foot(int triangle, const Vector3& weights) const {
+    const Nearest found = nearest(triangle, weights);
+    if (found.window == none) return {none, false, 0.0};
+    return foot(sources_[windows_[found.window].source], found.ray);
+}
+
+SeamPlace SeamDistance::at(int triangle, const Vector3& weights) const { return nearest(triangle, weights).place; }
+
+SeamDistance::Nearest SeamDistance::nearest(int triangle, const Vector3& weights) const {
+    Nearest best{{infinite, 0.0}, none, 0.0};
     for (const int w : windows_of_[triangle]) {
         const Window& window = windows_[w];
         const Vector2 place = mesh_.in_frame(window.half_edge, weights);
@@ -256,7 +272,7 @@ SeamPlace SeamDistance::at(int triangle, const Vector3& weights) const {
         const double tolerated = 1e2 * tolerance(window);  // of ten triangles in a row and more
         if (!meets && (ray < window.first - tolerated || ray > window.last + tolerated)) continue;
         const double wide = width(window, ray);
-        if (reached - wide < best.distance - best.width) best = {reached, wide};
+        if (reached - wide < best.place.distance - best.place.width) best = {{reached, wide}, w, ray};
     }
     return best;
 }

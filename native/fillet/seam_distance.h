@@ -21,6 +21,15 @@ struct SeamPlace {
     double width;     // at the seam's nearest point, on this side
 };
 
+// Where a shortest way from the seam begins: on a seam's half-edge `half_edge`, `along` it from its tail; or at a
+// corner, in the sector that begins with that half-edge, in a direction `along` it radians counter-clockwise from
+// there.
+struct SeamFoot {
+    int half_edge;  // or `none`
+    bool corner;
+    double along;
+};
+
 // Windows of straight rays, unfolded from triangle to triangle (Mitchell, Mount & Papadimitriou 1987; Chen & Han 1990,
 // with the filter of Xin & Wang 2009): parallel ones from each seam, fans from its corners, and from the vertices that
 // shortest ways bend around. All distances up to `reach` are exact but for roundoff.
@@ -32,6 +41,7 @@ public:
     [[nodiscard]] bool reaches(int triangle) const { return !windows_of_[triangle].empty(); }
     // The nearest seam, by the distance less the width.
     [[nodiscard]] SeamPlace at(int triangle, const Vector3& weights) const;
+    [[nodiscard]] SeamFoot foot(int triangle, const Vector3& weights) const;
     // Distance less width: negative within the fillet.
     [[nodiscard]] double value(int triangle, const Vector3& weights) const;
     // A lower bound of the value within `radius` of a place in the triangle, in which sight lines do not count.
@@ -43,6 +53,7 @@ private:
         double first, last;              // coordinates,
         double width_first, width_last;  // and the widths there
         bool parallel;
+        SeamFoot foot;  // `along`: of ways that bend around a vertex, else that of each ray
     };
     struct Window {
         int half_edge;  // whose frame `origin` and `zero` are in; rays enter its triangle there,
@@ -68,8 +79,15 @@ private:
     void run();
     void propagate(int w);
     void pass(const Window& window, int through, double first, double last);
-    void touch(int half_edge, double reached, double wide);
+    void touch(int half_edge, double reached, const Window& window, double ray);
     [[nodiscard]] double width_of(int half_edge, bool at_tail, const SeamWidths& widths) const;
+    struct Nearest {
+        SeamPlace place;
+        int window;  // or `none`
+        double ray;
+    };
+    [[nodiscard]] Nearest nearest(int triangle, const Vector3& weights) const;
+    [[nodiscard]] SeamFoot foot(const Source& source, double ray) const;
     [[nodiscard]] double coordinate(const Window& window, const Vector2& place) const;
     [[nodiscard]] double distance(const Window& window, const Vector2& place) const;
     [[nodiscard]] double width(const Window& window, double coordinate) const;

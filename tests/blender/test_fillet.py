@@ -200,7 +200,7 @@ class Stand:
             setattr(self, field, 0.0)
         self.width, self.continuity, self.width_group = 0.1, "G1", ""
         self.max_vertices = self.limit_total = 0
-        self.confirm_on_release = False
+        self.confirm_on_release = self.quads = False
         self._timer, self._begin = None, 0.0
         self._tasks = fillet.read(bpy.context, "")
 
@@ -391,3 +391,45 @@ def test_a_letter_on_a_bent_plate_has_a_fillet_at_its_foot(letter: str) -> None:
     assert len(result.vertices) > 1000
     assert np.percentile(result.boundary_angle, 80) < 10.0  # more where the letter's upright edges end
     assert {tuple(v.co) for v in obj.data.vertices} >= set(above)
+
+
+def test_with_quads_rows_run_along_the_edge_and_all_faces_stay_quads() -> None:
+    """Of a cube with a loop around its middle, which goes on across the edge; nothing is smeared over a UV seam."""
+    obj = cube()
+    meshes.enter(obj, np.zeros(6, dtype=bool))
+    bm = bmesh.from_edit_mesh(obj.data)
+    bmesh.ops.bisect_plane(bm, geom=[*bm.verts, *bm.edges, *bm.faces], plane_co=(0, 0, 0), plane_no=(0, 0, 1))
+    bmesh.update_edit_mesh(obj.data)
+    meshes.leave()
+    enter(obj, np.ones(len(obj.data.edges), dtype=bool))
+    try:
+        bpy.ops.mesh.select_all(action="SELECT")
+        assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH, quads=True) == {"FINISHED"}
+    finally:
+        meshes.leave()
+    assert border_edges(obj) == 0
+    assert {len(polygon.vertices) for polygon in obj.data.polygons} == {4}
+    assert len(obj.data.polygons) == 10 + 16 * 8 + 8 * 48
+    points = meshes.positions(obj)
+    around = np.bincount([vertex for polygon in obj.data.polygons for vertex in polygon.vertices])
+    assert (around == 3).sum() == 8
+    assert set(around.tolist()) == {3, 4}
+    middle = points[np.abs(points[:, 2]) < 1e-3]
+    assert len(middle) == 4 * 9  # a closed loop
+    uv = np.array([tuple(loop.uv) for loop in obj.data.uv_layers[0].data])
+    spread = [np.ptp(uv[list(polygon.loop_indices)], axis=0).max() for polygon in obj.data.polygons]
+    assert max(spread) < 0.2  # of a map whose sides are a quarter wide
+
+
+def test_quads_in_no_rows_are_told() -> None:
+    """Of a plate thinner than two widths, whose upper and lower edges meet."""
+    obj = cube()
+    for vertex in obj.data.vertices:
+        vertex.co.z *= 0.2
+    result = module("run.fillet_mesh").fillet_edges(
+        obj.data,
+        edge_mask(obj, lambda ends: abs(ends[0, 2] - ends[1, 2]) < 1e-6),
+        None,
+        module("core.rounding").FilletOptions(width=WIDTH, quads=True),
+    )
+    assert "The quads are in no rows: the lines beside the seam have no pairs" in result.warnings

@@ -70,6 +70,11 @@ class Solver:
         preview: Callable[[_Floats], object] | None,
     ) -> dict[str, Any]: ...
 
+class FilletSurface:
+    def __init__(self, vertices: _Floats, triangles: _Ints, fixed: _Ints, normals: _Floats) -> None: ...
+    def sections(self, starts: _Floats, ends: _Floats, normals: _Floats, rows: int) -> dict[str, Any]: ...
+    def relaxed(self, quads: list[list[int]], points: _Floats, held: int, sweeps: int) -> dict[str, Any]: ...
+
 def fair(
     vertices: _Floats,
     triangles: _Ints,
@@ -138,13 +143,21 @@ def chain_end(chain: _Floats) -> tuple[_Floats, _Floats]: ...
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> tuple[_Floats, float, _Ints]: ...
+def fillet_line(
+    vertices: _Floats,
+    triangles: _Ints,
+    edges: tuple[list[list[int]], list[list[int]]],
+    widths: tuple[_Floats, _Floats],
+    spacing: float,
+    progress: Callable[[float, str], bool | None] | None,
+) -> dict[str, Any]: ...
 def cut_fillet(
     vertices: _Floats,
     triangles: _Ints,
-    seams: list[list[int]],
-    walls: list[list[int]],
+    edges: tuple[list[list[int]], list[list[int]]],
     widths: tuple[_Floats, _Floats],
     spacing: float,
+    line: tuple[Any, ...] | None,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def denoised(

@@ -41,14 +41,21 @@ def rows_over(solved: Patch, old_count: int, progress: Progress | None) -> Rows 
         return None
     points = np.concatenate([solved.vertices[:old_count], made["vertices"]])
     number = np.concatenate([made["boundary"], old_count + np.arange(len(made["vertices"]))]).astype(np.int32)
-    quads = _turned(points, number[made["quads"]])
+    quads = number[made["quads"]]
     count = len(quads)
     stay = _core.components(solved.triangles, solved.fixed, len(solved.vertices)) < 0
     rest = solved.triangles[stay]
-    halves = np.concatenate([quads[:, [0, 1, 3]], quads[:, [2, 3, 1]], number[made["triangles"]], rest])
+    halves = np.concatenate([halves_of(points, quads), number[made["triangles"]], rest])
     pairs = np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
     patch = Patch(points, read_only(halves), solved.fixed, solved.normals)
     return Rows(patch, (made["triangle"], made["weights"]), pairs)
+
+
+def halves_of(points: FloatArray, quads: IntArray) -> IntArray:
+    """(2 q, 3) the first triangles of all quads, then the second ones."""
+    turned = _turned(points, quads)
+    halves: IntArray = np.concatenate([turned[:, [0, 1, 3]], turned[:, [2, 3, 1]]])
+    return halves
 
 
 def _turned(points: FloatArray, quads: IntArray) -> IntArray:
@@ -91,6 +98,7 @@ def no_rows(loop: IntArray, why: str) -> Diagnostic:
         "curves": "edges that stay run through it",
         "several": "more than two boundary loops are joined",
         "shape": "no pattern fits its corners",
+        "seams": "the lines beside its seams have no pairs",
     }
     text = f"the quads over the boundary of {len(loop)} edges are pairs of triangles, in no rows: {texts[why]}"
     return Diagnostic(

@@ -97,3 +97,4 @@ def _fillet(parser: ArgumentParser) -> None:
     parser.add_argument("--width-2", type=float, metavar="LENGTH", help="the same on the other side")
     parser.add_argument("--profile", type=float, metavar="-1…1", help="flat to sharp")
     parser.add_argument("--spacing", type=float, metavar="LENGTH", help="length of new edges")
+    parser.add_argument("--faces", choices=("triangles", "quads"), help="what new faces are; quads run along the edges")

@@ -26,7 +26,7 @@ SUFFIX = {"fill": "_filled", "fair": "_fair", "fillet": "_fillet"}
 _OPTIONS = {
     "fill": ("longest", "longest_length", "bridge", "spacing", "faces", "edges", "continuity", "equation", "threads"),
     "fair": ("continuity", "equation", "detail", "feather", "side", "threads"),
-    "fillet": ("width", "width_2", "profile", "spacing", "continuity", "threads"),
+    "fillet": ("width", "width_2", "profile", "spacing", "faces", "continuity", "threads"),
 }
 
 

@@ -155,7 +155,7 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
     width : float
         How far the fillet reaches on either side.
     options
-        Those of :func:`fairing.fillet`: ``width_2``, ``walls``, ``profile``, ``spacing``, …
+        Those of :func:`fairing.fillet`: ``width_2``, ``walls``, ``profile``, ``spacing``, ``faces``, …
 
     Returns
     -------
@@ -170,6 +170,8 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
     """
     parts, make = opened(mesh)
     seam = None if edges is None else parts.same[_arguments.integers("edges", edges, 2)]
+    if (parts.faces.sizes > 3).any():
+        options.setdefault("neighbours", parts.faces.edges(np.arange(len(parts.faces.sizes)), parts.same))
     result = fillet(parts.points, parts.triangles, seam, width=width, **options)
     triangles, weights = result.origin
     of_vertices = data.mixed(parts.vertex_data, parts.faces.triangles[triangles], weights)
@@ -177,11 +179,13 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
     whole = np.ones(len(parts.faces.sizes), dtype=bool)
     whole[parts.faces.face_of[result.gone]] = False
     halves = np.flatnonzero(stays & ~whole[parts.faces.face_of])
-    faces = Polygons.joined(
-        [parts.faces.chosen(whole), Polygons.of(parts.faces.triangles[halves]), Polygons.of(result.triangles)]
-    )
+    new_faces, under = Polygons.of(result.triangles), result.parent
+    if result.quads is not None:
+        new_faces = Polygons.joined([Polygons.of(result.quads.triangles), Polygons.of(result.quads.quads)])
+        under = np.concatenate([under[result.quads.rest], under[result.quads.pairs[:, 0]]])
+    faces = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.faces.triangles[halves]), new_faces])
     order = np.concatenate(
-        [np.flatnonzero(whole), parts.faces.face_of[halves], parts.faces.face_of[result.parent]]
+        [np.flatnonzero(whole), parts.faces.face_of[halves], parts.faces.face_of[under]]
     )  # the old face of each
     of_faces = {name: values[order] for name, values in parts.face_data.items()}
     points = np.concatenate([parts.points, result.vertices])
