@@ -5,18 +5,23 @@ In 64 bits whatever comes in: on Windows NumPy before 2 counts in 32, in which a
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import Ints
 
+Whole = NDArray[np.integer[Any]]
 
-def pair_keys(first: Ints, second: Ints) -> Ints:
+
+def pair_keys(first: Whole, second: Whole) -> Ints:
     """Return a number for each pair, in the same order as the pairs; each of them is from 0 to 2³² − 1."""
     keys: Ints = first.astype(np.int64) << 32 | second.astype(np.int64)
     return keys
 
 
-def edge_keys(edges: Ints) -> Ints:
+def edge_keys(edges: Whole) -> Ints:
     """Return (e,): the same number for an edge (e, 2) from either end."""
     return pair_keys(edges.min(axis=1), edges.max(axis=1))
 
