@@ -10,6 +10,7 @@ sys.path.append(str(Path(__file__).parents[2] / "tests" / "blender"))
 import demo  # before bpy: it sets Blender's scratch folder
 
 # isort: split
+import along_seams
 import bpy
 import hard
 import lesson_sheets  # before more: it adds the folder of the lessons' scenes
@@ -106,7 +107,8 @@ def main() -> None:
     package, out = Path(sys.argv[1]), Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
     demo.install(package)
-    for name in sys.argv[3:] or [*SHEETS, quality.NAME, wired.NAME, *lesson_sheets.LESSONS, *moving.MOVING]:
+    single = (quality.NAME, wired.NAME, along_seams.NAME)
+    for name in sys.argv[3:] or [*SHEETS, *single, *lesson_sheets.LESSONS, *moving.MOVING]:
         if name in moving.MOVING:
             moving.write(name, out)
         else:
@@ -119,8 +121,9 @@ def lines_of(name: str, out: Path) -> list[list[sheet.Tile]]:
         return [lesson_sheets.tiles(name, out)]
     if name == quality.NAME:
         return [quality.tiles(out, LEAST)]
-    if name == wired.NAME:
-        return [wired.tiles(out, LEAST)]
+    for made in (wired, along_seams):
+        if name == made.NAME:
+            return [made.tiles(out, WIDTH // made.COUNT)]
     lines = SHEETS[name]
     pictures.SIZE = max(LEAST, WIDTH // max(sum(len(row.runs) + 1 for row in line) for line in lines))
     return [

@@ -43,11 +43,11 @@ def clay(path: Path, with_selection: bool) -> Path:
     return path
 
 
-def draw(edges: list[bpy.types.MeshEdge]) -> None:
-    """Tubes along edges of the active mesh."""
+def draw(edges: list[bpy.types.MeshEdge], thickness: float = THICKNESS) -> None:
+    """Tubes along edges of the active mesh; thickness: of the camera's width."""
     curve = bpy.data.curves.new("Selected", "CURVE")
     curve.dimensions = "3D"
-    curve.bevel_depth = THICKNESS * bpy.context.scene.camera.data.ortho_scale
+    curve.bevel_depth = thickness * bpy.context.scene.camera.data.ortho_scale
     points = bpy.context.object.data.vertices
     for edge in edges:
         line = curve.splines.new("POLY")

@@ -110,11 +110,11 @@ def bevel(width: float) -> Callable[[], None]:
     return run
 
 
-def fair_fillet(width: float) -> Callable[[], None]:
+def fair_fillet(width: float, **options: Any) -> Callable[[], None]:
     """This extension's Fair Fillet of the selected edges."""
 
     def run() -> None:
-        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", width=width)
+        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", width=width, **options)
 
     return run
 

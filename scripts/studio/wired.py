@@ -50,6 +50,8 @@ SCENES: tuple[Scene, ...] = (
     ("A wheel arch", arch, (0.0, 0.0, 0.5), (0.35, -1.0, 0.3), 3.2),
 )
 
+COUNT = len(SCENES)
+
 
 def begun(scene: Scene) -> bpy.types.Object:
     """The wires alone, with a camera."""
