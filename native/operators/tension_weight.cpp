@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include <Eigen/Geometry>
+
 namespace fairing {
 
 namespace {
