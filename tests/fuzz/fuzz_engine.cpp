@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <ctime>
+#include <memory>
 #include <set>
 
 #include "api/fair_solver.h"
@@ -73,20 +74,22 @@ void fuzz_solver(FuzzedDataProvider& bytes) {
     random_boundary(bytes, mesh);
     const int count = static_cast<int>(mesh.vertices.cols());
     FairOptions options = random_options(bytes, count);
-    FairSolver solver(mesh.triangles, mesh.fixed, mesh.held, options);
+    std::unique_ptr<FairSolver> solver;
+    attempt(mesh, [&] { solver = std::make_unique<FairSolver>(mesh.triangles, mesh.fixed, mesh.held, options); });
+    if (!solver) return;
     const int solves = bytes.ConsumeIntegralInRange(1, 4);
     for (int k = 0; k < solves; ++k) {
         const std::optional<Points> reference = random_reference(bytes, mesh.vertices);
         attempt(mesh, [&] {
-            const FairResult result = solver.solve(given.points, mesh.fixed_normals, {{}, mesh.fixed_tensions},
-                                                   reference, Stopper{bytes.ConsumeIntegralInRange(0, 60)});
+            const FairResult result = solver->solve(given.points, mesh.fixed_normals, {{}, mesh.fixed_tensions},
+                                                    reference, Stopper{bytes.ConsumeIntegralInRange(0, 60)});
             check_fair(result, mesh, options);
             if (k == 0) check_same(result, fair(mesh, reference, options, {}));
         });
         move(bytes, given);
         if (bytes.ConsumeBool()) continue;
         options = random_options(bytes, count);
-        solver.change(options);
+        solver->change(options);
     }
 }
 
