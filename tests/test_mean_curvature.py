@@ -8,6 +8,7 @@ import pytest
 import fairing
 import measures
 import shapes
+from bad_inputs import ball_of_meridians
 from curves import FloatArray
 from shapes import Patch, Style
 
@@ -63,6 +64,16 @@ def test_scales_with_the_inverse_length() -> None:
         fixed=patch.fixed, fixed_normals=patch.fixed_normals,
     )  # fmt: skip
     assert np.abs(1e3 * larger - curvature(patch)).max() < 1e-9
+
+
+@pytest.mark.parametrize("exponent", [-460, -40, 40, 460])
+def test_the_smallest_and_the_largest_meshes_have_the_same_bits(exponent: int) -> None:
+    """Scaled by a power of two, by up to 1e-138 and 1e138: squares of areas are no numbers there."""
+    vertices, triangles = ball_of_meridians(12, 8)
+    scale = 2.0**exponent
+    np.testing.assert_array_equal(
+        fairing.mean_curvature(scale * vertices, triangles) * scale, fairing.mean_curvature(vertices, triangles)
+    )
 
 
 @pytest.mark.parametrize("style", STYLES)

@@ -46,20 +46,32 @@ Points normals_at_fixed(const Patch& patch, const Points& local, const FixedNorm
                                                      : one_sided_normals(patch, local);
 }
 
+// Of two: doubles end at 1023.
+constexpr int largest_exponent = 1000;
+
+// The power of two by which lengths up to this one become about 1 without losing bits: their squares are numbers then.
+double scale_to_one(double length) {
+    int exponent = 0;
+    std::frexp(length, &exponent);
+    return std::ldexp(1.0, -std::clamp(exponent, -largest_exponent, largest_exponent));
+}
+
 // H of input vertices, the mean of their sides.
 class CurvatureMeans {
 public:
     CurvatureMeans(const FixedNormals& normals, Eigen::Index vertex_count)
         : normals_(normals), sum_(VectorX::Zero(vertex_count)), sides_(VectorX::Zero(vertex_count)) {}
 
-    void add(const Patch& patch, const Points& local, NormalKind kind, NormalsAtBoundary boundary) {
+    void add(const Patch& patch, Points local, NormalKind kind, NormalsAtBoundary boundary) {
+        const double scale = scale_to_one((local.rowwise().maxCoeff() - local.rowwise().minCoeff()).maxCoeff());
+        local *= scale;
         FaceGeometry faces;
         faces.update(local, patch.triangles);
         const Points at_fixed = normals_at_fixed(patch, local, normals_, boundary);
         const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
         const VectorX H = patch_curvature(patch, local, std::move(faces), normals, kind).mean;
         for (int v = 0; v < patch.vertex_count(); ++v) {
-            sum_[patch.to_input[v]] += H[v];
+            sum_[patch.to_input[v]] += scale * H[v];
             sides_[patch.to_input[v]] += 1.0;
         }
     }
@@ -74,15 +86,11 @@ private:
 
 // Each triangle is scaled by a power of two, so that squares of its lengths are numbers: its angles stay the same.
 Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
-    constexpr int largest_exponent = 1000;  // of two: doubles end at 1023
     Points corners(3, triangles.size());
     Triangles own(3, triangles.cols());
     for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
         const Eigen::Matrix3d given = points(Eigen::all, triangles.col(t));
-        int exponent = 0;
-        std::frexp(given.cwiseAbs().maxCoeff(), &exponent);
-        exponent = std::clamp(exponent, -largest_exponent, largest_exponent);
-        corners.middleCols<3>(3 * t) = given * std::ldexp(1.0, -exponent);
+        corners.middleCols<3>(3 * t) = given * scale_to_one(given.cwiseAbs().maxCoeff());
         const int first = static_cast<int>(3 * t);
         own.col(t) << first, first + 1, first + 2;
     }
@@ -97,7 +105,7 @@ VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, Norm
                        NormalsAtBoundary boundary) {
     CurvatureMeans means(mesh.normals, points.cols());
     for_each_piece(mesh, points,
-                   [&](const Patch& patch, const Points& local) { means.add(patch, local, kind, boundary); });
+                   [&](const Patch& patch, Points local) { means.add(patch, std::move(local), kind, boundary); });
     return means.all();
 }
 
