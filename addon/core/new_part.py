@@ -81,7 +81,7 @@ def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, l
     origin = result.origin[0][new].astype(np.int64), result.origin[1][new]
     walls = _walls(patch, lines, mesh)
     places = _corner_places(patch, numbered, stay, origin, walls)
-    corner_of = _corner_numbers(mesh, patch)
+    corner_of = corner_numbers(mesh, patch.faces, patch.vertices[patch.triangles])
     return NewPart(
         stay=patch.vertices[stay],
         fixed_count=int(np.count_nonzero(~moving)),
@@ -223,9 +223,9 @@ def _first_wall(corner: int, triangles: Ints, stay: Ints, known: tuple[dict[Edge
             return None
 
 
-def _corner_numbers(mesh: MeshArrays, patch: Patch) -> Ints:
-    """Return (3 m,): the mesh's corner at each corner of the patch's triangles."""
-    wanted = pair_keys(patch.faces[:, None], patch.vertices[patch.triangles]).ravel()
+def corner_numbers(mesh: MeshArrays, faces: Ints, triangles: Ints) -> Ints:
+    """Return (3 m,): the mesh's corner at each corner of triangles (m, 3) of these faces (m,)."""
+    wanted = pair_keys(faces[:, None], triangles).ravel()
     return places_of(wanted, pair_keys(mesh.corner_faces, mesh.corner_vertices))
 
 

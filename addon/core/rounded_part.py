@@ -11,8 +11,7 @@ import fairing
 
 from .arrays import Floats, Ints
 from .faces import Faces, faces_in_rows, faces_of
-from .new_part import NewPart, Stencil
-from .pairs import pair_keys, places_of
+from .new_part import NewPart, Stencil, corner_numbers
 from .region import MeshArrays
 
 FLAT = 1e-4  # of its size: how far the corners of a face may lie off its plane, or its pieces stay triangles
@@ -45,7 +44,7 @@ def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
     number[stay] = np.arange(len(stay))
     number[count:] = len(stay) + np.arange(len(result.vertices))
     places = _CornerPlaces(mesh, result).of(triangles, parents, outside)
-    corner_of = _corner_numbers(mesh)
+    corner_of = corner_numbers(mesh, mesh.triangle_faces, mesh.triangles)
     touched = np.unique(mesh.triangles[np.isin(mesh.triangle_faces, gone_faces)])
     sources = mesh.triangles[result.origin[0]]
     numbered = number[triangles]
@@ -174,12 +173,6 @@ def _sides(twin: dict[Edge, int], parting: set[frozenset[int]]) -> dict[int, int
                 side[t] = first
                 waiting += beside[t]
     return side
-
-
-def _corner_numbers(mesh: MeshArrays) -> Ints:
-    """Return (3 t,): the mesh's corner at each corner of its triangles."""
-    wanted = pair_keys(mesh.triangle_faces[:, None], mesh.triangles).ravel()
-    return places_of(wanted, pair_keys(mesh.corner_faces, mesh.corner_vertices))
 
 
 def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, bent: bool) -> tuple[Faces, int]:

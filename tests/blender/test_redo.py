@@ -167,18 +167,23 @@ def test_the_last_result_at_once_and_the_fair_one_in_the_same_step_of_undo(panel
     np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
 
 
-def test_without_a_last_result_the_first_surface_is_shown(panel: Panel) -> None:
-    module("run.compare").forget()
-    panel.change(shape="LEAST_VARIATION")
-    first = panel.positions()
-    assert np.abs(first - panel.before).max() > 1e-3
-    assert np.abs(first - panel.first_run).max() > 1e-6
+def check_one_step(panel: Panel) -> None:
+    """The answer is that of a run that waits, and one step of undo takes it and what was shown away."""
     panel.settle()
     found = panel.positions()
     bpy.ops.ed.undo()
     np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
     meshes.leave()
     np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+
+
+def test_without_a_last_result_the_first_surface_is_shown(panel: Panel) -> None:
+    module("run.compare").forget()
+    panel.change(shape="LEAST_VARIATION")
+    first = panel.positions()
+    assert np.abs(first - panel.before).max() > 1e-3
+    assert np.abs(first - panel.first_run).max() > 1e-6
+    check_one_step(panel)
 
 
 def test_of_several_changes_the_last_one_counts(panel: Panel) -> None:
@@ -230,12 +235,7 @@ def test_a_run_that_is_a_step_of_a_macro_is_followed_too(panel: Panel) -> None:
     assert not panel.follows  # it is a script that calls
     panel.change(shape="LEAST_VARIATION")
     assert panel.follows
-    panel.settle()
-    found = panel.positions()
-    bpy.ops.ed.undo()
-    np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+    check_one_step(panel)
 
 
 def test_what_is_selected_meanwhile_stays_selected(panel: Panel) -> None:
