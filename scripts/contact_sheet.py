@@ -10,11 +10,11 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests" / "blender"))
 sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks" / "blender"))
 
 import bpy
-import meshes
 import numpy as np
-import real
 
 import demo_pictures as pictures
+import meshes
+import real
 
 COLUMNS = 9  # patches in a row
 pictures.SIZE = 150  # pixels of one picture

@@ -27,8 +27,9 @@ import demo  # before bpy: it sets Blender's scratch folder
 
 # isort: split
 import bpy
-import meshes
 import numpy as np
+
+import meshes
 import real
 from extension import module
 from test_restoration import spoil, upper_half

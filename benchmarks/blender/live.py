@@ -25,8 +25,9 @@ import demo  # before bpy: it sets Blender's scratch folder
 # isort: split
 import bmesh
 import bpy
-import meshes
 import numpy as np
+
+import meshes
 from extension import module
 from test_restoration import upper_half
 

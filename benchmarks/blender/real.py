@@ -10,8 +10,9 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
+
+import meshes
 
 FOLDER = Path(os.environ.get("FAIRING_MESHES") or Path(__file__).parents[3] / "shared" / "data")
 

@@ -88,7 +88,6 @@ def set_limits(folder: Path, kind: str, count: int, seed: int) -> None:
         shutil.copytree(package, folder / "modules" / "limits")
     sys.path.insert(0, str(folder.resolve() / "modules" / "limits"))
     import switched
-
     from fairing import _core
 
     switched.report(_core, kind, count, seed)
@@ -103,7 +102,6 @@ def reach_lines(folder: Path, count: int, seed: int, most: int) -> None:
         shutil.copytree(Tree(folder / "marked").built_with_marks(), package)
     sys.path.insert(0, str(package))
     import reach
-
     from fairing import _core
 
     reach.counted(_core, count, seed, folder / f"reached, seed {seed}")

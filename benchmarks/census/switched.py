@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from calls import Call, calls
 
 import fairing
+from calls import Call, calls
 
 ROWS = Path(__file__).parent / "limits.toml"
 

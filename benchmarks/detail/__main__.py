@@ -92,7 +92,6 @@ def main() -> None:
             print(row(case, "normal" if along_normal else "isotropic"), flush=True)
     if arguments.pictures:
         import elsewhere  # these need Pillow
-
         import sheets
 
         sheets.write(arguments.pictures)

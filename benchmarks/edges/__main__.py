@@ -51,8 +51,8 @@ def compared(before: list[float], after: list[float]) -> str:
 def run(count: int, seed: int, listed: bool, words: list[str]) -> None:
     """Print the table; words: see above."""
     import numpy as np
-    from answers import Answers
 
+    from answers import Answers
     from problems import problems
 
     begun = time.process_time()

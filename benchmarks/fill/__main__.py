@@ -22,14 +22,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges
-import hole_fillers
-import known_surfaces
-import sheet
-
 import fairing
 import forced
+import hole_fillers
 import holes
+import known_surfaces
 import real_meshes
+import sheet
 import test_fill
 from holes import FloatArray, IntArray
 

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from looks import AROUND, NEW, TILE, eye_of, reach_of
 
 import fairing
 import real_meshes
 from holes import FloatArray, IntArray
+from looks import AROUND, NEW, TILE, eye_of, reach_of
 from stripes import Layer, View, facing, render
 
 OLD = (0.95, 0.8, 0.6)

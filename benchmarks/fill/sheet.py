@@ -7,17 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import bridges
 import matplotlib.pyplot as plt
 import numpy as np
-import quad_sheet
-from looks import AROUND, NEW, TILE, eye_of, reach_of
 from PIL import Image
 
+import bridges
 import fairing
+import quad_sheet
 import real_meshes
 import webp
 from holes import FloatArray, IntArray
+from looks import AROUND, NEW, TILE, eye_of, reach_of
 from stripes import Layer, facing, render
 
 HOLES = (

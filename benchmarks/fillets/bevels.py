@@ -6,11 +6,11 @@ import importlib
 from typing import Any
 
 import numpy as np
-from hard_surfaces import FloatArray, Polygons, Problem
 
 import fairing
 from core.region import MeshArrays
 from core.rounding import FilletOptions, hard, round_arrays
+from hard_surfaces import FloatArray, Polygons, Problem
 
 Made = tuple[FloatArray, Polygons, Polygons]
 ROWS = 8  # Fair Fillet's by default

@@ -16,10 +16,9 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
-import pulled
-
 import creased
 import fairing
+import pulled
 import shapes
 import test_held_curves
 import test_spread_pins

@@ -18,7 +18,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "accuracy"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import exact_joins
-
 import fairing
 import shapes
 

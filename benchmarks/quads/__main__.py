@@ -21,12 +21,11 @@ from scipy.spatial import cKDTree
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
-from judged import Figures, figures_of
-
 import fairing
 import peers as others
 from cases import Hole, natural, random_discs, subdivided
 from holes import FloatArray
+from judged import Figures, figures_of
 
 SEED = 5408
 LONGEST = 30.0  # seconds that a peer may take

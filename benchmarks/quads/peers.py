@@ -11,11 +11,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from judged import Faces
 
 import fairing
 from cases import Hole
 from holes import FloatArray, IntArray
+from judged import Faces
 
 Made = tuple[FloatArray, Faces, IntArray]  # places, faces, and the boundary in numbers of these
 

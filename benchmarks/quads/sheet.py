@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from judged import Faces
 from PIL import Image, ImageDraw
 
 import fairing
@@ -16,6 +15,7 @@ import real_meshes
 import webp
 from cases import Hole
 from holes import FloatArray, IntArray
+from judged import Faces
 from stripes import Layer, View, facing, render
 
 TILE, TITLE = 250, 22

@@ -33,6 +33,7 @@ def main() -> None:
     parser.add_argument("--folder", type=Path, default=ROOT / "build" / "verdicts")
     options = parser.parse_intermixed_args()  # jobs may come last
     import bpy  # noqa: F401 - bmesh comes with it
+
     import jobs
 
     chosen = options.jobs or list(jobs.names(*options.parts.split(",")))

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+
 import scenes
 import selections
 from scenes import Ints, Mask, Scene

@@ -12,9 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import numpy as np
+
 import jobs
 import meshes
-import numpy as np
 from jobs import Job
 from scenes import Floats, Ints, Scene
 

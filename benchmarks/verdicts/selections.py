@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scenes import Ints, Mask, Scene, neighbours, normals
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
+
+from scenes import Ints, Mask, Scene, neighbours, normals
 
 
 def _graph(scene: Scene) -> Any:

@@ -11,6 +11,7 @@ sys.path.append(str(Path(__file__).parents[1] / "studio"))
 sys.path.append(str(Path(__file__).parents[2] / "tests" / "blender"))
 
 import bpy
+
 from lesson_scenes import SCENES, begin
 
 

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import bmesh
 import bpy
 import numpy as np
+
 from lesson_page import Step, Value
 
 AXES = {"X": 0, "Y": 1, "Z": 2}

@@ -6,14 +6,14 @@ from typing import Any, NamedTuple
 
 import bmesh
 import bpy
-import hard
 import numpy as np
-import rivals
-from rows import Chosen, Points, moved, placed
 
 import demo_pictures as pictures
 import demo_scenes as scenes
+import hard
+import rivals
 import tools
+from rows import Chosen, Points, moved, placed
 
 HOLES = 13
 SWELLING = (0.45, -0.75, 0.5)  # direction of it, from the middle of the ball

@@ -16,12 +16,13 @@ import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import macos_module
 import pefile
 from elftools.elf.elffile import ELFFile
 from macholib import mach_o
 from macholib.MachO import MachO, MachOHeader
 from macholib.SymbolTable import SymbolTable
+
+import macos_module
 
 ROOT = Path(__file__).parents[2]
 ENTRY = {"PyInit__core"}

@@ -19,9 +19,10 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-import macos_module
 from macholib import mach_o
 from macholib.MachO import MachO
+
+import macos_module
 
 ADDRESSES = 1 << 64
 POINTER = 8

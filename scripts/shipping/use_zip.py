@@ -14,8 +14,9 @@ os.environ["BLENDER_USER_RESOURCES"] = SCRATCH.name  # before bpy looks for it
 sys.path.insert(0, str(Path(__file__).parents[2] / "tests" / "blender"))
 
 import bpy  # noqa: E402
-import meshes  # noqa: E402
 import numpy as np  # noqa: E402
+
+import meshes  # noqa: E402
 
 TOLERANCE = 1e-4  # of the radius: Blender's positions are single precision, the rim has 48 edges
 

@@ -12,8 +12,9 @@ import argparse
 import tempfile
 from pathlib import Path
 
-import archive
 from scikit_build_core.build import prepare_metadata_for_build_wheel
+
+import archive
 
 
 def metadata() -> tuple[str, dict[str, bytes]]:

@@ -10,25 +10,25 @@ sys.path.append(str(Path(__file__).parents[2] / "tests" / "blender"))
 import demo  # before bpy: it sets Blender's scratch folder
 
 # isort: split
-import along_seams
 import bpy
+import numpy as np
+
+import along_seams
+import demo_pictures as pictures
+import demo_scenes as scenes
 import hard
 import lesson_sheets  # before more: it adds the folder of the lessons' scenes
 import more
 import moving
-import numpy as np
 import options
+import quality
 import rivals
 import sheet
 import slopes
 import textures
+import tools
 import wired
 from rows import Row, smooth
-
-import demo_pictures as pictures
-import demo_scenes as scenes
-import quality
-import tools
 
 WIDTH = 1200  # pixels of a sheet at least
 LEAST = 300  # of one picture

@@ -4,14 +4,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import bpy
-import lesson_sheets
 import numpy as np
-import sheet
-from rivals import SEAM
-from rows import Chosen, Run
 
 import demo_pictures as pictures
+import lesson_sheets
+import sheet
 import tools
+from rivals import SEAM
+from rows import Chosen, Run
 
 NAME = "along_seams"
 

@@ -6,13 +6,13 @@ from typing import Any
 
 import bmesh
 import bpy
-import letters
 import numpy as np
-from rivals import SEAM
-from rows import Chosen, Points, Row, moved, placed
 
 import demo_pictures as pictures
+import letters
 import tools
+from rivals import SEAM
+from rows import Chosen, Points, Row, moved, placed
 
 
 def swept(profile: list[tuple[float, float]], rows: int, hole: Callable[[Any], bool]) -> Chosen:

@@ -6,14 +6,14 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[1] / "lessons"))
 
 import bpy
+import numpy as np
+
+import demo_pictures as pictures
 import lesson_page
 import lesson_play
-import numpy as np
 import sheet
 from lesson_scenes import begin
 from rows import smooth
-
-import demo_pictures as pictures
 
 SIZE = 480
 THICKNESS = 0.006  # of selected edges, of the camera's width

@@ -10,14 +10,14 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
-from lesson_scenes import pores
 from mathutils import Vector
-from rivals import cut_along, rewritten
-from rows import Chosen, Points, Row, moved, placed
 
 import demo_pictures as pictures
 import demo_scenes as scenes
 import tools
+from lesson_scenes import pores
+from rivals import cut_along, rewritten
+from rows import Chosen, Points, Row, moved, placed
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 

@@ -5,14 +5,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import bpy
-import lesson_sheets
 import numpy as np
-import sheet
-from lesson_play import Move, move
 from PIL import Image
-from rows import smooth
 
 import demo_pictures as pictures
+import lesson_sheets
+import sheet
+from lesson_play import Move, move
+from rows import smooth
 
 SIZE = 600  # pixels of each of two pictures beside each other
 FRAMES = 20

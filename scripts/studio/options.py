@@ -6,11 +6,11 @@ from typing import Any
 
 import bpy
 import numpy as np
-from rows import Chosen, Row, marked, placed
 
 import demo_pictures as pictures
 import demo_scenes as scenes
 import tools
+from rows import Chosen, Row, marked, placed
 
 
 def ball() -> Chosen:

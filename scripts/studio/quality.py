@@ -4,10 +4,10 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-import rivals
-import sheet
 
 import demo_pictures as pictures
+import rivals
+import sheet
 import tools
 
 NAME = "guide_quality"

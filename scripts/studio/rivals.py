@@ -6,11 +6,11 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
-from rows import Chosen, Points, Row, marked, moved
 
 import demo_pictures as pictures
 import demo_scenes as scenes
 import tools
+from rows import Chosen, Points, Row, marked, moved
 
 
 def panel_height(points: Points) -> Points:

@@ -5,11 +5,11 @@ from typing import Any
 
 import bpy
 import numpy as np
-from rows import Chosen, Points, Row, moved, placed
 
 import demo_pictures as pictures
 import demo_scenes as scenes
 import tools
+from rows import Chosen, Points, Row, moved, placed
 
 
 def roughened(amount: float, where: Callable[[Points], Any]) -> None:

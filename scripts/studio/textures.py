@@ -4,9 +4,9 @@ from typing import Any
 
 import bpy
 import numpy as np
-from rows import Chosen, Row, placed
 
 import demo_pictures as pictures
+from rows import Chosen, Row, placed
 
 SIZE, MARGIN = 1024, 3  # texels
 ROUND, UP = 96, 64  # faces

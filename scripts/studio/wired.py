@@ -8,14 +8,14 @@ from pathlib import Path
 sys.path.append(str(Path(__file__).resolve().parents[2] / "tests"))
 
 import bpy
-import lesson_sheets
 import numpy as np
-import sheet
-from rows import placed
 
 import demo_pictures as pictures
+import lesson_sheets
+import sheet
 import tools
 import wire_networks as networks
+from rows import placed
 
 NAME = "from_curves"
 FINE = 0.4  # of the wires' edges: reflections show no faces then

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from test_core_answer import EYE, spoilt_sphere
 
 import fairing
 from core import remeshing
@@ -19,6 +18,7 @@ from core.region import MeshArrays
 from core.remeshing import Remeshed, remesh_arrays
 from core.verdict import GOOD, LOOK
 from polygon_mesh import grid, on_sphere
+from test_core_answer import EYE, spoilt_sphere
 
 SIZE = 16
 

@@ -9,9 +9,10 @@ from collections.abc import Callable
 from typing import Any
 
 import bpy
+import numpy as np
+
 import extension
 import meshes
-import numpy as np
 
 CUT = 0.3  # the cap above this height is what is filled, faired or meshed anew
 SIDE = 0.6  # nearer to x = 0 than this, either side's category is right: faces are 0.26 wide and take one

@@ -9,8 +9,9 @@ from collections.abc import Callable
 
 import bmesh
 import bpy
-import lesson_scenes
 import numpy as np
+
+import lesson_scenes
 import rivals
 from rows import Points
 

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
-import own_process
 import pytest
+
+import meshes
+import own_process
 from attribute_table import CUT, apply, field, outside, places, read, subject, write
 
 TABLE = """

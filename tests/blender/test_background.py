@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
+
+import meshes
 from extension import module
 
 

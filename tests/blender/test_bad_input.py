@@ -11,9 +11,10 @@ from contextlib import contextmanager
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 
 def without_selection(contents: dict[str, bytes]) -> dict[str, bytes]:

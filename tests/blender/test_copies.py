@@ -6,9 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 from test_restoration import spoil, upper_half
 

@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 DOCS = Path(__file__).parents[2] / "docs"
 README = Path(__file__).parents[2] / "README.md"

@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import bpy
+import pytest
+
 import meshes
 import own_process
-import pytest
 from extension import module
 from test_modal import event, go_on, started
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import own_process
 import pytest
+
+import own_process
 
 USE = """
 import addon_utils

@@ -8,11 +8,11 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
-from extension import module
 
+import meshes
+from extension import module
 from test_fill import border_edges
 
 AXES = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]) / np.sqrt(3.0)

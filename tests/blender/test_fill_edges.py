@@ -7,9 +7,10 @@ from itertools import pairwise
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 
 SIZE = 12

@@ -6,9 +6,10 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 SIZE = 12
 

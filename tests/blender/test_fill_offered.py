@@ -6,13 +6,13 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
-import meshes
 import pytest
+
+import meshes
 from extension import ID, module
+from test_fill import border_edges, open_sphere
 from test_new_mesh import dented, fair_new
 from test_panel import Layout
-
-from test_fill import border_edges, open_sphere
 
 
 def redo_panel(**chosen: Any) -> list[str]:

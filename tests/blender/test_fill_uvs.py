@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
 
+import meshes
 from test_fill import Chosen, fill_hole, open_sphere
 
 Floats = meshes.Floats

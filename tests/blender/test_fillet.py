@@ -8,10 +8,11 @@ from typing import Any
 
 import bmesh
 import bpy
-import letters
-import meshes
 import numpy as np
 import pytest
+
+import letters
+import meshes
 from extension import module
 
 WIDTH = 0.3

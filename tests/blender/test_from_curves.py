@@ -7,9 +7,10 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 
 def wired(lines: list[Any], name: str = "Wires") -> bpy.types.Object:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 INSIDE = "The surface takes the slope of the selected faces along the whole boundary"
 

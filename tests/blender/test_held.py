@@ -6,9 +6,10 @@ from dataclasses import replace
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 
 

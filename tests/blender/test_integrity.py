@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 
 def decorate(obj: bpy.types.Object) -> None:

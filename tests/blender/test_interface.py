@@ -7,9 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 DEFAULTS = {
     "factor": 1.0,

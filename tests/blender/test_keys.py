@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 
 
 def hill(points: Any, x: float, height: float) -> Any:

@@ -10,6 +10,7 @@ from typing import Any
 
 import bpy
 import pytest
+
 from extension import ID, module
 
 SHOWS = re.compile(r"^([A-Z0-9]+_(OT|PT|MT)_\w+)$")  # classes whose label and tooltip Blender shows

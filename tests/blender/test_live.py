@@ -12,9 +12,10 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 
 

@@ -11,9 +11,10 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from clocks import assert_was_quick, clocks
 from extension import module
 from test_live import drag, flank, now, switch, table_mountain

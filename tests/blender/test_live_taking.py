@@ -8,9 +8,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from clocks import assert_was_quick, clocks
 from extension import module
 from test_live import drag, now, switch

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
 from mathutils import Euler, Matrix
+
+import meshes
 
 
 def half_dome() -> tuple[bpy.types.Object, meshes.Mask]:

@@ -7,9 +7,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import give_options, module
 
 

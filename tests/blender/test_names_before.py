@@ -5,8 +5,9 @@ from __future__ import annotations
 import warnings
 from typing import Any
 
-import meshes
 import pytest
+
+import meshes
 from extension import module
 
 # The same run, as it was and as it is written.

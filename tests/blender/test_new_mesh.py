@@ -8,10 +8,11 @@ from typing import Any
 
 import bmesh
 import bpy
-import extension
-import meshes
 import numpy as np
 import pytest
+
+import extension
+import meshes
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "scripts"))
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
-from extension import module
 from mathutils import Matrix
+
+import meshes
+from extension import module
 from test_refusals import add_tent
 
 

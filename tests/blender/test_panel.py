@@ -8,9 +8,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import ID, inspect, module
 from test_refusals import add_nan, add_tent
 

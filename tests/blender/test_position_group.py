@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import inspect
 
 SLOPE = 0.5  # of the faces beyond the left side: about 27°

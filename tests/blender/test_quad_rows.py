@@ -7,8 +7,9 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
+
+import meshes
 
 
 def pipe(columns: int = 32, rows: int = 20) -> bpy.types.Object:

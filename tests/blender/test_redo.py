@@ -14,10 +14,11 @@ from types import SimpleNamespace
 from typing import Any
 
 import bpy
-import clocks
-import meshes
 import numpy as np
 import pytest
+
+import clocks
+import meshes
 from extension import module
 
 LONGEST = 0.1  # seconds of the processor that a change may hold Blender up

@@ -6,8 +6,9 @@ import re
 from typing import Any
 
 import bpy
-import meshes
 import pytest
+
+import meshes
 from extension import module
 from test_restoration import spoil, upper_half
 

@@ -13,9 +13,9 @@ from pathlib import Path
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-import repository
 
 import conftest
+import repository
 
 INSTALL = """
 preferences.system.use_online_access = True  # Blender asks for it for any repository, also on a disk

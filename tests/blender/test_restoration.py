@@ -8,10 +8,11 @@ make another cap through the same rim, off by less than δ times the radius: tho
 from __future__ import annotations
 
 import bpy
-import meshes
 import numpy as np
 import pytest
 from mathutils import Euler, Matrix
+
+import meshes
 
 UPPER = 1e-3  # centres above this height are in the upper half
 BOUND = {48: 4.7e-3, 96: 6.4e-4}

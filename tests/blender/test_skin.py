@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 
 NOISE = 0.01

@@ -7,12 +7,12 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 import textured
 from extension import module
-
 from test_fill import select_vertices
 
 Floats = meshes.Floats

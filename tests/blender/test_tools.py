@@ -10,9 +10,10 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import ID, give_options, module
 
 

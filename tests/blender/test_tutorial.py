@@ -9,9 +9,10 @@ from types import SimpleNamespace
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 
 sys.path.append(str(Path(__file__).parents[2] / "scripts"))

@@ -8,9 +8,10 @@ from typing import Any
 
 import bmesh
 import bpy
-import meshes
 import numpy as np
 import pytest
+
+import meshes
 from extension import module
 from test_interface import command
 from test_panel import drawn

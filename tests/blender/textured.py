@@ -6,8 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 import bpy
-import meshes
 import numpy as np
+
+import meshes
 
 Floats = meshes.Floats
 Field = Callable[[Floats, Floats], Floats]  # of u and v, (…, 4) as the image stores it

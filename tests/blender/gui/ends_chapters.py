@@ -12,6 +12,7 @@ from typing import Any
 import addon_utils
 import bmesh
 import bpy
+
 import scenes
 from driver import OUT, Story, in_view, leave_popup, middle, press, tell
 from panel import ID, change_with, module, run_operator, set_options, wait_until

@@ -7,6 +7,7 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+
 import scenes
 from driver import Story, click, in_view, middle, move_mouse, press, screenshot, tell, view
 from panel import module, open_tab, run_operator, wait_until

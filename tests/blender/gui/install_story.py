@@ -16,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import addon_utils
 import bpy
+
 import scenes
 from driver import Story, in_view, middle, move_mouse, play, press, screenshot, view
 from panel import open_tab, wait_until

@@ -9,10 +9,11 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+from mathutils import Vector
+
 import scenes
 import spoilt_scenes
 from driver import Story, in_view, leave_popup, look_as_first, middle, move_mouse, press, screenshot, tell, view
-from mathutils import Vector
 from panel import drag, drag_over, module, open_tab, report, run_with, wait_until
 
 KEYS = {" ": "SPACE"}

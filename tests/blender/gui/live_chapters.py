@@ -9,6 +9,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+
 import scenes
 import spoilt_scenes
 from driver import Story, in_view, look_as_first, middle, press, screenshot, tell

@@ -7,6 +7,7 @@ from collections.abc import Generator
 
 import bpy
 import numpy as np
+
 import scenes
 from driver import Story, in_view, middle, press, screenshot, tell, view
 from panel import (

@@ -8,6 +8,7 @@ import time
 from typing import Any, ClassVar
 
 import bpy
+
 from driver import Story, click, in_view, middle, move_mouse, press, screenshot, view
 
 ID = "bl_ext.user_default.intrinsic_fairing"

@@ -6,6 +6,7 @@ import time
 
 import bpy
 import numpy as np
+
 import scenes
 import spoilt_scenes
 from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, tell, view

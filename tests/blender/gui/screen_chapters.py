@@ -7,11 +7,12 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from mathutils import Vector
+
 import scenes
 import spoilt_scenes
-from bpy_extras.view3d_utils import location_3d_to_region_2d
 from driver import Story, in_view, look_as_first, middle, move_mouse, press, screenshot, tell, view
-from mathutils import Vector
 from panel import (
     ID,
     drag_over,

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import bpy
 import numpy as np
+
 import spoilt_scenes
 from driver import Story, in_view, middle, press, screenshot, tell
 from panel import ID, drag_over, open_redo_panel, open_tab, report, run_operator, run_with, wait_until

@@ -8,6 +8,7 @@ from typing import Any
 import bmesh
 import bpy
 import numpy as np
+
 import scenes
 
 

@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import bpy
 import numpy as np
+
 import scenes
 from driver import Story, in_view, middle, play, press, screenshot, tell
 from ends_chapters import (

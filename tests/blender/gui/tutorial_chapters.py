@@ -12,14 +12,14 @@ sys.path.append(str(Path(__file__).parents[3] / "scripts" / "lessons"))
 sys.path.append(str(Path(__file__).parents[1]))
 
 import bpy
+
+import demo_scenes
 import lesson_page
 import lesson_play
 import lesson_scenes
 from driver import OUT, Story, in_view, middle, press, screenshot, tell, view
 from lesson_checks import CHECKS
 from panel import open_tab, redo_with, report, run_with, wait_until
-
-import demo_scenes
 
 NAMES = "ZERO ONE TWO THREE FOUR FIVE SIX SEVEN EIGHT NINE PERIOD MINUS"
 KEYS = dict(zip("0123456789.-", NAMES.split(), strict=True))

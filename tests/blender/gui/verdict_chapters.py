@@ -7,6 +7,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+
 import scenes
 import spoilt_scenes
 from driver import Story, in_view, leave_popup, middle, press, screenshot, tell
