@@ -18,7 +18,7 @@ from ..host.context import active_object
 from ..host.dragging import pixel_size
 from ..host.picking import place_at
 from ..host.polling import require
-from ..mesh import painted
+from ..mesh import levels, painted
 from ..translations import translated
 from .background import Watched
 from .outside import FairsOutside, Task, check_shown
@@ -61,6 +61,9 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         obj = active_object(context)
         try:
             check_shown(obj)
+            self._check_level(levels.shown_level(obj), FairOptions())
+            if obj.use_dynamic_topology_sculpting:
+                raise ValueError("The brush can't paint with dynamic topology: turn it off, or mask and Fair Masked")
         except ValueError as cause:
             self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))
             return {"CANCELLED"}
@@ -104,14 +107,19 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
             return {"CANCELLED"}
         return self._begin_with(context, self._start_work)
 
-    def _read_object(self, obj: bpy.types.Object, options: FairOptions) -> Task:
+    def _check_level(self, level: int, options: FairOptions) -> None:
+        super()._check_level(level, options)
+        if level:
+            raise ValueError("The brush can't paint on multiresolution levels: go to level 0, or fair a face set")
+
+    def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:
         """Read the mesh with what was painted as its mask, which each vertex goes by."""
         positions = painted.positions(obj.data)
         weights = np.zeros(len(positions))
         for dab in self.dabs:
             paint(weights, positions, np.array(dab.place), dab.reach)
         with painted.masked_by(obj.data, weights * painted.protected(obj.data)):
-            return super()._read_object(obj, replace(options, factor_mask="USED"))
+            return super()._read_object(obj, replace(options, factor_mask="USED"), level)
 
     def _faces(self, obj: bpy.types.Object) -> Ints:
         faces = painted.masked_faces(obj.data)

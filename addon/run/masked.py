@@ -8,12 +8,13 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..core.arrays import Ints
+from ..core.options import FairOptions
 from ..host.context import active_object
 from ..host.picking import Picks, face_under_mouse
 from ..mesh import painted
 from ..translations import translated
 from .background import Watched
-from .outside import FairsOutside
+from .outside import FairsOutside, as_read
 from .redo_panel import draw_options
 
 _SOURCES = (
@@ -64,8 +65,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
         """Let a face set be clicked, where several are in sight; fair in the background where that takes a while."""
         if self.under_mouse:
             return self._picked(context, event)
-        mesh = active_object(context).data
-        if self.source != "FACE_SET" or self.face_set or painted.only_visible_face_set(mesh):
+        if self.source != "FACE_SET" or self.face_set or self._only_visible(active_object(context)):
             return self._begin_with(context, self._start_work)
         return self.pick(context, "Click the face set to fair")
 
@@ -75,12 +75,26 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
 
     def _picked(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         obj = active_object(context)
-        face = face_under_mouse(context, event, obj)
+        with as_read(obj) as shown:
+            face = face_under_mouse(context, event, shown)
+            self.face_set = 0 if face is None else painted.face_set_at(shown.data, face)
         if face is None:
             self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
-        self.face_set = painted.face_set_at(obj.data, face)
         return self._begin_with(context, self._start_work)
+
+    @staticmethod
+    def _only_visible(obj: bpy.types.Object) -> int:
+        with as_read(obj) as shown:
+            return painted.only_visible_face_set(shown.data)
+
+    def _check_level(self, level: int, options: FairOptions) -> None:
+        super()._check_level(level, options)
+        if level and self.source == "MASK":
+            raise ValueError(
+                "Blender shows extensions no mask of a multiresolution level: "
+                "choose Face Sets, Face Set from Masked, and fair that"
+            )
 
     def _faces(self, obj: bpy.types.Object) -> Ints:
         faces = self._named(obj)

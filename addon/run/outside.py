@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +16,12 @@ from ..core.arrays import Floats, Ints
 from ..core.engine import REFUSALS, Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
+from ..core.places import renumbered
 from ..core.region import MeshArrays, free_vertices
 from ..core.report import make_report, summary
 from ..host.context import active_object
 from ..host.polling import require, require_idle
-from ..mesh import mesh_io, painted
+from ..mesh import levels, mesh_io, painted
 from ..mesh.free_normals import free_normals
 from ..preferences import background_from
 from ..translations import translated
@@ -35,6 +36,8 @@ from .option_properties import FairProperties
 from .redo import Redone
 from .report_properties import store, store_refusal
 
+# Where dynamic topology has put the vertices cannot be told.
+MIXED = "Vertices lie on each other, which dynamic topology mixes up: merge them by distance, or turn it off"
 MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
 
 
@@ -47,6 +50,8 @@ class Task:
     matrix: Floats  # (4, 4) to world space
     options: FairOptions
     before: Floats  # (n, 3) positions
+    level: int = 0  # of a Multiresolution modifier that the mesh is of; 0: the object's own mesh
+    dynamic: bool = False  # with dynamic topology, which puts the vertices in another order at each change of mode
 
 
 def solve(task: Task, progress: Progress) -> Fairing:
@@ -60,7 +65,7 @@ def solve(task: Task, progress: Progress) -> Fairing:
 @contextmanager
 def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
     """Go to object mode and back: sculpt mode keeps the mesh for itself."""
-    mode = obj.mode
+    mode, dynamic = obj.mode, obj.use_dynamic_topology_sculpting
     if mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     try:
@@ -68,6 +73,20 @@ def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
     finally:
         if mode != "OBJECT":
             bpy.ops.object.mode_set(mode=mode)
+        if dynamic and not obj.use_dynamic_topology_sculpting:  # Blender leaves it off where it would lose some layers
+            bpy.ops.sculpt.dynamic_topology_toggle()
+
+
+@contextmanager
+def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Give an object whose mesh is the one that is seen, where sculpt mode keeps that for itself."""
+    level = levels.shown_level(obj)
+    if level == 0 and not obj.use_dynamic_topology_sculpting:
+        yield obj
+        return
+    with in_object_mode(obj), levels.at_level(obj, level) as shown:
+        bpy.context.view_layer.update()
+        yield shown
 
 
 class Asked:
@@ -93,7 +112,7 @@ class Asked:
             compare.result_from(self.task.object_name, self.task.before),
         )
         if found is not None and obj.data.shape_keys is None:
-            self._write(obj, *found)
+            self._write_positions(obj, *found)
             self._shown = self.task.before.copy()
             self._shown[found[0]] = found[1]
 
@@ -104,11 +123,11 @@ class Asked:
         """Let the mesh be as it was read."""
         if self._shown is not None:
             vertices = np.flatnonzero((self._shown != self.task.before).any(axis=1))
-            self._write(bpy.data.objects[self.task.object_name], vertices, self.task.before[vertices])
+            self._write_positions(bpy.data.objects[self.task.object_name], vertices, self.task.before[vertices])
             self._shown = None
 
     @staticmethod
-    def _write(obj: bpy.types.Object, vertices: Ints, positions: Floats) -> None:
+    def _write_positions(obj: bpy.types.Object, vertices: Ints, positions: Floats) -> None:
         with in_object_mode(obj):
             mesh_io.write_mesh(obj.data, vertices, positions)
 
@@ -124,8 +143,10 @@ class Asked:
         obj = active_object(context)
         if obj is None or obj.name != self.task.object_name or obj.mode not in MODES:
             return False
-        with in_object_mode(obj):
-            return np.array_equal(painted.positions(obj.data), positions)
+        if levels.shown_level(obj) != self.task.level:
+            return False
+        with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
+            return renumbered(positions, painted.positions(shown.data)) is not None
 
     def settle(self, context: bpy.types.Context, answer: Callable[[], Fairing], say: Say) -> set[str]:
         """Write and report the answer, or why it is not written; return an operator's status."""
@@ -145,11 +166,27 @@ class Asked:
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         with in_object_mode(obj):
-            normals = free_normals(obj.data)
-            write(obj.data, outcome)
-        compare.remember_one(obj.name, task.before, outcome, normals)
+            written = self._write(obj, outcome)
+        if not written:
+            return refuse(context, Refused(task.object_name, ValueError(MIXED)), say)
         say({"INFO"}, translated(summary(report)))
         return {"FINISHED"}
+
+    def _write(self, obj: bpy.types.Object, outcome: Fairing) -> bool:
+        """Write what was found, but not where its vertices are no longer told apart; return whether it was."""
+        compare.forget()  # it goes to and fro between positions of the mesh itself, by their numbers
+        if self.task.level:
+            levels.write(obj, self.task.level, outcome.vertices, outcome.positions)
+        elif self.task.dynamic:
+            there = renumbered(self.task.before, painted.positions(obj.data))
+            if there is None:
+                return False
+            mesh_io.write_mesh(obj.data, there[outcome.vertices], outcome.positions)
+        else:
+            normals = free_normals(obj.data)
+            write(obj.data, outcome)
+            compare.remember_one(obj.name, self.task.before, outcome, normals)
+        return True
 
 
 def refuse(context: bpy.types.Context, refusal: Refused, say: Say) -> set[str]:
@@ -187,17 +224,29 @@ class FairsOutside(FairProperties, Redone):
         self.take_names_before()
         try:
             options = FairOptions.of(self)
+            check_shown(obj)
+            level = levels.shown_level(obj)
+            self._check_level(level, options)
+            dynamic = obj.use_dynamic_topology_sculpting
+            if dynamic and options.mesh == "NEW":
+                raise ValueError("Dynamic topology makes faces of its own: turn Remesh off")
             with in_object_mode(obj):
-                self._task = self._read_object(obj, options)
+                self._task = replace(self._read_object(obj, options, level), dynamic=dynamic)
         except REFUSALS as cause:
             raise Refused(obj.name, cause) from cause
         return True
 
-    def _read_object(self, obj: bpy.types.Object, options: FairOptions) -> Task:
-        check_shown(obj)
-        faces = self._faces(obj)
-        mesh, matrix = read(obj.data, faces.tolist(), np.array(obj.matrix_world, dtype=np.float64), options)
-        return Task(obj.name, mesh, matrix, options, painted.positions(obj.data))
+    def _check_level(self, level: int, options: FairOptions) -> None:
+        """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""
+        if level and options.mesh == "NEW":
+            raise ValueError("Remesh can't give a multiresolution level other faces: turn it off")
+
+    def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:
+        faces = levels.faces_at(obj.data, self._faces(obj), level)
+        matrix = np.array(obj.matrix_world, dtype=np.float64)
+        with levels.at_level(obj, level) as shown:
+            mesh, matrix = read(shown.data, faces.tolist(), matrix, options)
+            return Task(obj.name, mesh, matrix, options, painted.positions(shown.data), level)
 
     def _asked(self) -> Asked:
         return Asked(self._task, self._begin)
@@ -221,10 +270,6 @@ class FairsOutside(FairProperties, Redone):
 
 def check_shown(obj: bpy.types.Object) -> None:
     """Raise ValueError where what is seen is not the mesh's own shape."""
-    if getattr(obj, "use_dynamic_topology_sculpting", False):
-        raise ValueError("Dynamic topology is on: turn it off first")
-    if any(modifier.type == "MULTIRES" and modifier.sculpt_levels for modifier in obj.modifiers):
-        raise ValueError("The multiresolution levels hide the base mesh: go to level 0, or apply them")
     key: Any = obj.active_shape_key
     if key is not None and key != obj.data.shape_keys.reference_key:
         raise ValueError(f"The shape key {key.name!r} is active: fair it in edit mode, or choose the Basis")

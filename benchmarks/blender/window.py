@@ -11,8 +11,8 @@ import sys
 import time
 from pathlib import Path
 
-HERE = Path(__file__).resolve()
-sys.path[:0] = [str(HERE.parents[2] / "tests" / "blender" / folder) for folder in ("gui", ".")]
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "blender"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "blender" / "gui"))
 
 import bpy
 import numpy as np
@@ -28,7 +28,7 @@ STEP = 0.01
 
 
 def milliseconds(sign: float) -> tuple[float, float]:
-    """Stretch what is selected by a step; return the milliseconds of the edit, with Live's answer, and of the drawing."""
+    """Stretch what is selected by a step; return milliseconds: the edit with Live's answer, and the drawing."""
     with in_view():
         begin = time.perf_counter()
         bpy.ops.transform.resize(value=((1.0 + STEP) ** sign, 1.0, 1.0))

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 import scenes
+from panel import module
 
 
 def centres() -> Any:
@@ -163,6 +164,24 @@ def face_sets() -> int:
     layer = bpy.context.object.data.attributes.new(".sculpt_face_set", "INT", "FACE")
     layer.data.foreach_set("value", np.where(upper, 7, 3).astype(np.int32))
     return int(np.count_nonzero(upper))
+
+
+def levelled() -> None:
+    """The ball of face_sets under two levels of a Multiresolution modifier."""
+    face_sets()
+    modifier = bpy.context.object.modifiers.new("Levels", "MULTIRES")
+    for _ in range(2):
+        bpy.ops.object.multires_subdivide(modifier=modifier.name)
+
+
+def level_positions() -> Any:
+    """The positions (n, 3) of the level that brushes show, by an object of its own."""
+    levels, obj = module("mesh.levels"), bpy.context.object
+    level = obj.modifiers[0].sculpt_levels
+    with module("run.outside").in_object_mode(obj), levels.at_level(obj, level) as shown:
+        flat = np.empty(3 * len(shown.data.vertices), dtype=np.float32)
+        shown.data.vertices.foreach_get("co", flat)
+        return flat.reshape(-1, 3)
 
 
 def dented() -> None:

@@ -53,7 +53,14 @@ from redo_chapters import (
     changes_outside_edit_mode_do_not_wait,
 )
 from screen_chapters import SCREENS
-from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
+from sculpt_chapters import (
+    brush_in_sculpt_mode,
+    dynamic_topology_in_sculpt_mode,
+    face_set_by_a_click,
+    fills_a_hole,
+    level_in_sculpt_mode,
+    masked_in_sculpt_mode,
+)
 from tutorial_chapters import tutorial_as_written
 from verdict_chapters import (
     again_in_other_ways,
@@ -218,6 +225,8 @@ CHAPTERS = (
     fillet_is_dragged,
     masked_in_sculpt_mode,
     face_set_by_a_click,
+    level_in_sculpt_mode,
+    dynamic_topology_in_sculpt_mode,
     brush_in_sculpt_mode,
     changes_outside_edit_mode_do_not_wait,
     live_follows_a_drag,
