@@ -12,7 +12,6 @@
 #include "method/nested.h"
 #include "method/own_mesh.h"
 #include "method/pinned.h"
-#include "method/placed.h"
 #include "method/plan.h"
 #include "problem/solution_at.h"
 #include "problem/surface_state.h"
