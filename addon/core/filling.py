@@ -17,6 +17,7 @@ from .fill_pieces import Filled, FillOptions, Piece
 from .halves import Half
 from .islands import with_islands
 from .region import MeshArrays
+from .sentences import in_numbers_of
 from .subdivided import Subdivided, with_subdivided_loops
 
 
@@ -68,12 +69,8 @@ def _subdivided(
     if not len(parted.ends) or halves:
         return fill(mesh, matrix, loops, whole, progress, halves)
     fine = replace(whole, spacing=max(1.0, options.spacing))  # their edges are as long as wanted now
-    try:
+    with in_numbers_of(parted.named):
         found = fill(parted.mesh, matrix, [parted.along(loop) for loop in loops], fine, progress)
-    except (ValueError, fairing.SolverError) as error:
-        if hasattr(error, "elements"):
-            error.elements = parted.named(error.elements)
-        raise
     pieces = [_with_old_spots(piece, parted) for piece in found.pieces]
     left = tuple(replace(each, vertices=np.unique(parted.named(each.vertices)), spots=parted.named(each.spots))
                  for each in found.left)  # fmt: skip

@@ -23,7 +23,7 @@ from .piercing import Sheet, pierced, places
 from .reflected import whole_of
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
-from .sentences import in_mesh_words
+from .sentences import in_mesh_words, in_numbers_of
 from .solve import pose, reported_by
 from .subdivided import Subdivided, with_subdivided_patch
 from .tunnels import tunnel_hint
@@ -135,12 +135,8 @@ def _subdivided(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress
     if not len(parted.ends):
         return remesh_arrays(mesh, matrix, whole, progress)
     fine = replace(whole, spacing=max(1.0, options.spacing))  # its edges are as long as wanted now
-    try:
+    with in_numbers_of(parted.named):
         found = remesh_arrays(parted.mesh, matrix, fine, progress)
-    except (ValueError, fairing.SolverError) as error:
-        if hasattr(error, "elements"):
-            error.elements = parted.named(error.elements)
-        raise
     spots = parted.named(found.verdict.spots)
     return replace(found, parted=parted, verdict=replace(found.verdict, spots=spots))
 

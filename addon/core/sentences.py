@@ -6,7 +6,7 @@ numbers, those of the patch and its triangles, don't show.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -14,6 +14,7 @@ import numpy as np
 
 import fairing
 
+from .arrays import Ints
 from .findings import Finding, Origin, found
 from .words import DOUBLED, WORDS, Words
 
@@ -47,6 +48,20 @@ def in_mesh_words(origin: Origin) -> Iterator[None]:
         yield
     except fairing.MeshError as error:
         raise refusal(found(error.diagnostic, origin)) from error
+
+
+@contextmanager
+def in_numbers_of(named: Callable[[Ints], Ints]) -> Iterator[None]:
+    """Let errors about a mesh made from another one name the other's vertices, as `named` gives them for its own."""
+    try:
+        yield
+    except MeshRefusal as error:
+        there = named(error.elements.astype(np.int64)).astype(np.int32)
+        raise MeshRefusal(replace(error.diagnostic, elements=there)) from error
+    except (ValueError, fairing.SolverError) as error:
+        if hasattr(error, "elements"):
+            error.elements = named(error.elements)
+        raise
 
 
 def sentences(warnings: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:

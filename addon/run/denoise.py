@@ -7,6 +7,7 @@ import bpy
 from ..core.denoising import Denoised, DenoiseOptions, denoise_arrays
 from ..core.engine import Progress
 from ..core.options import FairOptions
+from ..core.words import counted
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..preferences import background_from
 from ..translations import translated
@@ -69,7 +70,8 @@ class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):
         job.write(context, self._tasks, outcomes)
         count = sum(len(outcome.vertices) for outcome in outcomes)
         largest = max(outcome.largest for outcome in outcomes)
-        self.report({"INFO"}, translated(f"{count} vertices moved, by {largest:.3g} at most"))
+        moved = counted(count, "vertex moved", "vertices moved")
+        self.report({"INFO"}, translated(f"{moved}, by {largest:.3g} at most"))
         return {"FINISHED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:

@@ -95,3 +95,17 @@ def test_a_coarse_patch_gets_edges_as_wanted() -> None:
     lengths = np.linalg.norm(done.points[sides[:, 0]] - done.points[sides[:, 1]], axis=1)
     assert lengths.max() < 0.8
     assert done.verdict.spots.max(initial=0) < 8
+
+
+def test_a_refusal_names_vertices_that_are_there() -> None:
+    """The parted boundary has more; in a fill and on a new mesh."""
+    mesh = box(open_top=True)
+    loops, _ = border_loops(mesh, mesh.positions[:, 2] > 0)
+    options = FillOptions(equation="MINIMAL", spacing=0.2, subdivide_boundary=True, max_vertices=3)
+    closed = box(open_top=False)
+    few = FairOptions(mesh="NEW", spacing=0.2, subdivide_boundary=True, max_vertices=3)
+    for run in (lambda: fill(mesh, EYE, loops, options), lambda: remesh_arrays(closed, EYE, few)):
+        with pytest.raises(fairing.MeshError, match="3 are accepted") as refused:
+            run()
+        assert len(refused.value.elements)
+        assert set(refused.value.elements.tolist()) <= {4, 5, 6, 7}
