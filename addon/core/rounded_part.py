@@ -254,10 +254,11 @@ def _pieces(triangles: Ints, rows: Ints) -> list[list[int]]:
 
 
 def _outline(triangles: Ints, piece: list[int]) -> list[int] | None:
-    """Return the corners around a piece, None where it has a hole or touches itself: no polygon then."""
+    """Return the corners around a piece, None where it has a hole, touches or covers itself: no polygon then."""
     sides = dict(_directed(triangles, piece))
     around = {a: (b, corner) for (a, b), corner in sides.items() if (b, a) not in sides}
-    if len(around) != sum((b, a) not in sides for a, b in sides):
+    once = len(sides) == 3 * len(piece) and len(around) == sum((b, a) not in sides for a, b in sides)
+    if not once or not around:
         return None
     first = at = min(around)
     loop: list[int] = []

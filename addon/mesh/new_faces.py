@@ -97,8 +97,12 @@ def make_faces(target: Target, vertices: Sequence[Any], data: FaceData) -> list[
 
 
 def refuse_doubles(bm: Any, data: FaceData) -> None:
-    """Raise MeshRefusal where a new face is one of the mesh already, which has none twice: before anything is made."""
+    """Raise MeshRefusal where a new face is there already, old or new, as no mesh has one twice: before any is made."""
+    made = set()
     for polygon in data.polygons:
+        if frozenset(polygon) in made:
+            raise doubled([data.stay[corner].index for corner in polygon if corner < len(data.stay)])
+        made.add(frozenset(polygon))
         if max(polygon) >= len(data.stay):
             continue
         face = bm.faces.get([data.stay[corner] for corner in polygon])

@@ -3,18 +3,19 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/limits.h"
-
 namespace fairing {
 
 namespace {
+
+// Of an area, and of an edge's length squared: points on a line come within some 1e-14 of it.
+constexpr double straight = 1e-12;
 
 std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 }  // namespace
 
 CutTriangle::CutTriangle(const Vector2& a, const Vector2& b, const Vector2& c)
-    : places_{a, b, c}, flat_(roundoff * cross2(b - a, c - a)) {
+    : places_{a, b, c}, flat_(straight * cross2(b - a, c - a)) {
     put(0, {0, 1, 2});
 }
 
@@ -62,6 +63,13 @@ int CutTriangle::add_on_side(int k, const Vector2& place) {
     return point;
 }
 
+// Between the ends of an edge: in a triangle without area a point may be on the lines of all sides.
+bool CutTriangle::is_on(int a, int b, int point) const {
+    const Vector2 way = places_[b] - places_[a];
+    const double along = way.dot(places_[point] - places_[a]);
+    return area(a, b, point) <= flat_ && along > 0.0 && along < way.squaredNorm();
+}
+
 int CutTriangle::add_inside(const Vector2& place) {
     const int point = static_cast<int>(places_.size());
     places_.push_back(place);
@@ -82,7 +90,7 @@ int CutTriangle::add_inside(const Vector2& place) {
         const int a = whole[k];
         const int b = whole[(k + 1) % 3];
         const int beyond = at(b, a);
-        if (area(a, b, point) <= flat_ && beyond != none) {  // on that side: the triangle there is parted, too
+        if (beyond != none && is_on(a, b, point)) {  // the triangle there is parted, too
             const int apex = opposite(beyond, a, b);
             remove_sides(beyond);
             put(beyond, {b, point, apex});
@@ -104,7 +112,7 @@ bool CutTriangle::is_in_circle(int a, int b, int c, int d) const {
     const double determinant =
         u.squaredNorm() * cross2(v, w) - v.squaredNorm() * cross2(u, w) + w.squaredNorm() * cross2(u, v);
     const double size = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
-    return determinant > 1e-12 * size * size;
+    return determinant > straight * size * size;
 }
 
 // The diagonal of the two triangles beside an edge becomes the other one, where both stay triangles.
@@ -148,7 +156,7 @@ int CutTriangle::point_between(int a, int b) const {
         if (p == a || p == b) continue;
         const Vector2 to = places_[p] - places_[a];
         const double share = to.dot(way) / size;
-        if (share <= 0.0 || share >= nearest || std::abs(cross2(way, to)) > 1e-12 * size) continue;
+        if (share <= 0.0 || share >= nearest || std::abs(cross2(way, to)) > straight * size) continue;
         nearest = share;
         found = p;
     }

@@ -33,6 +33,7 @@ public:
 private:
     [[nodiscard]] double area(int a, int b, int c) const;
     [[nodiscard]] int opposite(int triangle, int a, int b) const;
+    [[nodiscard]] bool is_on(int a, int b, int point) const;
     void put(int triangle, const Corners& corners);
     void remove_sides(int triangle);
     bool flip(int a, int b);

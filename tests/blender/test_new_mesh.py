@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -189,3 +190,16 @@ def test_corners_of_the_selection_and_seams_leave_no_loose_ends(uvs: bool, wave:
     triples = [tuple(sorted(polygon.vertices)) for polygon in obj.data.polygons]
     assert len(set(triples)) == len(triples)
     assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
+
+
+def test_new_faces_that_come_twice_are_refused_before_any_is_made() -> None:
+    """Blender takes no face twice: it would stop halfway."""
+    bm = bmesh.new()
+    stay = [bm.verts.new((float(x), float(y), 0.0)) for x, y in ((0, 0), (1, 0), (0, 1))]
+    new_faces = extension.module("mesh.new_faces")
+    once = SimpleNamespace(stay=stay, polygons=[(0, 1, 2), (0, 1, 3), (1, 2, 3)])
+    new_faces.refuse_doubles(bm, once)
+    twice = SimpleNamespace(stay=stay, polygons=[(0, 1, 3), (1, 2, 3), (3, 1, 0)])
+    with pytest.raises(ValueError, match="doubles back"):
+        new_faces.refuse_doubles(bm, twice)
+    bm.free()

@@ -1,0 +1,78 @@
+// Points added to a triangle: whatever their order and roundoff, its pieces cover it once.
+#include <doctest/doctest.h>
+
+#include <random>
+#include <set>
+
+#include "fillet/cut_triangle.h"
+
+using fairing::CutTriangle;
+using fairing::Vector2;
+
+namespace {
+
+double area_of(const CutTriangle& cut, const std::array<int, 3>& corners) {
+    const Vector2 first = cut.place(corners[0]);
+    return 0.5 * fairing::cross2(cut.place(corners[1]) - first, cut.place(corners[2]) - first);
+}
+
+// Each side once in each direction, inside, no piece turned over, and the areas of all are that of the whole.
+void check_cover(const CutTriangle& cut, double whole) {
+    std::set<std::array<int, 2>> sides;
+    double sum = 0.0;
+    for (const auto& corners : cut.triangles()) {
+        for (std::size_t k = 0; k < 3; ++k) CHECK(sides.insert({corners[k], corners[(k + 1) % 3]}).second);
+        const double area = area_of(cut, corners);
+        CHECK(area > -1e-12 * whole);
+        sum += area;
+    }
+    CHECK(sum == doctest::Approx(whole).epsilon(1e-11));
+}
+
+}  // namespace
+
+// Three points on the way between two on its sides, as a fillet's line has them: the first came to lie 5e-15 beside
+// that way, and the next one, on the lines of two sides of the sliver, parted the triangle beyond the wrong one, too.
+TEST_CASE("points on one line across a triangle") {
+    CutTriangle cut({0.0, 0.0}, {0.23570224634657011, 0.0}, {0.11785112317327751, 0.11785116532013357});
+    CHECK(cut.add_on_side(0, {0.094280913290022347, 0.0}) == 3);
+    CHECK(cut.add_on_side(1, {0.16499157981829626, 0.070710691816375779}) == 4);
+    cut.add_inside({0.14731391318622436, 0.053033018862285231});
+    cut.add_inside({0.12963624655415698, 0.03535534590819011});
+    cut.add_inside({0.11195857992208964, 0.017677672954095027});
+    cut.make_delaunay();
+    for (const auto& [a, b] : {std::array{4, 5}, std::array{5, 6}, std::array{6, 7}, std::array{7, 3}})
+        CHECK(cut.add_edge(a, b));
+    CHECK(cut.triangles().size() == 9);
+    check_cover(cut, 0.5 * 0.23570224634657011 * 0.11785116532013357);
+}
+
+TEST_CASE("points on random ways across a triangle") {
+    std::mt19937 random(20261128);
+    std::uniform_real_distribution<double> share(0.05, 0.95);
+    std::uniform_int_distribution<int> many(2, 9);
+    std::uniform_real_distribution<double> beside(-2.0, 2.0);
+    for (int trial = 0; trial < 400; ++trial) {
+        const Vector2 a(0.0, 0.0);
+        const Vector2 b(share(random), 0.0);
+        const Vector2 c(share(random), share(random));
+        CutTriangle cut(a, b, c);
+        const double first = share(random);
+        const double second = share(random);
+        const Vector2 from = a + first * (b - a);
+        const Vector2 to = b + second * (c - b);
+        int last = cut.add_on_side(0, from);
+        const int end = cut.add_on_side(1, to);
+        const int count = many(random);
+        std::vector<int> line{last};
+        for (int k = 1; k < count; ++k) {
+            const double at = static_cast<double>(k) / count;
+            const double off = 1e-15 * beside(random);  // roundoff
+            line.push_back(cut.add_inside(from + at * (to - from) + Vector2(off, -off)));
+        }
+        line.push_back(end);
+        cut.make_delaunay();
+        for (std::size_t k = 1; k < line.size(); ++k) CHECK(cut.add_edge(line[k - 1], line[k]));
+        check_cover(cut, 0.5 * fairing::cross2(b - a, c - a));
+    }
+}
