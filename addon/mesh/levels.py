@@ -30,7 +30,8 @@ def shown_level(obj: bpy.types.Object) -> int:
 def at_level(obj: bpy.types.Object, level: int) -> Iterator[bpy.types.Object]:
     """Give, for an object in object mode, one whose mesh is that level's: itself for 0, a temporary one otherwise.
 
-    Groups and other layers are there; masks are not: Blender shows extensions none of a level.
+    Groups and other layers are there; masks are not: Blender shows extensions none of a level. Raises ValueError where
+    Simplify lets Blender show a lower level alone.
     """
     if level == 0:
         yield obj
@@ -48,6 +49,8 @@ def at_level(obj: bpy.types.Object, level: int) -> Iterator[bpy.types.Object]:
         )
         copy.modifiers.clear()
         copy.data = mesh
+        if len(mesh.polygons) != len(obj.data.loops) * 4 ** (level - 1):
+            raise ValueError("Simplify limits the multiresolution levels: turn it off in the scene's render properties")
         yield copy
     finally:
         bpy.data.objects.remove(copy)

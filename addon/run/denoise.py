@@ -7,7 +7,6 @@ import bpy
 from ..core.denoising import Denoised, DenoiseOptions, denoise_arrays
 from ..core.engine import Progress
 from ..core.options import FairOptions
-from ..core.words import counted
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..preferences import background_from
 from ..translations import translated
@@ -70,8 +69,9 @@ class MESH_OT_fair_denoise(DenoiseProperties, Watched, bpy.types.Operator):
         job.write(context, self._tasks, outcomes)
         count = sum(len(outcome.vertices) for outcome in outcomes)
         largest = max(outcome.largest for outcome in outcomes)
-        moved = counted(count, "vertex moved", "vertices moved")
-        self.report({"INFO"}, translated(f"{moved}, by {largest:.3g} at most"))
+        one = f"{count} vertex moved, by {largest:.3g} at most"
+        text = one if count == 1 else f"{count} vertices moved, by {largest:.3g} at most"
+        self.report({"INFO"}, translated(text))
         return {"FINISHED"}
 
     def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:

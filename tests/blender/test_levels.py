@@ -123,6 +123,20 @@ def test_a_new_mesh_on_a_level_is_refused() -> None:
     assert at(obj, LEVELS).tobytes() == before.tobytes()
 
 
+def test_levels_that_simplify_hides_are_refused() -> None:
+    obj = bumpy()
+    before = at(obj, LEVELS)
+    render = bpy.context.scene.render
+    render.use_simplify, render.simplify_subdivision = True, LEVELS - 1
+    try:
+        with pytest.raises(RuntimeError, match="Simplify limits"):
+            bpy.ops.mesh.fair_masked(source="VERTEX_GROUP", group="Top")
+    finally:
+        render.use_simplify = False
+    assert [o.name for o in bpy.data.objects] == [obj.name]
+    assert at(obj, LEVELS).tobytes() == before.tobytes()
+
+
 def test_hidden_levels_leave_the_mesh_itself() -> None:
     obj = bumpy()
     obj.modifiers[0].show_viewport = False
