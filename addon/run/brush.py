@@ -102,7 +102,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         if not len(self.dabs):
             self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
-        return self._begin_with(context, self._start_work)
+        return self._begin_with(context, self._start)
 
     def _read_object(self, obj: bpy.types.Object, options: FairOptions) -> Task:
         """Read the mesh with what was painted as its mask, which each vertex goes by."""

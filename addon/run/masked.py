@@ -66,7 +66,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
             return self._picked(context, event)
         mesh = active_object(context).data
         if self.source != "FACE_SET" or self.face_set or painted.only_visible_face_set(mesh):
-            return self._begin_with(context, self._start_work)
+            return self._begin_with(context, self._start)
         return self.pick(context, "Click the face set to fair")
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -80,7 +80,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
             self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
         self.face_set = painted.face_set_at(obj.data, face)
-        return self._begin_with(context, self._start_work)
+        return self._begin_with(context, self._start)
 
     def _faces(self, obj: bpy.types.Object) -> Ints:
         faces = self._named(obj)
