@@ -5,7 +5,7 @@ Nothing is marked, and nothing moves, before the surface is there.
 
 from __future__ import annotations
 
-from functools import partial
+from dataclasses import dataclass
 
 import bpy
 
@@ -15,8 +15,8 @@ from ..core.options import FairOptions
 from ..host.context import edited_objects
 from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
 from ..mesh import mesh_io
-from ..preferences import background_from
-from ..run.background import Watched, Work
+from ..run.asked import Asked, Say
+from ..run.background import Watched
 from ..run.job import Refused, objects_in_mode
 from ..translations import translated
 from .inspection import last_options
@@ -55,6 +55,48 @@ def solve(candidates: dict[str, Session], progress: Progress) -> list[Found]:
     return found
 
 
+@dataclass
+class AskedLive(Asked):
+    """What one run was asked for."""
+
+    candidates: dict[str, Session]
+    options: FairOptions
+
+    @property
+    def size(self) -> int:
+        """Free vertices."""
+        return sum(len(session.region.free) for session in self.candidates.values())
+
+    def work(self, progress: Progress) -> list[Found]:
+        """Find the first surfaces."""
+        return solve(self.candidates, progress)
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the meshes are as they were read."""
+        objects = objects_in_mode(context)
+        return context.mode == "EDIT_MESH" and all(
+            name in objects and is_current(objects[name], session) for name, session in self.candidates.items()
+        )
+
+    def finish(self, context: bpy.types.Context, answers: list[Found], _say: Say) -> set[str]:
+        """Let Live have them."""
+        objects = objects_in_mode(context)
+        for (name, session), found in zip(self.candidates.items(), answers, strict=True):
+            live.take(objects[name], session, self.options, found)
+        context.window_manager.fairing_live.on = True
+        return {"FINISHED"}
+
+    def refuse(self, _context: bpy.types.Context, refusal: Refused, say: Say) -> set[str]:
+        """Say why there is none."""
+        return refuse(refusal, say)
+
+
+def refuse(refusal: Refused, say: Say) -> set[str]:
+    """Say why, and leave the last run as it is: it was another one."""
+    say({"ERROR"}, translated(str(refusal)))
+    return {"CANCELLED"}
+
+
 class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
     """Make the selected faces the live region of their mesh, fair now and after every change around them.
     The options are those of the last Fair Region; the region is saved with the mesh"""
@@ -63,41 +105,18 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
     bl_label = "Live Region"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
-    _candidates: dict[str, Session]
-    _options: FairOptions
-
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has a selection; while a run is under way, the mesh is its own."""
         return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
 
-    def _read(self, context: bpy.types.Context) -> bool:
-        self._options = last_options(context)
-        self._candidates = read(context, self._options)
-        if not self._candidates:
+    def _read(self, context: bpy.types.Context) -> AskedLive | None:
+        options = last_options(context)
+        candidates = read(context, options)
+        if not candidates:
             self.report({"ERROR"}, translated(NO_FACE))
-        return bool(self._candidates)
-
-    def _work(self) -> Work:
-        return partial(solve, self._candidates)
-
-    def _start_work(self, context: bpy.types.Context) -> set[str]:
-        size = sum(len(session.region.free) for session in self._candidates.values())
-        return self._start(context, partial(solve, self._candidates), size >= background_from(context))
-
-    def _is_current(self, context: bpy.types.Context) -> bool:
-        objects = objects_in_mode(context)
-        return context.mode == "EDIT_MESH" and all(
-            name in objects and is_current(objects[name], session) for name, session in self._candidates.items()
-        )
-
-    def _apply(self, context: bpy.types.Context, answers: list[Found]) -> set[str]:
-        objects = objects_in_mode(context)
-        for (name, session), found in zip(self._candidates.items(), answers, strict=True):
-            live.take(objects[name], session, self._options, found)
-        context.window_manager.fairing_live.on = True
-        return {"FINISHED"}
+            return None
+        return AskedLive(candidates, options)
 
     def _refuse(self, _context: bpy.types.Context, refusal: Refused) -> set[str]:
-        self.report({"ERROR"}, translated(str(refusal)))
-        return {"CANCELLED"}
+        return refuse(refusal, self.report)

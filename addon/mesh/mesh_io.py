@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import bmesh
@@ -47,10 +47,11 @@ def is_editable(mesh: bpy.types.Mesh) -> bool:
     return bool(mesh.is_editable and mesh.override_library is None)
 
 
-def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "") -> MeshArrays:
+def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "", *, widens: bool = True) -> MeshArrays:
     """Read the mesh of an object in edit mode; the patch is its selected, visible faces.
 
     region: an integer face attribute that stands in for the selection.
+    widens: whether faces that selected edges enclose, or that X mirror adds, are selected as well.
     Raises ValueError where `options` name a vertex group that the object does not have.
     """
     with snapshot(obj.data) as mesh:
@@ -58,11 +59,13 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
         if region:
             selected = column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
             arrays = _arrays(mesh, selected, group, options)
-        else:
+        elif widens:
             arrays = _selected(mesh, group, options)
+        else:
+            arrays = _arrays(mesh, flags(mesh, ".select_poly", mesh.polygons), group, options)
         arrays = replace(weighed(arrays, mesh, obj, options), mirror_x=obj.data.use_mirror_x)
         arrays = replace(arrays, reflections=reflections(obj), shown_offsets=shown_offsets(obj))
-        return arrays if region else with_image(arrays)
+        return with_image(arrays) if widens and not region else arrays
 
 
 def _selected(mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
@@ -124,15 +127,34 @@ def edit_positions(mesh: bpy.types.Mesh) -> Floats:
         return positions
 
 
-def is_unchanged(mesh: bpy.types.Mesh, arrays: MeshArrays) -> bool:
-    """Return whether a mesh in edit mode still has the positions and corners that were read from it."""
+@dataclass(frozen=True)
+class Shape:
+    """What tells whether a mesh has changed."""
+
+    positions: Floats  # (n, 3)
+    edges: Ints  # (e, 2)
+    corner_vertices: Ints  # (c,)
+
+
+def shape_of(mesh: bpy.types.Mesh) -> Shape:
+    """Return that of a mesh in edit mode."""
     with snapshot(mesh) as now:
-        if len(now.vertices) != len(arrays.positions) or len(now.loops) != len(arrays.corner_vertices):
+        return Shape(
+            column(now.vertices, "co", 3, np.float32).astype(np.float64),
+            stored(now, ".edge_verts", (now.edges, "vertices"), 2),
+            stored(now, ".corner_vert", (now.loops, "vertex_index")),
+        )
+
+
+def is_unchanged(mesh: bpy.types.Mesh, before: Shape | MeshArrays) -> bool:
+    """Return whether a mesh in edit mode still has the positions and corners that it had."""
+    with snapshot(mesh) as now:
+        if len(now.vertices) != len(before.positions) or len(now.loops) != len(before.corner_vertices):
             return False
         positions = column(now.vertices, "co", 3, np.float32)
         corners = stored(now, ".corner_vert", (now.loops, "vertex_index"))
-        same = np.array_equal(positions, arrays.positions, equal_nan=True) and len(now.edges) == len(arrays.edges)
-        return bool(same and np.array_equal(corners, arrays.corner_vertices))
+        same = np.array_equal(positions, before.positions, equal_nan=True) and len(now.edges) == len(before.edges)
+        return bool(same and np.array_equal(corners, before.corner_vertices))
 
 
 def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:

@@ -11,8 +11,10 @@ from ..core import runner
 from ..core.engine import Progress
 from ..host.handlers import hear_events
 from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
+from ..preferences import background_from
 from ..translations import translated
 from . import job
+from .asked import Asked, Work, refuse
 from .preview import Preview
 
 CANCELLED = "Fairing was cancelled; nothing has changed"
@@ -26,8 +28,6 @@ _VIEW_EVENTS = {
 }  # fmt: skip
 
 _POINTER_EVENTS = {"LEFTMOUSE", "MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}  # to the button that cancels
-
-Work = Callable[[Progress], Any]
 
 
 def has_events(context: bpy.types.Context) -> bool:
@@ -120,32 +120,24 @@ def stop_all() -> None:
 
 
 class Watched:
-    """What an operator needs besides the six below to begin and watch a run.
-
-    `_read` takes what the run is to work on; False, after a word on it, where there is nothing to do. `_work` then
-    solves on arrays, and `_start_work` has it watched by `_start`.
-    """
+    """What an operator needs besides `_read` to begin and watch a run."""
 
     if TYPE_CHECKING:
         report: Callable[[set[str], str], None]
-        _read: Callable[[bpy.types.Context], bool]
-        _work: Callable[[], Work]
-        _start_work: Callable[[bpy.types.Context], set[str]]
-        _apply: Callable[[bpy.types.Context, Any], set[str]]
-        _refuse: Callable[[bpy.types.Context, job.Refused], set[str]]
-        _is_current: Callable[[bpy.types.Context], bool]
+        # What the run is to work on; None, after a word on it, where there is nothing to do.
+        _read: Callable[[bpy.types.Context], Asked | None]
 
+    _asked: Asked
     _run: runner.Run[Any] | None = None
     _signs: Signs | None = None
-    _preview: Preview | None = None  # what is shown meanwhile
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Do every object in edit mode, or none of them where one is refused; return when done."""
-        return self._begin_with(context, lambda here: self._apply(here, at_once(here, self._work())))
+        return self._begin_with(context, self._at_once)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Do them in the background where that takes long enough to be noticed."""
-        return self._begin_with(context, self._start_work)
+        return self._begin_with(context, self._start)
 
     def _begin_with(self, context: bpy.types.Context, go_on: Callable[[bpy.types.Context], set[str]]) -> set[str]:
         """Read, and go on at once or in the background."""
@@ -153,9 +145,19 @@ class Watched:
         for each in tuple(under_way):
             each.end()
         try:
-            return go_on(context) if self._read(context) else {"CANCELLED"}
+            asked = self._read(context)
         except job.Refused as refusal:
             return self._refuse(context, refusal)
+        if asked is None:
+            return {"CANCELLED"}
+        self._asked = asked
+        return go_on(context)
+
+    def _at_once(self, context: bpy.types.Context) -> set[str]:
+        return self._asked.settle(context, lambda: at_once(context, self._asked.work), self.report)
+
+    def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
+        return refuse(context, refusal, self.report)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the thread; Esc leaves the mesh as it is, and so does what calls `stop_all`."""
@@ -183,17 +185,15 @@ class Watched:
             self._run.cancel()
         self._stop_watching()
 
-    def _start(self, context: bpy.types.Context, work: Work, large: bool, preview: Preview | None = None) -> set[str]:
-        """Begin; return when done where that takes but a moment, but for large ones at once.
-
-        preview: what the work gives its first surfaces to, if it does.
-        """
+    def _start(self, context: bpy.types.Context) -> set[str]:
+        """Begin; return when done where that takes but a moment, but for large ones at once."""
         if not has_events(context):
-            return self._apply(context, at_once(context, work))
-        self._run = runner.Run(work)
+            return self._at_once(context)
+        # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
+        large = self._asked.size >= background_from(context)
+        self._run = runner.Run(self._asked.work_aside(large))
         if not large and self._run.wait(MOMENT):
-            return self._apply(context, self._run.result())
-        self._preview = preview
+            return self._asked.settle(context, self._run.result, self.report)
         self._start_watching(context)
         return {"RUNNING_MODAL"}
 
@@ -201,17 +201,13 @@ class Watched:
         """Write what the run came to, if its mesh is still there as it was read."""
         assert self._run is not None
         self._stop_watching()
-        if not self._is_current(context):
+        if not self._asked.is_as_read(context):
             self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
             return {"CANCELLED"}
-        try:
-            outcomes = self._run.result()
-        except job.Refused as refusal:
-            return self._refuse(context, refusal)
-        return self._apply(context, outcomes)
+        return self._asked.settle(context, self._run.result, self.report)
 
     def _start_watching(self, context: bpy.types.Context) -> None:
-        self._signs = Signs(context, self._preview)
+        self._signs = Signs(context, self._asked.preview)
         hear_events(context, self)
 
     def _stop_watching(self) -> None:

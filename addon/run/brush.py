@@ -105,10 +105,10 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         if not len(self.dabs):
             self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
-        return self._begin_with(context, self._start_work)
+        return self._begin_with(context, self._start)
 
     def _check_level(self, level: int, options: FairOptions) -> None:
-        super()._check_level(level, options)
+        FairsOutside._check_level(self, level, options)
         if level:
             raise ValueError("The brush can't paint on multiresolution levels: go to level 0, or fair a face set")
 

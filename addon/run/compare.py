@@ -84,14 +84,6 @@ def positions_before(object_name: str, positions: Floats) -> Floats | None:
     return None
 
 
-def result_from(object_name: str, positions: Floats) -> tuple[Ints, Floats] | None:
-    """Return which vertices (k,) the last run has moved, and where to (k, 3); None where it began elsewhere."""
-    for pair in _last.pairs:
-        if pair.object_name == object_name and pair.vertex_count == len(positions):
-            return (pair.vertices, pair.after) if np.array_equal(pair.before, positions[pair.vertices]) else None
-    return None
-
-
 def forget() -> None:
     """Drop what was kept."""
     _last.pairs = ()

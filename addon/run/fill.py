@@ -2,7 +2,7 @@
 
 import time
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property
 
 import bpy
 import numpy as np
@@ -11,7 +11,7 @@ from ..core.arrays import Floats, Ints
 from ..core.border import NO_BORDER, left_by
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.fill_pieces import Filled, FillOptions
-from ..core.fill_report import Added, make_fill_report, writable
+from ..core.fill_report import make_fill_report, writable
 from ..core.filling import fill
 from ..core.holes import Borders, borders_at, chosen_borders, expected_vertices
 from ..core.options import FairOptions
@@ -22,12 +22,12 @@ from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import filled, mesh_io
 from ..mesh.spanned import selected_wires
-from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
-from .background import Watched, Work
-from .job import Refused, is_current, objects_in_mode, show_vertices
+from .asked import AskedInEditMode, Say
+from .job import Refused, show_vertices, write_each
 from .option_properties import FillProperties
+from .redo import Redone
 from .redo_panel import draw_options
 from .report_properties import store, store_refusal
 
@@ -62,7 +62,7 @@ def read(context: bpy.types.Context, options: FillOptions) -> list[Task]:
         try:
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_own_mesh(obj, FairOptions())
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions(), widens=False)
             matrix = np.array(obj.matrix_world, dtype=np.float64)
             found = borders_at(mesh, seeds)
             # Where all faces are selected, too, no border was chosen.
@@ -93,7 +93,49 @@ def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[F
     return outcomes
 
 
-class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
+@dataclass
+class Asked(AskedInEditMode):
+    """What one run was asked for."""
+
+    tasks: list[Task]
+    options: FillOptions
+    begin: float  # of the performance counter
+
+    @cached_property
+    def size(self) -> float:
+        """About as many vertices as will be new."""
+        return sum(task.expected_vertices(self.options) for task in self.tasks)
+
+    def work(self, progress: Progress) -> list[Filled]:
+        """Find the surfaces."""
+        return solve(self.tasks, self.options, progress)
+
+    def finish(self, context: bpy.types.Context, outcomes: list[Filled], say: Say) -> set[str]:
+        """Make their faces."""
+        named = list(zip(self.names, outcomes, strict=True))
+        report = make_fill_report(named, self.options, time.perf_counter() - self.begin)
+        last_run.forget()  # there are no faces to fair again, and no two states to compare
+        if not report.written:
+            store(context.window_manager.fairing_report, report)
+            if len(self.tasks) == 1:  # the boundary where the surface is no good
+                show_vertices(context, self.tasks[0].object_name, report.verdict.spots)
+            say({"ERROR"}, translated(summary(report)))
+            return {"CANCELLED"}
+        compare.forget()
+        named = writable(named, self.options)
+        added = write_each(context, [pair for pair in named if pair[1].pieces], filled.add_to_edit_mesh)
+        for name, of_one in named:
+            show_vertices(context, name, of_one.left_vertices)
+        notes = tuple(note for task in self.tasks for note in task.borders.notes)
+        report = make_fill_report(named, self.options, time.perf_counter() - self.begin, added, notes)
+        store(context.window_manager.fairing_report, report)
+        for warning in report.warnings:
+            say({"WARNING"}, translated(warning))
+        say({"INFO"}, translated(summary(report)))
+        return {"FINISHED"}
+
+
+class MESH_OT_fair_fill(FillProperties, Redone, bpy.types.Operator):
     """Fill the holes whose boundaries are selected, in part or whole, or join them,
     with the fair surface that continues their surroundings"""
 
@@ -101,10 +143,6 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
     bl_label = "Fair Fill"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
     preset_menu, preset_add = "MESH_MT_fair_fill_presets", "mesh.fair_fill_preset_add"
-
-    _tasks: list[Task]
-    _options: FillOptions
-    _begin: float
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -117,65 +155,16 @@ class MESH_OT_fair_fill(FillProperties, Watched, bpy.types.Operator):
         """Lay the options out in groups."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def _read(self, context: bpy.types.Context) -> bool:
-        self._begin = time.perf_counter()
+    def _read(self, context: bpy.types.Context) -> Asked | None:
+        begin = time.perf_counter()
         self.take_names_before()
-        self._options = FillOptions.of(self)
-        self._tasks = read(context, self._options)
-        if not self._tasks:
+        options = FillOptions.of(self)
+        tasks = read(context, options)
+        if not tasks:
             wires = any(selected_wires(obj.data).any() for obj in edited_objects(context))
             reason = WIRES_ALONE if wires else NO_BORDER
             store_refusal(context.window_manager.fairing_report, "", reason)
             last_run.forget()
             self.report({"ERROR"}, translated(reason))
-        return bool(self._tasks)
-
-    def _work(self) -> Work:
-        return partial(solve, self._tasks, self._options)
-
-    def _start_work(self, context: bpy.types.Context) -> set[str]:
-        expected = sum(task.expected_vertices(self._options) for task in self._tasks)
-        large = expected >= background_from(context)
-        return self._start(context, partial(solve, self._tasks, self._options), large)
-
-    def _is_current(self, context: bpy.types.Context) -> bool:
-        return is_current(context, self._tasks)
-
-    def _apply(self, context: bpy.types.Context, outcomes: list[Filled]) -> set[str]:
-        named = [(task.object_name, filled) for task, filled in zip(self._tasks, outcomes, strict=True)]
-        report = make_fill_report(named, self._options, time.perf_counter() - self._begin)
-        last_run.forget()  # there are no faces to fair again, and no two states to compare
-        if not report.written:
-            store(context.window_manager.fairing_report, report)
-            return self._leave(context, report.verdict.spots, summary(report))
-        compare.forget()
-        named = writable(named, self._options)
-        added = self._write(context, named)
-        notes = tuple(note for task in self._tasks for note in task.borders.notes)
-        report = make_fill_report(named, self._options, time.perf_counter() - self._begin, added, notes)
-        store(context.window_manager.fairing_report, report)
-        for warning in report.warnings:
-            self.report({"WARNING"}, translated(warning))
-        self.report({"INFO"}, translated(summary(report)))
-        return {"FINISHED"}
-
-    def _write(self, context: bpy.types.Context, named: list[tuple[str, Filled]]) -> list[Added]:
-        objects = objects_in_mode(context)
-        added = [filled.add_to_edit_mesh(objects[name], of_one) for name, of_one in named if of_one.pieces]
-        for name, of_one in named:
-            show_vertices(context, name, of_one.left_vertices)
-        return added
-
-    def _leave(self, context: bpy.types.Context, spots: Ints, reason: str) -> set[str]:
-        """Leave every mesh as it is, and show the boundary where the surface is no good."""
-        if len(self._tasks) == 1:
-            show_vertices(context, self._tasks[0].object_name, spots)
-        self.report({"ERROR"}, translated(reason))
-        return {"CANCELLED"}
-
-    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        show_vertices(context, refusal.object_name, refusal.elements)
-        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
-        last_run.forget()
-        self.report({"ERROR"}, translated(str(refusal)))
-        return {"CANCELLED"}
+            return None
+        return Asked(tasks, options, begin)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -13,22 +13,24 @@ import numpy as np
 
 import fairing
 
-from ..core.arrays import Floats, Ints, Mask
+from ..core.arrays import Floats, Mask
 from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.rounding import NO_SEAM, FilletOptions, Rounded, round_arrays, seams_of
 from ..core.typed import Typed
-from ..core.verdict import UNUSABLE
+from ..core.verdict import UNUSABLE, NotUsable
 from ..host.context import edited_objects
 from ..host.dragging import pixel_size, say
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import mesh_io, remeshed, selecting
 from ..translations import translated
 from . import compare, last_run
-from .background import TICK, Work, at_once, has_events
-from .job import Refused, each_of, is_current, objects_in_mode, show_vertices
+from .asked import AskedInEditMode, Say
+from .background import TICK, has_events
+from .job import Refused, each_of, write_each
 from .option_properties import FilletProperties
+from .redo import Redone
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
 
@@ -66,6 +68,12 @@ class Task:
         return place
 
     @property
+    def length(self) -> float:
+        """Of all seams, in world space."""
+        ends = self.mesh.positions[self.mesh.edges[self.seams]] @ self.matrix[:3, :3].T
+        return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
+
+    @property
     def flank(self) -> tuple[Floats, Floats]:
         """The middle (3,) of the seam's middle edge in world space, and the unit direction away from it in one face."""
         points = self.mesh.transformed(self.matrix).positions
@@ -88,9 +96,7 @@ def read(context: bpy.types.Context, group: str) -> list[Task]:
         try:
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_edit_mesh(obj, FairOptions(factor_group=group))
-            chosen = np.isin(np.arange(len(mesh.in_patch)), selecting.selected_faces(obj.data))
-            mesh = replace(mesh, in_patch=chosen)  # a closed seam encloses none
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions(factor_group=group), widens=False)
             matrix = np.array(obj.matrix_world, dtype=np.float64)
             by_edges = not context.tool_settings.mesh_select_mode[2]
             seams = seams_of(mesh.transformed(matrix), edges, by_edges)
@@ -106,14 +112,52 @@ def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list
     return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.seams, task.matrix, options, part), progress)
 
 
-class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
+@dataclass
+class Asked(AskedInEditMode):
+    """What one run was asked for."""
+
+    tasks: list[Task]
+    options: FilletOptions
+    begin: float  # of the performance counter
+
+    @cached_property
+    def size(self) -> float:
+        """About as many vertices as will be new: those of bands as wide as both sides."""
+        options, length = self.options, sum(task.length for task in self.tasks)
+        width, width_2 = options.width, options.width_2 or options.width
+        return length * (width + width_2) / (options.spacing or 0.25 * min(width, width_2)) ** 2
+
+    def work(self, progress: Progress) -> list[Rounded]:
+        """Find the surfaces."""
+        return solve(self.tasks, self.options, progress)
+
+    def finish(self, context: bpy.types.Context, outcomes: list[Rounded], say: Say) -> set[str]:
+        """Let them take the place of old faces."""
+        for task, outcome in zip(self.tasks, outcomes, strict=True):
+            verdict = outcome.verdict
+            if verdict.grade == UNUSABLE:
+                raise Refused(task.object_name, NotUsable(verdict, outcome.result))
+        last_run.forget()  # there are no faces to fair again, and no two states to compare
+        compare.forget()
+        handle.flank = self.tasks[0].flank
+        clear(context.window_manager.fairing_report)
+        write_each(context, zip(self.names, outcomes, strict=True), remeshed.write_edit_mesh)
+        for warning in (each for outcome in outcomes for each in outcome.warnings):
+            say({"WARNING"}, translated(warning))
+        count = sum(len(outcome.result.vertices) for outcome in outcomes)
+        seconds = time.perf_counter() - self.begin
+        say({"INFO"}, translated(f"{count} new vertices in {seconds:.2f} s"))
+        return {"FINISHED"}
+
+
+class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
     """Round the selected edges, or the hard edges of the selected faces, by a fair surface within a width"""
 
     bl_idname = "mesh.fair_fillet"
     bl_label = "Fair Fillet"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
-    _tasks: list[Task]
+    _asked: Asked
     _timer: Any = None
     if TYPE_CHECKING:  # made from a table
         confirm_on_release: bool
@@ -130,26 +174,15 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         """Lay the options out in groups."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Round in every object in edit mode, or in none of them where one is refused; return when done."""
-        context.view_layer.update()  # a script may just have changed an object's matrix
-        try:
-            if not self._read(context):
-                return {"CANCELLED"}
-            return self._apply(context, at_once(context, self._work()))
-        except Refused as refusal:
-            return self._refuse(context, refusal)
-
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to follow the mouse; without a window, round at once."""
         if not has_events(context) or context.region_data is None:
             return self.execute(context)
-        try:
-            if not self._read(context):
-                return {"CANCELLED"}
-        except Refused as refusal:
-            return self._refuse(context, refusal)
-        self._follow(event, pixel_size(context, np.mean([task.middle for task in self._tasks], axis=0)))
+        return self._begin_with(context, lambda here: self._begin_to_follow(here, event))
+
+    def _begin_to_follow(self, context: bpy.types.Context, event: Any) -> set[str]:
+        middle = np.mean([task.middle for task in self._asked.tasks], axis=0)
+        self._follow(event, pixel_size(context, middle))
         manager = context.window_manager
         self._timer = manager.event_timer_add(TICK, window=context.window)
         manager.modal_handler_add(self)
@@ -210,9 +243,6 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
     def _options(self) -> FilletOptions:
         return FilletOptions.of(self)
 
-    def _work(self) -> Work:
-        return partial(solve, self._tasks, self._options())
-
     def _show(self, context: bpy.types.Context) -> None:
         """Solve what is wanted now, and let it be seen."""
         if self._wanted is None:
@@ -221,7 +251,7 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
         end = time.perf_counter() + PATIENCE
         outcomes: list[Rounded] = []
         try:
-            outcomes = solve(self._tasks, wanted, lambda _fraction, _stage: time.perf_counter() < end)
+            outcomes = solve(self._asked.tasks, wanted, lambda _fraction, _stage: time.perf_counter() < end)
             self._shown, self._reason = (wanted, outcomes), ""
         except Refused as refusal:
             self._shown, self._reason = None, refusal.reason
@@ -239,50 +269,21 @@ class MESH_OT_fair_fillet(FilletProperties, bpy.types.Operator):
 
     def _accept(self, context: bpy.types.Context) -> set[str]:
         self.cancel(context)
-        if not is_current(context, self._tasks):
+        if not self._asked.is_as_read(context):
             self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
             return {"CANCELLED"}
-        try:
-            shown = self._shown
-            outcomes = shown[1] if shown and shown[0] == self._options() else at_once(context, self._work())
-        except Refused as refusal:
-            return self._refuse(context, refusal)
-        return self._apply(context, outcomes)
+        shown, options = self._shown, self._options()
+        self._asked = replace(self._asked, options=options)
+        if shown is None or shown[0] != options:
+            return self._at_once(context)
+        return self._asked.settle(context, lambda: shown[1], self.report)
 
-    def _read(self, context: bpy.types.Context) -> bool:
-        self._begin = time.perf_counter()
-        self._tasks = read(context, self.width_group)
-        if not self._tasks:
+    def _read(self, context: bpy.types.Context) -> Asked | None:
+        begin = time.perf_counter()
+        tasks = read(context, self.width_group)
+        if not tasks:
             store_refusal(context.window_manager.fairing_report, "", NO_SEAM)
             last_run.forget()
             self.report({"ERROR"}, translated(NO_SEAM))
-        return bool(self._tasks)
-
-    def _apply(self, context: bpy.types.Context, outcomes: list[Rounded]) -> set[str]:
-        for task, outcome in zip(self._tasks, outcomes, strict=True):
-            if outcome.verdict.grade == UNUSABLE:
-                return self._leave(context, task.object_name, outcome.verdict.spots, outcome.verdict.reason)
-        last_run.forget()  # there are no faces to fair again, and no two states to compare
-        compare.forget()
-        handle.flank = self._tasks[0].flank
-        clear(context.window_manager.fairing_report)
-        objects = objects_in_mode(context)
-        for task, outcome in zip(self._tasks, outcomes, strict=True):
-            remeshed.write_edit_mesh(objects[task.object_name], outcome)
-            for warning in outcome.warnings:
-                self.report({"WARNING"}, translated(warning))
-        count = sum(len(outcome.result.vertices) for outcome in outcomes)
-        seconds = time.perf_counter() - self._begin
-        self.report({"INFO"}, translated(f"{count} new vertices in {seconds:.2f} s"))
-        return {"FINISHED"}
-
-    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        return self._leave(context, refusal.object_name, refusal.elements, refusal.reason)
-
-    def _leave(self, context: bpy.types.Context, name: str, spots: Ints, reason: str) -> set[str]:
-        """Leave every mesh as it is, and show where it can't be done."""
-        show_vertices(context, name, spots)
-        store_refusal(context.window_manager.fairing_report, name, reason)
-        last_run.forget()
-        self.report({"ERROR"}, translated(f"{name}: {reason}"))
-        return {"CANCELLED"}
+            return None
+        return Asked(tasks, self._options(), begin)

@@ -1,7 +1,7 @@
 """The operator that makes a surface over edges without faces: at once where that is quick, else in the background."""
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property
 
 import bpy
 import numpy as np
@@ -14,12 +14,12 @@ from ..core.spanning import NO_WIRE, CurvesOptions, Spanned, span_arrays
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import mesh_io, spanned
-from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
-from .background import Watched, Work
-from .job import Refused, each_of, is_current, objects_in_mode, show_vertices
+from .asked import AskedInEditMode, Say
+from .job import Refused, each_of, write_each
 from .option_properties import CurvesProperties
+from .redo import Redone
 from .redo_panel import draw_options
 from .report_properties import clear, store_refusal
 
@@ -45,7 +45,7 @@ def read(context: bpy.types.Context) -> list[Task]:
         try:
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_edit_mesh(obj, FairOptions())
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions(), widens=False)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
         tasks.append(Task(obj.name, mesh, wires, np.array(obj.matrix_world, dtype=np.float64), key))
@@ -57,16 +57,43 @@ def solve(tasks: list[Task], options: CurvesOptions, progress: Progress) -> list
     return each_of(tasks, lambda task, part: span_arrays(task.mesh, task.wires, task.matrix, options, part), progress)
 
 
-class MESH_OT_fair_from_curves(CurvesProperties, Watched, bpy.types.Operator):
+@dataclass
+class Asked(AskedInEditMode):
+    """What one run was asked for."""
+
+    tasks: list[Task]
+    options: CurvesOptions
+
+    @cached_property
+    def size(self) -> float:
+        """About as many vertices as will be new: those of a square that the curves are around."""
+        edges = sum(int(np.count_nonzero(task.wires)) for task in self.tasks)
+        return (edges / self.options.spacing) ** 2 / 16
+
+    def work(self, progress: Progress) -> list[Spanned]:
+        """Find the surfaces."""
+        return solve(self.tasks, self.options, progress)
+
+    def finish(self, context: bpy.types.Context, outcomes: list[Spanned], say: Say) -> set[str]:
+        """Make their faces."""
+        last_run.forget()  # there are no faces to fair again, and no two states to compare
+        compare.forget()
+        clear(context.window_manager.fairing_report)
+        faces = sum(write_each(context, zip(self.names, outcomes, strict=True), spanned.add_to_edit_mesh))
+        for warning in (each for outcome in outcomes for each in outcome.warnings):
+            say({"WARNING"}, translated(warning))
+        cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
+        say({"INFO"}, translated(f"{faces} new faces in {cells} cells; {left} openings stay"))
+        return {"FINISHED"}
+
+
+class MESH_OT_fair_from_curves(CurvesProperties, Redone, bpy.types.Operator):
     """Make a fair surface over selected edges without faces: closed curves, or a network of them.
     Edges marked sharp become creases"""
 
     bl_idname = "mesh.fair_from_curves"
     bl_label = "Fair From Curves"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-
-    _tasks: list[Task]
-    _options: CurvesOptions
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -77,44 +104,12 @@ class MESH_OT_fair_from_curves(CurvesProperties, Watched, bpy.types.Operator):
         """Lay the options out."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
-    def _read(self, context: bpy.types.Context) -> bool:
-        self._options = CurvesOptions.of(self)
-        self._tasks = read(context)
-        if not self._tasks:
+    def _read(self, context: bpy.types.Context) -> Asked | None:
+        options = CurvesOptions.of(self)
+        tasks = read(context)
+        if not tasks:
             store_refusal(context.window_manager.fairing_report, "", NO_WIRE)
             last_run.forget()
             self.report({"ERROR"}, translated(NO_WIRE))
-        return bool(self._tasks)
-
-    def _work(self) -> Work:
-        return partial(solve, self._tasks, self._options)
-
-    def _start_work(self, context: bpy.types.Context) -> set[str]:
-        edges = sum(int(np.count_nonzero(task.wires)) for task in self._tasks)
-        large = (edges / self._options.spacing) ** 2 / 16 >= background_from(context)  # as of a square around them
-        return self._start(context, self._work(), large)
-
-    def _is_current(self, context: bpy.types.Context) -> bool:
-        return is_current(context, self._tasks)
-
-    def _apply(self, context: bpy.types.Context, outcomes: list[Spanned]) -> set[str]:
-        last_run.forget()  # there are no faces to fair again, and no two states to compare
-        compare.forget()
-        clear(context.window_manager.fairing_report)
-        objects = objects_in_mode(context)
-        faces = sum(
-            spanned.add_to_edit_mesh(objects[task.object_name], outcome)
-            for task, outcome in zip(self._tasks, outcomes, strict=True)
-        )
-        for warning in (each for outcome in outcomes for each in outcome.warnings):
-            self.report({"WARNING"}, translated(warning))
-        cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
-        self.report({"INFO"}, translated(f"{faces} new faces in {cells} cells; {left} openings stay"))
-        return {"FINISHED"}
-
-    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        show_vertices(context, refusal.object_name, refusal.elements)
-        store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
-        last_run.forget()
-        self.report({"ERROR"}, translated(str(refusal)))
-        return {"CANCELLED"}
+            return None
+        return Asked(tasks, options)

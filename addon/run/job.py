@@ -5,7 +5,9 @@ Nothing is written unless all objects can be done.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import gc
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Protocol, TypeVar
 
@@ -27,6 +29,7 @@ from .fair_keys import fair_all_keys
 from .labels import reason_of
 
 Answer = TypeVar("Answer")
+Done = TypeVar("Done")
 Each = TypeVar("Each", bound="Named")
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
@@ -164,7 +167,7 @@ def objects_in_mode(context: bpy.types.Context) -> dict[str, bpy.types.Object]:
 
 def show_vertices(context: bpy.types.Context, name: str, vertices: Ints) -> None:
     """Select these vertices of an object in edit mode, and nothing else there; without any leave all as it is."""
-    if len(vertices):
+    if len(vertices) and context.mode == "EDIT_MESH":
         context.tool_settings.mesh_select_mode = (True, False, False)
         selecting.select_vertices(objects_in_mode(context)[name].data, vertices)
 
@@ -173,12 +176,31 @@ class AsRead(Named, Protocol):
     """An object as it was read."""
 
     @property
-    def mesh(self) -> MeshArrays:
+    def mesh(self) -> mesh_io.Shape | MeshArrays:
         """Its mesh."""
 
     @property
     def key(self) -> str:
         """The shape key that was read, as mesh_io.writable_key names it."""
+
+
+@dataclass(frozen=True)
+class AsItIs:
+    """An object in edit mode, as it is now."""
+
+    object_name: str
+    mesh: mesh_io.Shape
+    key: str
+
+
+def as_they_are(context: bpy.types.Context, tasks: Sequence[AsRead]) -> list[AsItIs]:
+    """Return those of the tasks' objects that are in edit mode, as they are now."""
+    objects = objects_in_mode(context) if context.mode == "EDIT_MESH" else {}
+    return [
+        AsItIs(task.object_name, mesh_io.shape_of(objects[task.object_name].data), task.key)
+        for task in tasks
+        if task.object_name in objects
+    ]
 
 
 def is_current(context: bpy.types.Context, tasks: Sequence[AsRead]) -> bool:
@@ -189,7 +211,7 @@ def is_current(context: bpy.types.Context, tasks: Sequence[AsRead]) -> bool:
     )
 
 
-def is_unchanged(obj: bpy.types.Object, mesh: MeshArrays, key: str) -> bool:
+def is_unchanged(obj: bpy.types.Object, mesh: mesh_io.Shape | MeshArrays, key: str) -> bool:
     """Return whether an object in edit mode still has the mesh and the shape key that were read."""
     try:
         same_key = mesh_io.writable_key(obj) == key
@@ -198,16 +220,39 @@ def is_unchanged(obj: bpy.types.Object, mesh: MeshArrays, key: str) -> bool:
     return same_key and mesh_io.is_unchanged(obj.data, mesh)
 
 
-def write(context: bpy.types.Context, tasks: list[Task], outcomes: Sequence[Moves]) -> list[remeshed.Written | None]:
-    """Move the free vertices of every task's object, or put its new mesh in; return what is new where it is."""
+def write_each(
+    context: bpy.types.Context,
+    named: Iterable[tuple[str, Answer]],
+    write_one: Callable[[bpy.types.Object, Answer], Done],
+) -> list[Done]:
+    """Write each answer to the object in edit mode that it is named with; raises Refused where that can't have it."""
     objects = objects_in_mode(context)
-    written: list[remeshed.Written | None] = []
-    for task, outcome in zip(tasks, outcomes, strict=True):
-        obj = objects[task.object_name]
-        if isinstance(outcome, Remeshed):
-            written.append(remeshed.write_edit_mesh(obj, outcome))
-        else:
-            mesh_io.write_edit_mesh(obj.data, outcome.vertices, outcome.positions)
-            all_keys.write_keys(obj, outcome.keys)
-            written.append(None)
-    return written
+    done = []
+    with _without_collector():
+        for name, answer in named:
+            try:
+                done.append(write_one(objects[name], answer))
+            except REFUSALS as cause:
+                raise Refused(name, cause) from cause
+    return done
+
+
+@contextmanager
+def _without_collector() -> Iterator[None]:
+    """Keep Python from looking for garbage, a third of the time, while ten thousands of elements are in use."""
+    is_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if is_on:
+            gc.enable()
+
+
+def write_one(obj: bpy.types.Object, outcome: Moves) -> remeshed.Written | None:
+    """Move the free vertices of an object, or put its new mesh in; return what is new where it is."""
+    if isinstance(outcome, Remeshed):
+        return remeshed.write_edit_mesh(obj, outcome)
+    mesh_io.write_edit_mesh(obj.data, outcome.vertices, outcome.positions)
+    all_keys.write_keys(obj, outcome.keys)
+    return None

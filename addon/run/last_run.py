@@ -55,12 +55,6 @@ def keep_selection(tasks: list[Task]) -> None:
     _last.seen = tuple(_region(task, np.empty(0, dtype=np.int64)) for task in tasks)
 
 
-def refused(tasks: list[Task]) -> None:
-    """Forget the run before one that was refused; of that one keep what was selected, as far as it was read."""
-    _last.regions = ()
-    keep_selection(tasks)
-
-
 def _region(task: Task, spots: Ints) -> Region:
     return Region(task.object_name, len(task.mesh.in_patch), np.flatnonzero(task.mesh.in_patch), spots)
 

@@ -66,7 +66,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
         if self.under_mouse:
             return self._picked(context, event)
         if self.source != "FACE_SET" or self.face_set or self._only_visible(active_object(context)):
-            return self._begin_with(context, self._start_work)
+            return self._begin_with(context, self._start)
         return self.pick(context, "Click the face set to fair")
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -81,7 +81,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
         if face is None:
             self.report({"INFO"}, translated("There is no face under the mouse"))
             return {"CANCELLED"}
-        return self._begin_with(context, self._start_work)
+        return self._begin_with(context, self._start)
 
     @staticmethod
     def _only_visible(obj: bpy.types.Object) -> int:
@@ -89,7 +89,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
             return painted.only_visible_face_set(shown.data)
 
     def _check_level(self, level: int, options: FairOptions) -> None:
-        super()._check_level(level, options)
+        FairsOutside._check_level(self, level, options)
         if level and self.source == "MASK":
             raise ValueError(
                 "Blender shows extensions no mask of a multiresolution level: "

@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import bpy
@@ -23,18 +23,16 @@ from ..host.context import active_object
 from ..host.polling import require, require_idle
 from ..mesh import levels, mesh_io, painted
 from ..mesh.free_normals import free_normals
-from ..preferences import background_from
 from ..translations import translated
 from . import compare, last_run
-from .background import Work
+from .asked import Asked, Say
 from .fair_arrays import fair_arrays
 from .fair_mesh import read, write
-from .finish import Say
 from .job import Refused
 from .labels import with_idle
 from .option_properties import FairProperties
 from .redo import Redone
-from .report_properties import store, store_refusal
+from .report_properties import store
 
 # Where dynamic topology has put the vertices cannot be told.
 MIXED = "Vertices lie on each other, which dynamic topology mixes up: merge them by distance, or turn it off"
@@ -89,55 +87,42 @@ def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
         yield shown
 
 
-class Asked:
-    """What one run was asked for: a change in the redo panel, if it is one."""
+class AskedOutside(Asked):
+    """What one run was asked for."""
 
     def __init__(self, task: Task, begin: float) -> None:
         """begin: of the performance counter."""
         self.task, self.begin = task, begin
-        self.names: tuple[str, ...] = (task.object_name,)
-        self.size = int(np.count_nonzero(free_vertices(task.mesh)))
-        self.work: Work = partial(solve, task)
-        self._shown: Floats | None = None  # (n, 3) positions of the mesh while another result is shown
+        self._shown = task.before
 
     @property
-    def is_shown(self) -> bool:
-        """Whether anything is shown in place of the answer."""
-        return self._shown is not None
+    def names(self) -> tuple[str, ...]:
+        """Of the object."""
+        return (self.task.object_name,)
 
-    def show_last(self) -> None:
-        """Show the last run's result, where it began from the same mesh; without shape keys, which would go along."""
-        obj, found = (
-            bpy.data.objects[self.task.object_name],
-            compare.result_from(self.task.object_name, self.task.before),
-        )
-        if found is not None and obj.data.shape_keys is None:
-            self._write_positions(obj, *found)
-            self._shown = self.task.before.copy()
-            self._shown[found[0]] = found[1]
+    @cached_property
+    def size(self) -> int:
+        """Free vertices."""
+        return int(np.count_nonzero(free_vertices(self.task.mesh)))
 
-    def show(self) -> None:
-        """Nothing else is shown."""
-
-    def take_back(self) -> None:
-        """Let the mesh be as it was read."""
-        if self._shown is not None:
-            vertices = np.flatnonzero((self._shown != self.task.before).any(axis=1))
-            self._write_positions(bpy.data.objects[self.task.object_name], vertices, self.task.before[vertices])
-            self._shown = None
-
-    @staticmethod
-    def _write_positions(obj: bpy.types.Object, vertices: Ints, positions: Floats) -> None:
-        with in_object_mode(obj):
-            mesh_io.write_mesh(obj.data, vertices, positions)
+    def work(self, progress: Progress) -> Fairing:
+        """Find the surface."""
+        return solve(self.task, progress)
 
     def is_as_read(self, context: bpy.types.Context) -> bool:
         """Return whether the mesh is as it was read."""
         return self._is_at(context, self.task.before)
 
+    def keep_shown(self, context: bpy.types.Context) -> None:
+        """Remember the mesh as it is now."""
+        obj = active_object(context)
+        if obj is not None and obj.name == self.task.object_name and obj.mode in MODES:
+            with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
+                self._shown = painted.positions(shown.data)
+
     def is_as_shown(self, context: bpy.types.Context) -> bool:
-        """Return whether it is as it was read, but for what is shown."""
-        return self._is_at(context, self.task.before if self._shown is None else self._shown)
+        """Return whether it still is."""
+        return self._is_at(context, self._shown)
 
     def _is_at(self, context: bpy.types.Context, positions: Floats) -> bool:
         obj = active_object(context)
@@ -148,15 +133,8 @@ class Asked:
         with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
             return renumbered(positions, painted.positions(shown.data)) is not None
 
-    def settle(self, context: bpy.types.Context, answer: Callable[[], Fairing], say: Say) -> set[str]:
-        """Write and report the answer, or why it is not written; return an operator's status."""
-        try:
-            return self.finish(context, answer(), say)
-        except Refused as refusal:
-            return refuse(context, refusal, say)
-
     def finish(self, context: bpy.types.Context, outcome: Fairing, say: Say) -> set[str]:
-        """Write and report what the run came to."""
+        """Write and report what the run came to; return an operator's status."""
         task, obj = self.task, active_object(context)
         report = make_report([(task.object_name, outcome)], task.options, time.perf_counter() - self.begin)
         report = with_idle(report, task.options)
@@ -168,7 +146,7 @@ class Asked:
         with in_object_mode(obj):
             written = self._write(obj, outcome)
         if not written:
-            return refuse(context, Refused(task.object_name, ValueError(MIXED)), say)
+            return self.refuse(context, Refused(task.object_name, ValueError(MIXED)), say)
         say({"INFO"}, translated(summary(report)))
         return {"FINISHED"}
 
@@ -189,22 +167,11 @@ class Asked:
         return True
 
 
-def refuse(context: bpy.types.Context, refusal: Refused, say: Say) -> set[str]:
-    """Say why nothing is written."""
-    store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
-    last_run.forget()
-    say({"ERROR"}, translated(str(refusal)))
-    return {"CANCELLED"}
-
-
 class FairsOutside(FairProperties, Redone):
     """An operator that fairs the active object outside edit mode, but for `_faces`, which says what of it."""
 
     if TYPE_CHECKING:
         _faces: Callable[[bpy.types.Object], Ints]  # in object mode; raises ValueError where there are none
-
-    _task: Task
-    _begin: float
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -216,8 +183,8 @@ class FairsOutside(FairProperties, Redone):
             and require_idle(cls, context)
         )
 
-    def _read(self, context: bpy.types.Context) -> bool:
-        self._begin = time.perf_counter()
+    def _read(self, context: bpy.types.Context) -> AskedOutside:
+        begin = time.perf_counter()
         obj = active_object(context)
         if obj.mode == "SCULPT" and not self.is_repeated(context):
             bpy.ops.ed.undo_push(message="Before Fair Masked")  # strokes are steps of another kind
@@ -231,10 +198,9 @@ class FairsOutside(FairProperties, Redone):
             if dynamic and options.mesh == "NEW":
                 raise ValueError("Dynamic topology makes faces of its own: turn Remesh off")
             with in_object_mode(obj):
-                self._task = replace(self._read_object(obj, options, level), dynamic=dynamic)
+                return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic), begin)
         except REFUSALS as cause:
             raise Refused(obj.name, cause) from cause
-        return True
 
     def _check_level(self, level: int, options: FairOptions) -> None:
         """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""
@@ -247,25 +213,6 @@ class FairsOutside(FairProperties, Redone):
         with levels.at_level(obj, level) as shown:
             mesh, matrix = read(shown.data, faces.tolist(), matrix, options)
             return Task(obj.name, mesh, matrix, options, painted.positions(shown.data), level)
-
-    def _asked(self) -> Asked:
-        return Asked(self._task, self._begin)
-
-    def _work(self) -> Work:
-        return partial(solve, self._task)
-
-    def _start_work(self, context: bpy.types.Context) -> set[str]:
-        asked = self._asked()
-        return self._start(context, asked.work, asked.size >= background_from(context))
-
-    def _is_current(self, context: bpy.types.Context) -> bool:
-        return self._asked().is_as_read(context)
-
-    def _apply(self, context: bpy.types.Context, outcome: Fairing) -> set[str]:
-        return self._asked().finish(context, outcome, self.report)
-
-    def _refuse(self, context: bpy.types.Context, refusal: Refused) -> set[str]:
-        return refuse(context, refusal, self.report)
 
 
 def check_shown(obj: bpy.types.Object) -> None:

@@ -5,7 +5,7 @@ The run's thread gives them, the main thread shows them. What the mesh was comes
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import bpy
 import numpy as np
@@ -51,16 +51,6 @@ class Preview:
             there = positions.astype(np.float32).astype(np.float64)
             self._shown.append(_Shown(name, vertices, task.mesh.positions[vertices], there))
 
-    @property
-    def is_shown(self) -> bool:
-        """Whether anything is."""
-        return bool(self._shown)
-
-    def tasks_as_shown(self) -> list[Task]:
-        """Return the tasks with their meshes as they are shown now."""
-        shown = {each.name: each for each in self._shown}
-        return [_moved(task, shown[name]) if name in shown else task for name, task in self._tasks.items()]
-
     def take_back(self) -> None:
         """Put everything back that is where it was shown; main thread, and no harm where nothing was."""
         objects = _by_name()
@@ -69,12 +59,6 @@ class Preview:
             obj = objects.get(shown.name)
             if obj is not None:
                 mesh_io.move_vertices_back(obj.data, shown.vertices, shown.there, shown.before)
-
-
-def _moved(task: Task, shown: _Shown) -> Task:
-    positions = task.mesh.positions.copy()
-    positions[shown.vertices] = shown.there
-    return replace(task, mesh=replace(task.mesh, positions=positions))
 
 
 def _by_name() -> dict[str, bpy.types.Object]:

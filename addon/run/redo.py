@@ -1,16 +1,18 @@
 # mypy: disable-error-code="valid-type"
-"""Changes in the redo panel: another surface at once, the fair one in its place as soon as it is found.
+"""Changes in the redo panel: the result before them at once, the answer in its place as soon as it is found.
 
 Blender takes the last run's step of undo back and calls `execute`. Small selections get PROMPT to be answered there.
-Otherwise the result before the change is shown, and a thread searches, which begins once the operator has ended. With
-its answer Blender is made to repeat the operator: as ever there is one step of undo, with the answer in it.
+Otherwise the result before is shown: vertices are moved there again, or where there are new ones the operator is
+cancelled, for which Blender goes back to it. A thread searches, which begins once the operator has ended. With its
+answer Blender is made to repeat the operator: as ever there is one step of undo, with the answer in it.
 
 No postponed annotations here: Blender reads them as property definitions.
 """
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import bpy
 from bpy.props import BoolProperty
@@ -21,53 +23,23 @@ from ..core import runner
 from ..host.handlers import call_later, call_off, hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from ..preferences import background_from
-from .background import TICK, Watched, Work, has_events, under_way
-from .finish import Say
-from .report_properties import clear, store_first
+from .asked import Asked, Say
+from .background import TICK, Watched, has_events, under_way
+from .report_properties import clear, store_awaited
 
-PROMPT = 0.06  # seconds that the engine may hold Blender up; with reading, writing and undo a change stays below 0.1
+PROMPT = 0.06  # seconds for reading and an answer; with writing and undo a change stays below 0.1
 SOON = 0.01  # seconds until the threads in the way are looked at again
 BLINK = 0.02  # seconds that a change waits for the search before it to stop
 AWAITED = "Looking for the fair surface: another one is shown meanwhile"
-KEPT = "Another surface was kept: the mesh changed before the fair one was found"
+KEPT = "Another surface was kept: something changed before the fair one was found"
 GIVEN_UP = "Another surface was kept: the search for the fair one was cancelled"
 NOT_TAKEN = "{reason}. The surface before was kept"
-
-
-class Change(Protocol):
-    """What a change in the panel asks for, and the meshes that it is about."""
-
-    names: tuple[str, ...]  # of the objects
-    size: int  # free vertices
-    work: Work  # gives the answer; any thread
-
-    @property
-    def is_shown(self) -> bool:
-        """Whether another surface is shown meanwhile."""
-
-    def show_last(self) -> None:
-        """Show the result before the change, where it began from the same meshes."""
-
-    def show(self) -> None:
-        """Show the first surfaces that `work` has come by so far, where nothing is shown yet."""
-
-    def take_back(self) -> None:
-        """Let the meshes be as they were read."""
-
-    def is_as_read(self, context: bpy.types.Context) -> bool:
-        """Return whether the meshes are as they were read."""
-
-    def is_as_shown(self, context: bpy.types.Context) -> bool:
-        """Return whether they are as they were read, but for what is shown."""
-
-    def settle(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
-        """Write and report the answer, or report why it isn't written; return an operator's status."""
 
 
 class Following:
     """One change whose answer is awaited while Blender goes on."""
 
-    def __init__(self, change: Change, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
+    def __init__(self, change: Asked, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
         """operator: the one in the panel, maybe a macro. Of both only where Blender keeps them: they may be freed."""
         self.change, self.step = change, operator.name
         self.operator, self.window = operator.as_pointer(), window.as_pointer()
@@ -78,22 +50,22 @@ class Following:
 
     def begin(self, context: bpy.types.Context) -> None:
         """Let Blender go on; the search begins at the first look."""
-        clear(context.window_manager.fairing_report)
+        store_awaited(context.window_manager.fairing_report, self.change.names, self.change.size, AWAITED)
         under_way.append(self)
         self.show(context)
         watch()
 
+    def search(self, context: bpy.types.Context) -> None:
+        """Begin, now that the result before is there again."""
+        self.change.keep_shown(context)
+        self.run = runner.Run(self.change.work)
+
     def show(self, context: bpy.types.Context) -> None:
-        """Show how far it is, and its first surface, unless that would move what is being edited."""
-        if not is_being_edited(context):
-            self.change.show()
-        report, change = context.window_manager.fairing_report, self.change
-        if change.is_shown and not report.written:
-            store_first(report, change.names, change.size, AWAITED)
+        """Show how far it is."""
         show_following(context, 0.0 if self.run is None else self.run.fraction)
 
-    def end(self, reason: str = "") -> None:
-        """Await it no more; another surface stays, for which the report then gives this reason."""
+    def end(self, reason: str = GIVEN_UP) -> None:
+        """Await it no more; the result before stays, for which the report then gives this reason."""
         if self in under_way:
             under_way.remove(self)
         if self.timer is not None:
@@ -103,8 +75,7 @@ class Following:
             self.run.cancel()
             self.run.wait(BLINK)  # what it has prepared is of use to the next one
         hide_following(bpy.context)
-        if reason and self.change.is_shown:
-            bpy.context.window_manager.fairing_report.reason = reason
+        bpy.context.window_manager.fairing_report.reason = reason
 
     def is_last(self, context: bpy.types.Context) -> bool:
         """Return whether it is this operator that Blender would repeat, for which it needs an area."""
@@ -134,7 +105,7 @@ class Redone(Watched):
     if TYPE_CHECKING:
         options: Any
         as_pointer: Callable[[], int]
-        _asked: Callable[[], Change]
+        _asked: Asked
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Return when done, but for a change in the redo panel.
@@ -144,7 +115,7 @@ class Redone(Watched):
         if _Repeat.now is not None:
             return _Repeat.now.settle(context, self.report)
         if has_events(context) and self.is_repeated(context):
-            return self._begin_with(context, self._change)
+            return self._begin_with(context, partial(self._change, time.perf_counter() + PROMPT))
         return super().execute(context)
 
     def is_repeated(self, context: bpy.types.Context) -> bool:
@@ -155,20 +126,16 @@ class Redone(Watched):
         steps = kept[-1].macros if len(kept) else ()
         return any(step.as_pointer() == self.as_pointer() for step in steps)
 
-    def _change(self, context: bpy.types.Context) -> set[str]:
-        change = self._asked()
-        if change.size < background_from(context):
-            end = time.perf_counter() + PROMPT
+    def _change(self, end: float, context: bpy.types.Context) -> set[str]:
+        asked = self._asked
+        if asked.size < background_from(context):
             try:
-                outcome = change.work(lambda *_: time.perf_counter() < end)
+                return asked.settle(context, lambda: asked.work(lambda *_: time.perf_counter() < end), self.report)
             except fairing.Cancelled:
                 pass  # it takes longer
-            else:
-                return change.settle(context, lambda: outcome, self.report)
-        change.show_last()
         kept = context.window_manager.operators
-        Following(change, kept[-1], context.window).begin(context)
-        return {"FINISHED"}
+        Following(asked, kept[-1], context.window).begin(context)
+        return {"FINISHED"} if asked.swap(context) else {"CANCELLED"}
 
 
 def _following() -> Following | None:
@@ -187,9 +154,9 @@ def look(context: bpy.types.Context) -> bool:
     if following is None:
         return False
     if following.unwanted:
-        following.end(GIVEN_UP)
+        following.end()
     elif following.run is None:
-        following.run = runner.Run(following.change.work)
+        following.search(context)
     elif following.run.finished and not is_being_edited(context) and not is_held():
         _collect(context, following)
     else:
@@ -268,7 +235,7 @@ class MESH_OT_fair_follow(bpy.types.Operator):
     def cancel(self, _context: bpy.types.Context) -> None:
         """Give it up; Blender calls this when it closes a window."""
         if self._following is not None and self._following is _following():
-            self._following.end(GIVEN_UP)
+            self._following.end()
 
 
 def _collect(context: bpy.types.Context, following: Following) -> None:
@@ -282,34 +249,41 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
             bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
         finally:
             _Repeat.now = None
-    elif current:  # something else was selected meanwhile
-        change.take_back()
+    elif current and change.swap(context):  # something else was selected meanwhile
         following.settle(context, lambda _kinds, _text: None)
         if following.settled:
             bpy.ops.ed.undo_push(message=following.step)
         else:
-            change.show_last()
+            change.swap(context)
     if not following.settled and not report.written and change.is_as_shown(context):
         report.reason, report.written = NOT_TAKEN.format(reason=report.reason), True
+        report.free_vertices = report.free_vertices or max(1, round(change.size))
     redraw_sidebars(context)
 
 
-def _on_step(*_arguments: object) -> None:
-    """After an undo or a redo nothing is awaited any more: a change in the panel begins with an undo, too."""
+def _on_undo(*_arguments: object) -> None:
+    """Nothing is awaited any more: a change in the panel begins with an undo, too."""
     following = _following()
     if following is not None:
         following.end()
         clear(bpy.context.window_manager.fairing_report)
 
 
+def _on_redo(*arguments: object) -> None:
+    """Likewise, but for the one by which Blender itself goes back to the result before a change."""
+    following = _following()
+    if following is not None and following.run is not None:
+        _on_undo(*arguments)
+
+
 def register() -> None:
     """Hear of steps of undo."""
-    listen(bpy.app.handlers.undo_post, _on_step)
-    listen(bpy.app.handlers.redo_post, _on_step)
+    listen(bpy.app.handlers.undo_post, _on_undo)
+    listen(bpy.app.handlers.redo_post, _on_redo)
 
 
 def unregister() -> None:
     """Hear of them no more."""
     call_off(_watch)
-    unlisten(bpy.app.handlers.redo_post, _on_step)
-    unlisten(bpy.app.handlers.undo_post, _on_step)
+    unlisten(bpy.app.handlers.redo_post, _on_redo)
+    unlisten(bpy.app.handlers.undo_post, _on_undo)

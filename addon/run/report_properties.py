@@ -65,10 +65,10 @@ def store_refusal(shown: Any, object_name: str, reason: str) -> None:
     shown.objects, shown.verdict, shown.reason = object_name, UNUSABLE, reason
 
 
-def store_first(shown: Any, objects: Sequence[str], free_vertices: int, reason: str) -> None:
-    """Let a FairReport show that a first surface is there, and why no better one."""
+def store_awaited(shown: Any, objects: Sequence[str], size: float, reason: str) -> None:
+    """Let a FairReport show that the result before is there, and why no other one."""
     clear(shown)
-    shown.objects, shown.free_vertices, shown.written = ", ".join(objects), free_vertices, True
+    shown.objects, shown.free_vertices, shown.written = ", ".join(objects), max(1, round(size)), True
     shown.verdict, shown.reason = LOOK, reason
 
 

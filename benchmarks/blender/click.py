@@ -96,7 +96,9 @@ def in_background() -> None:
     job, options = module("run.job"), module("core.options").FairOptions()
     tasks = job.read(bpy.context, options)
     outcomes = module("core.runner").Run(partial(job.solve, tasks, options, ahead=True)).result()
-    job.write(bpy.context, tasks, outcomes)
+    job.write_each(
+        bpy.context, [(task.object_name, of) for task, of in zip(tasks, outcomes, strict=True)], job.write_one
+    )
     bpy.ops.ed.undo_push(message="fair")
 
 

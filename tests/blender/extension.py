@@ -31,3 +31,13 @@ def give_options(stand: Any, **chosen: Any) -> Any:
         setattr(stand, name, value)
     stand.take_names_before = lambda: None
     return stand
+
+
+def stand_in(operator: Any, **own: Any) -> Any:
+    """Return an object with an operator's methods, which Blender alone can make; `reported` has what it says."""
+    ours = [kind for kind in reversed(operator.__mro__) if kind.__module__.startswith(ID)]
+    names = {name: value for kind in ours for name, value in vars(kind).items() if not name.startswith(("__", "bl_"))}
+    stand = type("Stand", (), {**names, **own})()
+    stand.reported = []
+    stand.report = lambda kinds, text: stand.reported.append((kinds, text))
+    return stand

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import meshes
-from extension import module
+from extension import module, stand_in
 
 Chosen = Callable[[Any], bool]
 
@@ -305,27 +305,19 @@ def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
 
 def test_escape_leaves_the_hole_open() -> None:
     """In the background, with a stand-in for the operator: there is no window here."""
-    original, go_on = module("run.fill").MESH_OT_fair_fill, threading.Event()
+    go_on = threading.Event()
     obj = open_sphere()
     select_vertices(obj, lambda _: True)
     count = len(bmesh.from_edit_mesh(obj.data).faces)
     fill_module, options = module("run.fill"), module("core.filling").FillOptions()
     tasks = fill_module.read(bpy.context, options)
 
-    class Stand:
-        modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
-        _stop_watching, _is_current, _write = original._stop_watching, original._is_current, original._write
-        _signs, _begin, _options, _tasks = None, 0.0, options, tasks
-
-        def report(self, _kinds: set[str], _text: str) -> None:
-            pass
-
     def work(progress: Any) -> Any:
         assert go_on.wait(10.0)
         return fill_module.solve(tasks, options, progress)
 
     for kind, answer, added in (("ESC", {"CANCELLED"}, False), ("TIMER", {"FINISHED"}, True)):
-        operator: Any = Stand()
+        operator = stand_in(fill_module.MESH_OT_fair_fill, _asked=fill_module.Asked(tasks, options, 0.0))
         operator._run = module("core.runner").Run(work)
         event = SimpleNamespace(type="TIMER", value="PRESS")
         if not go_on.is_set():

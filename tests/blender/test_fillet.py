@@ -13,7 +13,7 @@ import pytest
 
 import letters
 import meshes
-from extension import module
+from extension import module, stand_in
 
 WIDTH = 0.3
 
@@ -190,27 +190,14 @@ def test_no_seam_and_open_borders_are_refused() -> None:
         run(obj, edge_mask(obj, lambda ends: np.allclose(ends[:, 0], 1.0)))
 
 
-class Stand:
-    """The operator's methods without Blender's own part."""
-
-    def __init__(self) -> None:
-        fillet = module("run.fillet")
-        self._operator = fillet.MESH_OT_fair_fillet
-        self.reported: list[Any] = []
-        for field in ("width_2", "spacing", "profile"):
-            setattr(self, field, 0.0)
-        self.width, self.continuity, self.width_group = 0.1, "G1", ""
-        self.max_vertices = self.limit_total = 0
-        self.confirm_on_release = self.quads = False
-        self._timer, self._begin = None, 0.0
-        self._tasks = fillet.read(bpy.context, "")
-
-    def __getattr__(self, name: str) -> Any:
-        method = getattr(object.__getattribute__(self, "_operator"), name)
-        return method.__get__(self)
-
-    def report(self, kinds: set[str], text: str) -> None:
-        self.reported.append((kinds, text))
+def stand() -> Any:
+    """The operator's methods without Blender's own part, and what it has read."""
+    fillet = module("run.fillet")
+    made = stand_in(fillet.MESH_OT_fair_fillet, confirm_on_release=False)
+    for name, value in module("core.option_table").defaults(module("core.fill_options").FILLET).items():
+        setattr(made, name, value)
+    made._asked = made._read(bpy.context)
+    return made
 
 
 def event(kind: str, value: str = "PRESS", at: tuple[int, int] = (0, 0), ascii: str = "") -> Any:
@@ -227,23 +214,23 @@ def shown() -> Any:
     fillet.previews.remove(reported.append)
 
 
-def dragged(stand: Stand, way: int) -> None:
-    stand._follow(event("MOUSEMOVE"), 0.01)
-    assert stand.modal(bpy.context, event("MOUSEMOVE", at=(0, way))) == {"RUNNING_MODAL"}
-    assert stand.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+def dragged(operator: Any, way: int) -> None:
+    operator._follow(event("MOUSEMOVE"), 0.01)
+    assert operator.modal(bpy.context, event("MOUSEMOVE", at=(0, way))) == {"RUNNING_MODAL"}
+    assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
 
 
 def test_the_mouse_moves_the_width_and_a_click_accepts(shown: Any) -> None:
     obj = cube()
     enter(obj, edge_mask(obj, upright))
     try:
-        stand = Stand()
+        operator = stand()
         before = snapshot()
-        dragged(stand, 30)
-        assert stand.width == pytest.approx(WIDTH)
+        dragged(operator, 30)
+        assert operator.width == pytest.approx(WIDTH)
         assert len(shown[-1][0].surface[1]) > 50
         assert snapshot() == before
-        assert stand.modal(bpy.context, event("LEFTMOUSE")) == {"FINISHED"}
+        assert operator.modal(bpy.context, event("LEFTMOUSE")) == {"FINISHED"}
         assert shown[-1] == []
     finally:
         meshes.leave()
@@ -254,20 +241,20 @@ def test_the_wheel_changes_the_profile_and_digits_the_width(shown: Any) -> None:
     obj = cube()
     enter(obj, edge_mask(obj, upright))
     try:
-        stand = Stand()
-        dragged(stand, 10)
+        operator = stand()
+        dragged(operator, 10)
         round_top = max(shown[-1][0].surface[0][:, :2].sum(axis=1))
         for kind, character in (("ZERO", "0"), ("PERIOD", "."), ("THREE", "3")):
-            stand.modal(bpy.context, event(kind, ascii=character))
-        assert stand.width == pytest.approx(0.3)
-        stand.modal(bpy.context, event("MOUSEMOVE", at=(0, 80)))  # what is typed stays
-        assert stand.width == pytest.approx(0.3)
-        stand.modal(bpy.context, event("TIMER"))
+            operator.modal(bpy.context, event(kind, ascii=character))
+        assert operator.width == pytest.approx(0.3)
+        operator.modal(bpy.context, event("MOUSEMOVE", at=(0, 80)))  # what is typed stays
+        assert operator.width == pytest.approx(0.3)
+        operator.modal(bpy.context, event("TIMER"))
         wide_top = max(shown[-1][0].surface[0][:, :2].sum(axis=1))
         for _ in range(5):
-            stand.modal(bpy.context, event("WHEELUPMOUSE"))
-        assert stand.profile == pytest.approx(0.5)
-        stand.modal(bpy.context, event("TIMER"))
+            operator.modal(bpy.context, event("WHEELUPMOUSE"))
+        assert operator.profile == pytest.approx(0.5)
+        operator.modal(bpy.context, event("TIMER"))
         sharp_top = max(shown[-1][0].surface[0][np.abs(shown[-1][0].surface[0][:, 2]) < 0.3][:, :2].sum(axis=1))
         assert sharp_top > wide_top - 1e-9 or sharp_top > 2 - 0.2
         assert round_top <= 2.0 + 1e-6
@@ -279,10 +266,10 @@ def test_escape_leaves_every_bit(shown: Any) -> None:
     obj = cube()
     enter(obj, edge_mask(obj, upright))
     try:
-        stand = Stand()
+        operator = stand()
         before = snapshot()
-        dragged(stand, 30)
-        assert stand.modal(bpy.context, event("ESC")) == {"CANCELLED"}
+        dragged(operator, 30)
+        assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
         assert snapshot() == before
         assert shown[-1] == []
     finally:
@@ -293,11 +280,11 @@ def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> Non
     obj = cube()
     meshes.enter(obj, np.ones(6, dtype=bool))
     try:
-        stand = Stand()
-        dragged(stand, 150)
+        operator = stand()
+        dragged(operator, 150)
         assert shown[-1] == []
-        assert "leaves nothing" in stand._reason
-        assert stand.modal(bpy.context, event("ESC")) == {"CANCELLED"}
+        assert "leaves nothing" in operator._reason
+        assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
     finally:
         meshes.leave()
 

@@ -13,7 +13,7 @@ import pytest
 
 import meshes
 from clocks import assert_was_quick, clocks
-from extension import module
+from extension import module, stand_in
 from test_live import drag, now, switch
 
 
@@ -45,22 +45,8 @@ def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
 
 def clicked() -> Any:
     """A stand-in for the operator with its methods, called as a click would."""
-    original, reported = module("follow.taking").MESH_OT_fair_live_region, []
-
-    class Stand:
-        def report(self, kinds: set[str], text: str) -> None:
-            reported.append((kinds, text))
-
-        def _start_watching(self, context: Any) -> None:
-            self._signs = module("run.background").Signs(context)
-
-    for name in ("invoke", "_begin_with", "_read", "_start_work", "_start", "_is_current", "_apply", "_refuse"):
-        setattr(Stand, name, getattr(original, name))
-    for name in ("modal", "cancel", "_collect", "_stop_watching"):
-        setattr(Stand, name, getattr(original, name))
-    stand = Stand()
-    stand.reported = reported
-    return stand
+    watching = lambda stand, context: setattr(stand, "_signs", module("run.background").Signs(context))  # noqa: E731
+    return stand_in(module("follow.taking").MESH_OT_fair_live_region, _start_watching=watching)
 
 
 def mountain() -> bpy.types.Object:

@@ -9,30 +9,19 @@ import numpy as np
 import pytest
 
 import meshes
-from extension import give_options, inspect, module
+from extension import give_options, inspect, module, stand_in
 
 
 def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     """Return the infos and warnings of a run, from and to object mode."""
-    original = module("run.operators").MESH_OT_fair_region
-    said: list[str] = []
-
-    class Stand:
-        execute, _begin_with = module("run.background").Watched.execute, original._begin_with
-        _read, _work, _asked = original._read, original._work, original._asked
-        _apply, _refuse = original._apply, original._refuse
-        _way, _tasks = "", ()
-
-        def report(self, _kinds: set[str], text: str) -> None:
-            said.append(text)
-
-    stand = give_options(Stand(), **properties)
+    execute = module("run.background").Watched.execute
+    stand = give_options(stand_in(module("run.operators").MESH_OT_fair_region, execute=execute), **properties)
     meshes.edit(*objects)
     try:
         stand.execute(bpy.context)
     finally:
         meshes.leave()
-    return said
+    return [text for _, text in stand.reported]
 
 
 @pytest.mark.parametrize("mode", [(True, False, False), (False, True, False), (False, False, True)])

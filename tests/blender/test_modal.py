@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import meshes
-from extension import give_options, module
+from extension import give_options, module, stand_in
 
 
 def event(kind: str, value: str = "PRESS") -> Any:
@@ -23,18 +23,6 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
     import fairing
 
     job, options = module("run.job"), module("core.options").FairOptions()
-    original = module("run.operators").MESH_OT_fair_region
-
-    class Stand:
-        modal, cancel = original.modal, original.cancel
-        _collect, _apply, _refuse = original._collect, original._apply, original._refuse
-        _stop_watching, _is_current = original._stop_watching, original._is_current
-        _asked, _begin, _options, _notes, _way = original._asked, 0.0, options, (), ""
-
-        def report(self, kinds: set[str], text: str) -> None:
-            reported.append((kinds, text))
-
-    reported: list[Any] = []
     meshes.enter(obj, faces)
     job.memory.clear()
     tasks = job.read(bpy.context, options)
@@ -45,8 +33,8 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
                 raise fairing.Cancelled
         return job.solve(tasks, options, progress)
 
-    stand = Stand()
-    stand.reported, stand._tasks = reported, tasks
+    stand = stand_in(module("run.operators").MESH_OT_fair_region)
+    stand._asked = module("run.finish").Asked(tasks, options, (), 0.0)
     stand._signs = module("run.background").Signs(bpy.context)
     stand._run = module("core.runner").Run(work)
     return stand
@@ -135,11 +123,8 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
         return solve(*arguments)
 
     def started_masked() -> Any:
-        masked = module("run.masked").MESH_OT_fair_masked
-        methods = {**vars(background.Watched), **vars(outside.FairsOutside), **vars(masked)}
-        methods = {name: value for name, value in methods.items() if not name.startswith("__") and name != "bl_rna"}
         watching = lambda stand, context: setattr(stand, "_signs", background.Signs(context))  # noqa: E731
-        stand = type("Stand", (), {**methods, "_start_watching": watching, "report": lambda *_: None})()
+        stand = stand_in(module("run.masked").MESH_OT_fair_masked, _start_watching=watching)
         give_options(stand)
         stand.source, stand.face_set, stand.group, stand.under_mouse = "MASK", 0, "", False
         stand.is_repeated = lambda _context: False
@@ -186,10 +171,10 @@ def test_the_first_surface_is_shown_meanwhile(end: str, go_on: threading.Event) 
     obj, _ = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)
     operator = started(obj, faces, go_on)
-    preview = preview_of.Preview(operator._tasks)
+    preview = preview_of.Preview(operator._asked.tasks)
     operator._signs.preview = preview
     job.memory.clear()
-    job.solve(operator._tasks, fair, lambda *_: True, give=preview.give)  # its thread would do this
+    job.solve(operator._asked.tasks, fair, lambda *_: True, give=preview.give)  # its thread would do this
     start = module("mesh.mesh_io").edit_positions(obj.data)
     assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
     shown = module("mesh.mesh_io").edit_positions(obj.data)
@@ -224,7 +209,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
     meshes.fair(scripted, faces)
     obj, _ = meshes.domed_grid()
     job.memory.clear()
-    original, solve = operators.MESH_OT_fair_region, job.solve
+    solve = job.solve
     ahead: list[bool] = []
     watched: list[Any] = []
 
@@ -233,21 +218,11 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         assert quick or go_on.wait(10.0)
         return solve(*arguments, **rest)
 
-    class Stand:
-        invoke, _begin_with, _start_work = original.invoke, original._begin_with, original._start_work
-        _asked = original._asked
-        modal, cancel, _collect, _apply = original.modal, original.cancel, original._collect, original._apply
-        _stop_watching, _refuse = original._stop_watching, original._refuse
-        _start, _read, _is_current, _way = original._start, original._read, original._is_current, ""
+    def watching(stand: Any, context: Any) -> None:
+        stand._signs = background.Signs(context)
+        watched.append(stand)
 
-        def _start_watching(self, context: Any) -> None:
-            self._signs = background.Signs(context)
-            watched.append(self)
-
-        def report(self, _kinds: set[str], _text: str) -> None:
-            pass
-
-    operator = give_options(Stand())
+    operator = give_options(stand_in(operators.MESH_OT_fair_region, _start_watching=watching))
     monkeypatch.setattr(operators.job, "solve", slow)
     monkeypatch.setattr(background, "has_events", lambda _context: True)
     monkeypatch.setattr(background, "MOMENT", 10.0 if quick else 0.01)

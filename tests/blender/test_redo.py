@@ -1,9 +1,4 @@
-"""Changes in the redo panel: Blender goes on with another surface, and the fair one follows.
-
-Blender's own operator takes the last run back and repeats it, as the panel does; looks are taken from here. Both are
-called from a window, without `temp_override`, which these tests need. Then no other thread may run Python meanwhile, or
-Blender crashes: threads wait at a gate, which takes no lock of Python.
-"""
+"""Changes in the redo panel: Blender goes on with another surface, and the fair one follows."""
 
 from __future__ import annotations
 
@@ -19,114 +14,11 @@ import pytest
 
 import clocks
 import meshes
+from changes import Panel, in_view
 from extension import module
 
 LONGEST = 0.1  # seconds of the processor that a change may hold Blender up
 WORSE = {"shape": "HARMONIC", "max_iterations": 1}  # of which nothing comes
-
-
-class Panel:
-    """The redo panel of one run, whose changes are searched for in threads that wait at gates."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.redo, job = module("run.redo"), module("run.job")
-        self.is_open = False
-        self.gates: list[threading.Event] = []
-        self.given = threading.Event()
-        solve = job.solve
-        import fairing
-
-        def slow(tasks: Any, options: Any, progress: Any, ahead: bool = False, give: Any = None) -> Any:
-            if threading.current_thread() is threading.main_thread():
-                return solve(tasks, options, progress, ahead, give)
-            gate = threading.Event()
-            if self.is_open:
-                gate.set()
-            self.gates.append(gate)
-            found = solve(tasks, options, progress, ahead, give)
-            self.given.set()
-            gate.wait()
-            if not progress(0.5, ""):
-                raise fairing.Cancelled
-            return found
-
-        self.obj, self.faces = meshes.domed_grid()
-        self.before = meshes.positions(self.obj)
-        self.name = self.obj.name
-        meshes.enter(self.obj, self.faces)
-        bpy.ops.ed.undo_push(message="Begin")
-        assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
-        self.first_run = self.positions()
-        monkeypatch.setattr(self.redo, "has_events", lambda _context: True)
-        monkeypatch.setattr(self.redo, "background_from", lambda _context: 0)
-        monkeypatch.setattr(self.redo, "watch", lambda: None)
-        monkeypatch.setattr(self.redo, "is_held", lambda: False)
-        monkeypatch.setattr(job, "solve", slow)
-        job.memory.clear()
-
-    @staticmethod
-    def threads() -> list[threading.Thread]:
-        return [thread for thread in threading.enumerate() if thread.name == "fairing"]
-
-    @property
-    def report(self) -> Any:
-        return bpy.context.window_manager.fairing_report
-
-    @property
-    def follows(self) -> bool:
-        return bool(bpy.context.window_manager.fairing_progress.following)
-
-    def positions(self) -> Any:
-        """Of the mesh in edit mode, float32 as Blender has them: undo replaces the object."""
-        mesh = bpy.data.objects[self.name].data
-        return module("mesh.mesh_io").edit_positions(mesh).astype(np.float32)
-
-    def leave_panel(self, **options: Any) -> None:
-        """Change options in the panel; Blender goes on before anything is searched for."""
-        operator = bpy.context.window_manager.operators[-1]
-        operator = operator.macros[0] if len(operator.macros) else operator
-        for name, value in options.items():
-            setattr(operator.properties, name, value)
-        before = self.threads()
-        with in_view():
-            bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
-        assert set(self.threads()) <= set(before)  # none begins inside an operator
-
-    def change(self, **options: Any) -> None:
-        """Change options in the panel, and let the search come as far as it does alone."""
-        self.leave_panel(**options)
-        self.open()  # for those that were cancelled
-        self.given.clear()
-        self.is_open, kept = False, self.is_open
-        self.look()
-        assert not self.follows or self.given.wait(10.0)
-        self.look()
-        self.is_open = kept
-
-    def look(self) -> bool:
-        """Take a look, and return whether another is to come."""
-        with in_view():
-            return bool(self.redo.look(bpy.context))
-
-    def open(self) -> None:
-        for gate in self.gates:
-            gate.set()
-
-    def settle(self) -> None:
-        """Let the answers come, and the timer look until none is awaited."""
-        self.open()
-        end = time.perf_counter() + clocks.STUCK
-        while self.look():
-            assert time.perf_counter() < end
-            time.sleep(0.01)
-        assert not self.follows
-
-
-def in_view() -> Any:
-    """The context that an operator has in a 3D view."""
-    area = next(area for area in bpy.context.window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    return bpy.context.temp_override(area=area, region=region)
 
 
 def expected(**options: Any) -> Any:
@@ -141,8 +33,7 @@ def expected(**options: Any) -> Any:
 def panel(monkeypatch: pytest.MonkeyPatch) -> Iterator[Panel]:
     made = Panel(monkeypatch)
     yield made
-    made.open()
-    module("run.background").stop_all()
+    made.end()
 
 
 def test_the_last_result_at_once_and_the_fair_one_in_the_same_step_of_undo(panel: Panel) -> None:
@@ -176,15 +67,6 @@ def check_one_step(panel: Panel) -> None:
     np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
     meshes.leave()
     np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
-
-
-def test_without_a_last_result_the_first_surface_is_shown(panel: Panel) -> None:
-    module("run.compare").forget()
-    panel.change(shape="LEAST_VARIATION")
-    first = panel.positions()
-    assert np.abs(first - panel.before).max() > 1e-3
-    assert np.abs(first - panel.first_run).max() > 1e-6
-    check_one_step(panel)
 
 
 def test_of_several_changes_the_last_one_counts(panel: Panel) -> None:
@@ -247,7 +129,7 @@ def test_what_is_selected_meanwhile_stays_selected(panel: Panel) -> None:
     found = panel.positions()
     assert panel.report.verdict == "GOOD"
     mesh = bpy.data.objects[panel.name].data
-    assert mesh.count_selected_items()[2] == len(panel.faces)
+    assert mesh.count_selected_items()[2] == module("mesh.selecting").face_count(mesh)
     bpy.ops.ed.undo()
     np.testing.assert_array_equal(panel.positions(), panel.first_run)
     bpy.ops.ed.redo()

@@ -13,6 +13,7 @@ import addon_utils
 import bmesh
 import bpy
 
+import change_scenes
 import scenes
 from driver import OUT, Story, in_view, leave_popup, middle, press, tell
 from panel import ID, change_with, module, run_operator, set_options, wait_until
@@ -79,11 +80,7 @@ def _begin_search() -> Story:
     for vertex in bmesh.from_edit_mesh(mesh).verts:
         vertex.co.z *= 1.5
     bmesh.update_edit_mesh(mesh)
-
-    def is_searching() -> bool:
-        return len(_threads()) == 1
-
-    yield from wait_until(is_searching, 20.0)
+    yield from wait_until(_is_searching, 20.0)
 
 
 def _begin_change() -> Story:
@@ -101,11 +98,22 @@ def _begin_change() -> Story:
     yield from wait_until(reported, 60.0)
     yield 1.0
     yield from change_with(shape="LEAST_VARIATION")
+    yield from wait_until(_is_searching, 20.0)
 
-    def is_searching() -> bool:
-        return len(_threads()) == 1
 
-    yield from wait_until(is_searching, 20.0)
+def _begin_fill() -> Story:
+    """The same of a run that makes faces."""
+    change_scenes.hole(7)
+    yield 1.0
+    with in_view():
+        assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True) == {"FINISHED"}
+    yield 1.0
+    yield from change_with(spacing=0.9)
+    yield from wait_until(_is_searching, 20.0)
+
+
+def _is_searching() -> bool:
+    return len(_threads()) == 1
 
 
 def _act(name: str, act: Callable[[], object]) -> Generator[float, None, None]:
@@ -143,7 +151,7 @@ def _finish_run() -> Story:
 def another_file_ends_a_run() -> Story:
     """The same file once more: names and meshes are those that the run has read."""
     same = str(OUT / "same.blend")
-    for begin in (_finish_run, _begin_run, _begin_search, _begin_change):
+    for begin in (_finish_run, _begin_run, _begin_search, _begin_change, _begin_fill):
         yield from begin()
         with in_view():
             bpy.ops.wm.save_as_mainfile(filepath=same)
@@ -169,8 +177,8 @@ def another_file_ends_a_run() -> Story:
 def undo_and_removal_end_a_search() -> Story:
     """And what else takes the mesh away from a change in the redo panel."""
     progress, report = bpy.context.window_manager.fairing_progress, bpy.context.window_manager.fairing_report
-    for name in ("undo", "another mode", "removal"):
-        yield from _begin_change()
+    for begin, name in itertools.product((_begin_change, _begin_fill), ("undo", "another mode", "removal")):
+        yield from begin()
         original, shown = scenes.original(), scenes.positions()
         if name == "undo":
             press("Z", *middle(), ctrl=True)
@@ -194,7 +202,7 @@ def undo_and_removal_end_a_search() -> Story:
             press("TAB", *middle())
             yield 1.0
             assert (scenes.positions() == shown).all()
-        tell(f"{name}: the search has ended")
+        tell(f"{name}, {begin.__name__}: the search has ended")
 
 
 def undo_and_removal_end_a_run() -> Story:
@@ -219,7 +227,7 @@ def undo_and_removal_end_a_run() -> Story:
 
 def disabling_ends_a_run() -> Story:
     """The operator under way is taken back without a word to it; then all is as before the first click."""
-    for begin in (_begin_run, _begin_search, _begin_change):
+    for begin in (_begin_run, _begin_search, _begin_change, _begin_fill):
         yield from begin()
         yield from _act(f"disabled, {begin.__name__}", _disable)
         addon_utils.enable(ID)

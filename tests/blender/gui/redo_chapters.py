@@ -7,6 +7,7 @@ import time
 import bpy
 import numpy as np
 
+import change_scenes
 import scenes
 import spoilt_scenes
 from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, tell, view
@@ -27,6 +28,19 @@ from panel import (
 
 FACTOR = 73  # pixels from the panel's top to the field Factor
 Seconds = tuple[float, float]  # of the processor, and by the wall
+# A scene, the operator, and options of its run and of two changes.
+OTHERS = (
+    (lambda: change_scenes.hole(5), "fair_fill", {}, {"spacing": 0.9}, {"spacing": 0.8}),
+    (lambda: change_scenes.hole(6), "fair_fill", {}, {"spacing": 1.1}, {"spacing": 0.9}),
+    (lambda: change_scenes.hole(7), "fair_fill", {}, {"spacing": 1.1}, {"spacing": 0.9}),
+    (change_scenes.block, "fair_fillet", {"width": 0.3, "spacing": 0.12}, {"width": 0.35}, {"profile": 0.3}),
+    (change_scenes.block, "fair_fillet", {"width": 0.3, "spacing": 0.08}, {"width": 0.35}, {"profile": 0.3}),
+    (change_scenes.block, "fair_fillet", {"width": 0.3, "spacing": 0.04}, {"width": 0.35}, {"profile": 0.3}),
+    (lambda: change_scenes.rings(32), "fair_from_curves", {}, {"spacing": 1.2}, {"spacing": 0.9}),
+    (lambda: change_scenes.rings(64), "fair_from_curves", {}, {"spacing": 1.2}, {"spacing": 0.9}),
+    (lambda: change_scenes.rough_ball(6), "fair_denoise", {}, {"size": 0.6}, {"amount": 0.5}),
+    (lambda: change_scenes.rough_ball(7), "fair_denoise", {}, {"size": 0.6}, {"amount": 0.5}),
+)
 
 
 class _Looks:
@@ -50,7 +64,11 @@ class _Looks:
 
 def _tell_longest(mode: str, click: list[Seconds], changes: list[Seconds], looks: _Looks) -> None:
     tell(f"{mode} mode, {report().free_vertices} free vertices; Blender is held up at most by")
-    for name, seconds in (("the click", click), ("a change", changes), ("a look, or the answer", looks.seconds)):
+    _tell_each({"the click": click, "a change": changes, "a look, or the answer": looks.seconds})
+
+
+def _tell_each(held: dict[str, list[Seconds]]) -> None:
+    for name, seconds in held.items():
         spent, passed = (1e3 * max(column) for column in zip(*seconds, strict=True))
         tell(f"  {name}: {spent:.0f} ms of the processor, {passed:.0f} by the wall")
 
@@ -156,6 +174,45 @@ def changes_outside_edit_mode_do_not_wait() -> Story:
         press("Z", *middle(), ctrl=True, shift=True)
         yield 1.0
         assert (spoilt_scenes.object_positions() == last).all(), "redo did not bring the answer back"
+
+
+def changes_of_the_other_operators_do_not_wait() -> Story:
+    """Of those that make faces, and of Fair Denoise: one change, and another one before its answer is there."""
+    progress = bpy.context.window_manager.fairing_progress
+
+    def settled() -> bool:
+        return not progress.following
+
+    for enter, operator, first, second, third in OTHERS:
+        enter()
+        open_tab()
+        yield 1.0
+        with in_view():
+            assert getattr(bpy.ops.mesh, operator)("EXEC_DEFAULT", True, **first) == {"FINISHED"}
+        yield 0.5
+        shown = scenes.positions()
+        changes, looks = WM_OT_story_redo.seconds, _Looks()
+        changes.clear()
+        yield from change_with(**second)
+        if progress.following:
+            assert np.array_equal(scenes.positions(), shown), "the result before the change is not shown"
+        yield from redo_with(**third)
+        last = scenes.positions()
+        assert not np.array_equal(last, shown), report().reason
+        yield from change_with(**first)
+        assert not progress.following or np.array_equal(scenes.positions(), last)
+        yield from wait_until(settled, 120.0)
+        looks.end()
+        new = len(last) - len(scenes.original())
+        tell(f"{operator}, {len(last)} vertices, {new} new; Blender is held up at most by")
+        _tell_each({"a change": changes, "a look, or the answer": looks.seconds or [(0.0, 0.0)]})
+        last = scenes.positions()
+        press("Z", *middle(), ctrl=True)
+        yield 1.0
+        assert np.array_equal(scenes.positions(), scenes.original()), "undo did not take the run back"
+        press("Z", *middle(), ctrl=True, shift=True)
+        yield 1.0
+        assert np.array_equal(scenes.positions(), last), "redo did not bring the answer back"
 
 
 def a_field_of_the_redo_panel_is_pulled() -> Story:

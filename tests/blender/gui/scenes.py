@@ -30,6 +30,11 @@ def original() -> Any:
     return _original["positions"]
 
 
+def keep_original() -> None:
+    """Let the scene begin with the positions of now."""
+    _original["positions"] = positions()
+
+
 def contents() -> bytes:
     """Positions, selection and flags, as bytes."""
     bm = bmesh.from_edit_mesh(bpy.context.object.data)
@@ -44,7 +49,7 @@ def start(chosen: Any) -> int:
     obj.data.edges.foreach_set("select", [False] * len(obj.data.edges))
     demo_scenes.select(obj, chosen)
     bpy.ops.ed.undo_push(message="scene")
-    _original["positions"] = positions()
+    keep_original()
     return int(np.count_nonzero(chosen))
 
 

@@ -50,6 +50,7 @@ from panel import (
 from redo_chapters import (
     a_field_of_the_redo_panel_is_pulled,
     changes_in_the_redo_panel_do_not_wait,
+    changes_of_the_other_operators_do_not_wait,
     changes_outside_edit_mode_do_not_wait,
 )
 from screen_chapters import SCREENS
@@ -212,6 +213,7 @@ CHAPTERS = (
     finish_a_long_run,
     redo_after_a_long_run,
     changes_in_the_redo_panel_do_not_wait,
+    changes_of_the_other_operators_do_not_wait,
     a_field_of_the_redo_panel_is_pulled,
     in_german,
     judge,

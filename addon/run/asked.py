@@ -1,0 +1,103 @@
+"""What a run was asked for, as it was read, and what becomes of its answer: written and reported, or why it isn't."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import bpy
+
+from ..core.engine import Progress
+from ..translations import translated
+from . import compare, job, last_run
+from .preview import Preview
+from .report_properties import store_refusal
+
+Say = Callable[[set[str], str], object]  # an operator's report
+Work = Callable[[Progress], Any]
+
+
+class Asked:
+    """One run. Each operator has a kind of its own, which says how it is answered and what is written."""
+
+    if TYPE_CHECKING:
+        work: Work  # gives the answer, on arrays alone: any thread; raises job.Refused and fairing.Cancelled
+        is_as_read: Callable[[bpy.types.Context], bool]  # whether the meshes are as they were read
+        # Writes and reports; returns an operator's status, and raises job.Refused.
+        finish: Callable[[bpy.types.Context, Any, Say], set[str]]
+        # Of those whose changes in the redo panel are awaited (redo.py), while the result before them is shown:
+        keep_shown: Callable[[bpy.types.Context], None]  # remembers the meshes as they are now
+        is_as_shown: Callable[[bpy.types.Context], bool]  # whether they still are
+
+        @property
+        def size(self) -> float:
+            """Free vertices; or about how many there will be new."""
+
+        @property
+        def names(self) -> tuple[str, ...]:
+            """Of the objects."""
+
+    preview: Preview | None = None  # of what is shown while a thread is at work
+
+    def work_aside(self, _large: bool) -> Work:
+        """Return the work as a thread does it, from the start where it is large."""
+        return self.work
+
+    def settle(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
+        """Write and report the answer, or why it is not written; return an operator's status."""
+        try:
+            return self.finish(context, answer(), say)
+        except job.Refused as refusal:
+            return self.refuse(context, refusal, say)
+
+    def refuse(self, context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[str]:
+        """Say why nothing is written."""
+        return refuse(context, refusal, say)
+
+    def swap(self, _context: bpy.types.Context) -> bool:
+        """Let the meshes as they were read show the result before, or the other way round; return whether they do."""
+        return False
+
+
+class AskedInEditMode(Asked):
+    """One run over all objects in edit mode."""
+
+    tasks: Sequence[job.AsRead]
+    moves = False  # whether vertices stay the same ones
+    _shown: Sequence[job.AsRead] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the objects."""
+        return tuple(task.object_name for task in self.tasks)
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the meshes are as they were read."""
+        return job.is_current(context, self.tasks)
+
+    def keep_shown(self, context: bpy.types.Context) -> None:
+        """Remember the meshes as they are now."""
+        self._shown = job.as_they_are(context, self.tasks)
+
+    def is_as_shown(self, context: bpy.types.Context) -> bool:
+        """Return whether they still are."""
+        return len(self._shown) > 0 and job.is_current(context, self._shown)
+
+    def swap(self, context: bpy.types.Context) -> bool:
+        """Move vertices; new ones stay, and so does what moved in all shape keys."""
+        if not self.moves or not compare.is_available():
+            return False
+        try:
+            compare.toggle(context)
+        except compare.Changed:
+            return False
+        return True
+
+
+def refuse(context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[str]:
+    """Show what a refusal is about, and leave every mesh as it is."""
+    job.show_vertices(context, refusal.object_name, refusal.elements)
+    store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
+    last_run.forget()
+    say({"ERROR"}, translated(str(refusal)))
+    return {"CANCELLED"}

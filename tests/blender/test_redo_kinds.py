@@ -1,0 +1,293 @@
+"""Changes in the redo panel of the operators that make faces, and of Fair Denoise: as those of Fair Region."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterator
+from typing import Any
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+
+import clocks
+import meshes
+from changes import Kind, Panel, edited
+from extension import module
+from test_denoise import every, rough_ball
+from test_fill import open_sphere, select_vertices
+from test_fillet import cube, edge_mask, upright
+from test_fillet import enter as enter_fillet
+from test_from_curves import circles, wired
+
+LONGEST = 0.1  # seconds of the processor that a change may hold Blender up
+
+
+def _fillet() -> None:
+    obj = cube()
+    enter_fillet(obj, edge_mask(obj, upright))
+
+
+def _curves() -> None:
+    obj = wired(circles(16))
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    meshes.enter(obj, np.zeros(0, dtype=bool))
+    for edge in bmesh.from_edit_mesh(obj.data).edges:
+        edge.select_set(True)
+    bmesh.update_edit_mesh(obj.data)
+
+
+def _keys() -> None:
+    obj, faces = meshes.domed_grid()
+    obj.shape_key_add(name="Basis")
+    points = meshes.positions(obj)
+    points[:, 2] += 0.3 * np.cos(3.0 * points[:, 0])
+    obj.shape_key_add(name="Bent").data.foreach_set("co", points.ravel())
+    meshes.enter(obj, faces)
+
+
+def _denoise() -> None:
+    obj = rough_ball()
+    meshes.enter(obj, every(obj))
+
+
+KINDS = {
+    "fill": Kind(
+        "fair_fill", "fill", lambda: select_vertices(open_sphere(), lambda _: True), {}, {"spacing": 1.5},
+        {"quads": True}, {"max_vertices": 1},
+    ),
+    "fillet": Kind(
+        "fair_fillet", "fillet", _fillet, {"width": 0.3}, {"width": 0.4}, {"profile": 0.5}, {"max_vertices": 1},
+    ),
+    "curves": Kind(
+        "fair_from_curves", "from_curves", _curves, {}, {"spacing": 1.5}, {"quads": True}, {"max_vertices": 1},
+    ),
+    "new mesh": Kind(
+        first={"mesh": "NEW"}, second={"spacing": 1.5}, third={"quads": True}, refused={"max_vertices": 1},
+    ),
+    "all keys": Kind(enter=_keys, first={"all_keys": True}),
+    "denoise": Kind("fair_denoise", "denoise", _denoise, {}, {"amount": 0.5}, {"size": 0.5}),
+}  # fmt: skip
+REFUSED = [name for name, kind in KINDS.items() if kind.refused]
+WRITERS = {
+    "fill": ("mesh.filled", "add_to_edit_mesh"),
+    "fillet": ("mesh.remeshed", "write_edit_mesh"),
+    "curves": ("mesh.spanned", "add_to_edit_mesh"),
+    "new mesh": ("mesh.remeshed", "write_edit_mesh"),
+}
+
+
+@pytest.fixture(params=KINDS)
+def panel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[Panel]:
+    made = Panel(monkeypatch, KINDS[request.param])
+    yield made
+    made.end()
+
+
+def expected(panel: Panel, **options: Any) -> bytes:
+    """What a change comes to that is waited for, in a file of its own."""
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    panel.kind.enter()
+    bpy.ops.ed.undo_push(message="Begin")
+    assert panel.kind.run() == {"FINISHED"}
+    panel.redo.has_events = lambda _context: False
+    panel.leave_panel(**options)
+    assert not panel.follows
+    return edited(bpy.context.object.name)
+
+
+def check_one_step(panel: Panel, **options: Any) -> None:
+    """The answer is that of a run that waits, and one step of undo takes it and what was shown away."""
+    panel.settle()
+    found = panel.now
+    assert "kept" not in panel.report.reason
+    assert "meanwhile" not in panel.report.reason
+    bpy.ops.ed.undo()
+    assert panel.now == panel.original
+    bpy.ops.ed.redo()
+    assert panel.now == found
+    assert found == expected(panel, **options)
+
+
+def test_the_result_before_at_once_and_the_answer_in_the_same_step_of_undo(panel: Panel) -> None:
+    begin = clocks.clocks()
+    panel.leave_panel(**panel.kind.second)
+    spent = clocks.clocks()[0] - begin[0]
+    assert spent < LONGEST
+    assert panel.follows
+    assert panel.now == panel.first
+    assert "another one is shown meanwhile" in panel.report.reason
+    panel.change()
+    assert panel.now == panel.first
+    check_one_step(panel, **panel.kind.second)
+
+
+def test_of_several_changes_the_last_one_counts(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    assert panel.now == panel.first
+    panel.change(**panel.kind.third)
+    assert panel.now == panel.first
+    check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
+
+
+def test_a_change_after_an_answer_shows_that_answer(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    panel.settle()
+    second = panel.now
+    panel.change(**panel.kind.third)
+    assert panel.now == second
+    check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
+
+
+@pytest.mark.parametrize("prompt", [10.0, 0.0])
+def test_a_small_one_is_answered_at_once_or_else_followed(
+    panel: Panel, prompt: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(panel.redo, "PROMPT", prompt)
+    monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1_000_000)
+    panel.change(**panel.kind.second)
+    assert panel.follows == (prompt == 0.0)
+    check_one_step(panel, **panel.kind.second)
+
+
+def test_scripts_wait_in_a_window_too(panel: Panel) -> None:
+    bpy.ops.ed.undo()
+    assert panel.kind.run() == {"FINISHED"}
+    assert not panel.follows
+    assert not panel.threads()
+    assert panel.now == panel.first
+
+
+@pytest.mark.parametrize("what", ["move", "mode", "delete", "cancel", "extrude", "script"])
+def test_what_changes_the_mesh_meanwhile_keeps_what_is_shown(panel: Panel, what: str) -> None:
+    panel.change(**panel.kind.second)
+    if what == "move":
+        bpy.ops.transform.translate("EXEC_DEFAULT", True, value=(0.0, 0.0, 0.1))
+    elif what == "mode":
+        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="OBJECT")
+    elif what == "delete":
+        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="OBJECT")
+        bpy.data.objects.remove(bpy.data.objects[panel.name])
+    elif what == "extrude":
+        bpy.ops.mesh.extrude_region("EXEC_DEFAULT", True)
+    elif what == "script":  # without an operator: it is not the last one that tells
+        mesh = bpy.data.objects[panel.name].data
+        next(iter(bmesh.from_edit_mesh(mesh).verts)).co.z += 1.0
+        bmesh.update_edit_mesh(mesh)
+    else:
+        assert bpy.ops.mesh.fair_cancel() == {"FINISHED"}
+    there = panel.now if what in ("move", "cancel", "extrude", "script") else None
+    panel.settle()
+    assert panel.report.verdict == "LOOK"
+    assert "Another surface was kept" in panel.report.reason
+    if there is not None:
+        assert panel.now == there
+    if what == "mode":
+        bpy.ops.object.mode_set(mode="EDIT")
+        assert panel.now == panel.first
+    if what == "cancel":
+        panel.change(**panel.kind.third)
+        check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
+
+
+def test_a_selection_meanwhile_stays(panel: Panel) -> None:
+    """New faces stay as they were; where vertices move alone, the answer comes as a step of its own."""
+    panel.change(**panel.kind.second)
+    bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
+    panel.settle()
+    moves = panel.kind.operator == "fair_denoise"
+    assert bpy.data.objects[panel.name].data.count_selected_items()[0] == 0
+    assert (panel.now == panel.first) != moves
+    assert ("Another surface was kept" in panel.report.reason) != moves
+    if moves:
+        bpy.ops.ed.undo()
+        assert panel.now == panel.first
+        bpy.ops.ed.redo()
+        assert panel.now == expected(panel, **panel.kind.second)
+
+
+def test_undo_meanwhile_ends_it(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    bpy.ops.ed.undo()
+    assert not panel.follows
+    panel.settle()
+    assert panel.now == panel.original
+    assert not panel.report.written
+    bpy.ops.ed.redo()
+    assert panel.now == panel.first
+
+
+def test_undo_before_the_first_look_ends_it(panel: Panel) -> None:
+    panel.leave_panel(**panel.kind.second)
+    bpy.ops.ed.undo()
+    assert not panel.follows
+    bpy.ops.ed.redo()
+    panel.settle()
+    assert panel.now == panel.first
+
+
+def test_another_file_ends_it(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    panel.open()
+    bpy.ops.wm.read_homefile(use_empty=True)
+    assert not panel.follows
+    assert not panel.look()
+    assert not panel.threads()
+    assert not panel.report.reason
+
+
+def test_another_run_ends_it(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    bpy.ops.ed.undo()
+    assert panel.kind.run(**panel.kind.third) == {"FINISHED"}
+    assert not panel.follows
+    panel.settle()
+    assert panel.now == expected(panel, **panel.kind.third)
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+@pytest.mark.parametrize("panel", REFUSED, indirect=True)
+def test_what_is_refused_leaves_the_result_before(panel: Panel, at_once: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the panel where it is, for another change."""
+    monkeypatch.setattr(panel.redo, "PROMPT", 10.0)
+    if at_once:
+        monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1_000_000_000)
+    panel.change(**panel.kind.refused)
+    assert panel.follows != at_once
+    panel.settle()
+    assert panel.report.verdict == "UNUSABLE"
+    assert at_once or "The surface before was kept" in panel.report.reason
+    assert panel.now == panel.first
+    operator = bpy.context.window_manager.operators[-1]
+    for name in panel.kind.refused:
+        operator.properties.property_unset(name)
+    again = {**panel.kind.first, **panel.kind.third}
+    panel.change(**again)
+    check_one_step(panel, **again)
+
+
+@pytest.mark.parametrize("part", ["nothing", "all"])
+@pytest.mark.parametrize(("panel", "writer"), WRITERS.items(), indirect=["panel"])
+def test_what_blender_can_not_have_leaves_the_result_before(
+    panel: Panel, writer: tuple[str, str], part: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Refused with nothing or all of it written."""
+    home, name = module(writer[0]), writer[1]
+    write = getattr(home, name)
+
+    def refuses(*arguments: Any) -> Any:
+        if part == "all":
+            write(*arguments)
+        raise ValueError("a fault of a test")
+
+    panel.change(**panel.kind.second)
+    with monkeypatch.context() as spoilt:
+        spoilt.setattr(home, name, refuses)
+        panel.settle()
+    assert gc.isenabled()
+    assert panel.report.reason == "a fault of a test. The surface before was kept"
+    assert panel.now == panel.first
+    panel.change(**panel.kind.third)
+    check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
