@@ -65,6 +65,7 @@ class Panel:
     def __init__(self, monkeypatch: pytest.MonkeyPatch, kind: Kind = REGION) -> None:
         self.kind, self.redo, home = kind, module("run.redo"), module(f"run.{kind.home}")
         self.is_open = False
+        self.waits = 0  # answers that were searched for in the main thread
         self.gates: list[threading.Event] = []
         self.given = threading.Event()
         solve = home.solve
@@ -72,6 +73,7 @@ class Panel:
 
         def slow(*arguments: Any, **rest: Any) -> Any:
             if threading.current_thread() is threading.main_thread():
+                self.waits += 1
                 return solve(*arguments, **rest)
             gate = threading.Event()
             if self.is_open:
