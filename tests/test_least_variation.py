@@ -138,3 +138,9 @@ def test_an_outline_that_makes_no_sense_is_reported_not_refused() -> None:
     result = tubes.Tube(tube.vertices * flat, tube.triangles, tube.fixed, normals).faired()
     assert not result.converged
     assert np.isfinite(result.vertices).all()
+
+
+def test_the_fill_and_the_placement_share_a_factor() -> None:
+    stages: list[str] = []
+    faired(shapes.cylinder(300, Style(seed=1)), threads=1, progress=lambda _, stage: stages.append(stage) is None)
+    assert stages.count("the inner-fairness weights") == 1

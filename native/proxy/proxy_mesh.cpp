@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <queue>
 
 #include <Eigen/Geometry>
@@ -30,7 +32,45 @@ struct QueuedEdge {
     }
 };
 
-using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, std::greater<>>;
+// The shortest halfedge first, each at its latest length alone. An entry that waits already is no second one: a
+// collapse changes few of the lengths around it.
+class ShortestFirst {
+public:
+    explicit ShortestFirst(std::size_t halfedges) : waiting_(halfedges, nowhere) {}
+
+    // Before `begin`, in any order.
+    void add(const QueuedEdge& edge) {
+        waiting_[static_cast<std::size_t>(edge.halfedge)] = edge.length;
+        heap_.push_back(edge);
+    }
+    void begin() { std::make_heap(heap_.begin(), heap_.end(), std::greater<>()); }
+
+    void push(const QueuedEdge& edge) {
+        if (waiting_[static_cast<std::size_t>(edge.halfedge)] == edge.length) return;
+        add(edge);
+        std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    }
+    void drop(int halfedge) { waiting_[static_cast<std::size_t>(halfedge)] = nowhere; }
+
+    [[nodiscard]] bool is_empty() const { return heap_.empty(); }
+
+    // `none` where the halfedge has another length by now.
+    [[nodiscard]] int top() const {
+        const QueuedEdge& edge = heap_.front();
+        return waiting_[static_cast<std::size_t>(edge.halfedge)] == edge.length ? edge.halfedge : none;
+    }
+
+    void pop() {
+        if (const int halfedge = top(); halfedge != none) drop(halfedge);
+        std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+        heap_.pop_back();
+    }
+
+private:
+    static constexpr double nowhere = std::numeric_limits<double>::infinity();  // no halfedge is so long
+    std::vector<QueuedEdge> heap_;
+    std::vector<double> waiting_;  // the length of a halfedge's entry
+};
 
 }  // namespace
 
@@ -149,6 +189,7 @@ bool ProxyMesh::makes_long(Halfedge h, const std::vector<double>& target) const 
 
 void ProxyMesh::collapse(Halfedge h) {
     RemovedVertex entry{mesh_.from_vertex_handle(h).idx(), {}};
+    entry.ring.reserve(mesh_.valence(mesh_.from_vertex_handle(h)));
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) entry.ring.push_back(other.idx());
     removed_.push_back(std::move(entry));
     mesh_.collapse(h);
@@ -157,24 +198,32 @@ void ProxyMesh::collapse(Halfedge h) {
 
 // Shortest first.
 int ProxyMesh::collapse_short(const std::vector<double>& target, const Care& care) {
-    ShortestFirst queue;
-    const auto push = [&](Halfedge h) {
-        const double length = relative_length(h, target);
-        if (!fixed(mesh_.from_vertex_handle(h)) && length < collapse_below) queue.push({length, h.idx()});
+    ShortestFirst queue(mesh_.n_halfedges());
+    const auto is_short = [&](Halfedge h, double length) {
+        return !fixed(mesh_.from_vertex_handle(h)) && length < collapse_below;
     };
-    for (const Halfedge h : mesh_.halfedges()) push(h);
+    for (const Halfedge h : mesh_.halfedges()) {
+        const double length = relative_length(h, target);
+        if (is_short(h, length)) queue.add({length, h.idx()});
+    }
+    queue.begin();
+    const auto renew = [&](Halfedge h, double length) {
+        is_short(h, length) ? queue.push({length, h.idx()}) : queue.drop(h.idx());
+    };
     int collapses = 0;
-    for (; !queue.empty() && free_count_ > 1; queue.pop()) {
+    // An edge beside a collapse that is shorter than what collapsed rests: it goes in its place.
+    for (; !queue.is_empty() && free_count_ > 1; queue.pop()) {
         checkpoint();
-        const Halfedge h(queue.top().halfedge);
-        if (mesh_.status(h).deleted() || relative_length(h, target) != queue.top().length || !may_collapse(h)) continue;
+        const Halfedge h(queue.top());
+        if (!h.is_valid() || mesh_.status(h).deleted() || !may_collapse(h)) continue;
         if ((care.for_shapes && !keeps_shape(h)) || (care.for_lengths && makes_long(h, target))) continue;
         const Vertex kept = mesh_.to_vertex_handle(h);
         collapse(h);
         ++collapses;
         for (const Halfedge spoke : mesh_.voh_range(kept)) {
-            push(spoke);
-            push(mesh_.opposite_halfedge_handle(spoke));
+            const double length = relative_length(spoke, target);
+            renew(spoke, length);
+            renew(mesh_.opposite_halfedge_handle(spoke), length);
         }
     }
     return collapses;

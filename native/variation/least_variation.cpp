@@ -62,12 +62,17 @@ bool has_free_slopes(const Patch& patch) {
     return std::any_of(patch.pin.begin(), patch.pin.end(), [](char is_pin) { return is_pin != 0; });
 }
 
+// The step within the surface by uniform weights on the user's mesh: its factor is made once, for the fill and for the
+// placement, and is null before.
+using UniformStep = std::unique_ptr<TangentialStep>;
+
 // A bulge that meets the outline's tangent planes, its collapsed tubes opened: arms that meet need it.
-Points start_of(const Problem& problem, const Progress& progress) {
+Points start_of(const Problem& problem, UniformStep& within, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());
     const Problem uniform = with_slopes_carried_on(given, membrane(given, work));
     const Points fill = best_fill(uniform, work, progress.here());
+    within = std::move(work.tangential);
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
 
@@ -128,13 +133,22 @@ Termination ending(const NewtonResult& result, const Problem& problem) {
     return result.steps >= problem.options.max_iterations ? Termination::iteration_limit : Termination::stalled;
 }
 
+// The problem's own, or the uniform one where that is the same.
+std::unique_ptr<TangentialStep> step_within(const Problem& problem, UniformStep uniform, const Progress& progress) {
+    if (!uniform || !std::holds_alternative<UniformWeights>(*problem.weights))
+        return make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress);
+    uniform->hold(problem.fixed_points);
+    return uniform;
+}
+
 // The user's vertices on the solved surface.
-Solution placed(const Problem& given, const ProxyMesh& mesh, const SolvedSheet& solved, const Progress& progress) {
+Solution placed(const Problem& given, const ProxyMesh& mesh, const SolvedSheet& solved, UniformStep within,
+                const Progress& progress) {
     Problem problem = given;
     problem.fixed_points = solved.sheet.points.rightCols(given.fixed_points.cols());  // a free edge has moved
     const Termination end = ending(solved.result, problem);
     const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
-    const auto tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+    const auto tangential = step_within(problem, std::move(within), progress.here());
     const Placed best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt, progress.here());
     const Placement& placement = best.placement;
     const SurfaceState state = measured_surface(on_patch(problem, solved.mesh.patch), solved.sheet.points);
@@ -184,8 +198,8 @@ Attempt ended(const Problem& problem, Begun begun, const Progress& progress) {
             begun.coarse.mesh.patch.vertex_count()};
 }
 
-Solution solution_of(const Problem& problem, const Attempt& attempt, const Progress& progress) {
-    Solution solution = placed(problem, attempt.mesh, attempt.fine, progress);
+Solution solution_of(const Problem& problem, const Attempt& attempt, UniformStep within, const Progress& progress) {
+    Solution solution = placed(problem, attempt.mesh, attempt.fine, std::move(within), progress);
     solution.iterations = attempt.fine.result.steps;
     solution.residual = attempt.fine.result.gradient;
     solution.initial_residual = attempt.coarse_gradient;
@@ -236,7 +250,7 @@ std::optional<Solution> solve_nearby(const Problem& problem, const NearVariation
     const double gradient = solved.result.gradient;
     const int count = solved.mesh.patch.vertex_count();
     Solution solution =
-        solution_of(problem, {std::move(mesh), std::move(solved), gradient, count}, progress.range(0.9, 1.0));
+        solution_of(problem, {std::move(mesh), std::move(solved), gradient, count}, nullptr, progress.range(0.9, 1.0));
     solution.seconds = {{"iteration", solve_seconds}, {"placement", watch.lap()}};
     return solution;
 }
@@ -255,6 +269,7 @@ public:
         return std::move(best_);
     }
     [[nodiscard]] double start_seconds() const { return start_seconds_; }
+    UniformStep step_within() { return std::move(within_); }
 
 private:
     [[nodiscard]] bool has_ended() const { return best_ && best_->fine.result.converged; }
@@ -278,7 +293,7 @@ private:
 
     void try_membrane(const Progress& progress) {
         Stopwatch watch;
-        const Points start = start_of(problem_, progress.range(0.0, 0.1));
+        const Points start = start_of(problem_, within_, progress.range(0.0, 0.1));
         start_seconds_ = watch.lap();
         Begun first = begun(problem_, start, progress.range(0.1, 0.5));
         if (!first.coarse.result.converged) try_tube(progress.range(0.5, 0.6));
@@ -291,6 +306,7 @@ private:
     const VariationLimits& limits_;
     std::optional<SweptTube> tube_;
     std::optional<Attempt> best_;
+    UniformStep within_;
     double start_seconds_ = 0.0;
 };
 
@@ -309,7 +325,7 @@ std::optional<Solution> solve_less_varying(const Problem& problem, const Variati
     const auto best = search.run(progress.range(0.0, 0.9));
     if (!best) return std::nullopt;
     const double solve_seconds = watch.lap() - search.start_seconds();
-    Solution solution = solution_of(problem, *best, progress.range(0.9, 1.0));
+    Solution solution = solution_of(problem, *best, search.step_within(), progress.range(0.9, 1.0));
     solution.seconds = {{"fill", search.start_seconds()}, {"iteration", solve_seconds}, {"placement", watch.lap()}};
     return solution;
 }
