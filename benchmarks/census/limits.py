@@ -24,6 +24,7 @@ NAMES_AS_THEY_ARE = (
 LIMIT = re.compile(
     r"^(\s*)((?:inline |static )*)constexpr (double|int|std::size_t) ([a-z_0-9]+) ?(?:=\s*|\{)(.*?)\}?;", re.MULTILINE
 )
+AGGREGATE = re.compile(r"^(\s*(?:inline |static )*)constexpr ((?:[A-Z]\w*|std::array) ?[a-z_]*\{)", re.MULTILINE)
 TABLE = """#pragma once
 #include <deque>
 #include <functional>
@@ -68,6 +69,7 @@ def make_settable(native: Path, files: Collection[str] | None = None) -> int:
         changed, found = text, 0
         if files is None or name in files:
             changed, found = LIMIT.subn(lambda match, name=name: _settable(match, name), text)
+            changed = AGGREGATE.sub(r"\1const \2", changed)  # of members that can be set now
         count += found if changed != text else 0
         if name == "bindings/module.cpp":
             changed = re.sub(r"(PYBIND11_MODULE\([^{]*\{)", lambda match: match.group(1) + FUNCTIONS, text)

@@ -14,7 +14,7 @@
 #include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
-#include "method/first_surface.h"
+#include "method/nested.h"
 #include "method/pinned.h"
 #include "method/solve.h"
 #include "problem/free_slopes.h"

@@ -35,7 +35,7 @@ public:
     // Throws NO_BOUNDARY where the fixed vertices lie in one point, SolverError, Cancelled; what was kept stays usable.
     [[nodiscard]] ComponentAnswer solve(const ComponentData& data, const Progress& progress);
 
-    // The surface that is shown first (method/first_surface), 3 × local vertices in the caller's units. Throws the
+    // The surface that is shown first (method/nested), 3 × local vertices in the caller's units. Throws the
     // same.
     [[nodiscard]] Points first_surface(const ComponentData& data, const Progress& progress);
 

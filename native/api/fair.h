@@ -62,7 +62,7 @@ struct FairResult {
     Diagnostics warnings;
 };
 
-// Is shown the first surface (method/first_surface): all of the mesh's vertices, before better ones are sought. Called
+// Is shown the first surface (method/nested): all of the mesh's vertices, before better ones are sought. Called
 // once, by the calling thread.
 using Preview = std::function<void(const Points& vertices)>;
 

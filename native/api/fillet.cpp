@@ -153,38 +153,29 @@ Points weights_in_parents(const FilletInput& input, const SplitMesh& cut) {
     return weights;
 }
 
-int root(Indices& parent, int k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-}
-
 // Parts between seams without a wall, a border or a piece outside, unless they lie between two that have one: fillets
 // from both sides meet there. `thin`: parts that reach no further from their seams are less than the new mesh shows.
 Indices swallowed_vertices(const SeamMesh& mesh, const SeamDistance& distance, const SplitMesh& cut, double thin) {
     const Vector3 middle = Vector3::Constant(1.0 / 3.0);
-    Indices part(mesh.triangles.cols());
-    std::iota(part.begin(), part.end(), 0);
-    for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.twin[h] != none && mesh.seam[h] == none) part[root(part, h / 3)] = root(part, mesh.twin[h] / 3);
-    }
+    UnionFind parts = mesh.parts();
     std::vector<char> open(mesh.triangles.cols(), 0);
     std::vector<char> thick(mesh.triangles.cols(), 0);
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.twin[h] == none) open[root(part, h / 3)] = 1;
-        if (distance.reaches(h / 3) && distance.at(h / 3, middle).distance > thin) thick[root(part, h / 3)] = 1;
+        if (mesh.twin[h] == none) open[parts.root(h / 3)] = 1;
+        if (distance.reaches(h / 3) && distance.at(h / 3, middle).distance > thin) thick[parts.root(h / 3)] = 1;
     }
     for (std::size_t t = 0; t < cut.parent.size(); ++t) {
-        if (cut.inside[t] == 0) open[root(part, cut.parent[t])] = 1;
+        if (cut.inside[t] == 0) open[parts.root(cut.parent[t])] = 1;
     }
     std::map<int, std::set<int>> beside;
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || mesh.twin[h] == none) continue;
-        const int other = root(part, mesh.twin[h] / 3);
-        if (open[other] != 0) beside[root(part, h / 3)].insert(other);
+        const int other = parts.root(mesh.twin[h] / 3);
+        if (open[other] != 0) beside[parts.root(h / 3)].insert(other);
     }
     std::set<int> found;
     for (int t = 0; t < mesh.triangles.cols(); ++t) {
-        const int own = root(part, t);
+        const int own = parts.root(t);
         if (open[own] != 0 || thick[own] == 0 || beside[own].size() > 1) continue;
         for (const int v : mesh.triangles.col(t)) found.insert(v);
     }

@@ -1,15 +1,10 @@
 #include "fill/harmonic_values.h"
 
+#include "geometry/cotangent.h"
 #include "geometry/face_geometry.h"
 #include "operators/laplace_operator.h"
 
 namespace fairing {
-
-namespace {
-
-constexpr double least_weight = 1e-3;  // obtuse angles would overshoot
-
-}  // namespace
 
 std::optional<Eigen::MatrixXd> harmonic_values(const Patch& patch, const Points& points, const Eigen::MatrixXd& given) {
     const int free_count = patch.free_count;
@@ -18,7 +13,7 @@ std::optional<Eigen::MatrixXd> harmonic_values(const Patch& patch, const Points&
     faces.update(points, patch.triangles);
     Stiffness stiffness;
     stiffness.update(faces, patch);
-    stiffness.weights = stiffness.weights.cwiseMax(least_weight);
+    stiffness.weights = stiffness.weights.cwiseMax(least_harmonic_weight);
     LaplaceOperator laplace(patch, points.leftCols(free_count));
     if (!laplace.update(stiffness, Progress())) return std::nullopt;
     Eigen::MatrixXd everywhere = Eigen::MatrixXd::Zero(given.cols(), patch.vertex_count());

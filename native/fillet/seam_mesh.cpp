@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -11,11 +10,6 @@ namespace fairing {
 namespace {
 
 VertexPair sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-int root(Indices& parent, int k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-}
 
 }  // namespace
 
@@ -80,17 +74,24 @@ void SeamMesh::measure() {
 
 // Corners that hang together across half-edges with a twin share a vertex.
 void SeamMesh::number_sheets() {
-    Indices parent(edge.size());
-    std::iota(parent.begin(), parent.end(), 0);
+    UnionFind corners(half_edge_count());
     for (int h = 0; h < half_edge_count(); ++h) {
-        if (twin[h] != none) parent[root(parent, h)] = root(parent, next(twin[h]));
+        if (twin[h] != none) corners.join(h, next(twin[h]));
     }
     sheet.assign(edge.size(), none);
     for (int h = 0; h < half_edge_count(); ++h) {
-        const int top = root(parent, h);
+        const int top = corners.root(h);
         if (sheet[top] == none) sheet[top] = sheet_count++;
         sheet[h] = sheet[top];
     }
+}
+
+UnionFind SeamMesh::parts() const {
+    UnionFind found(static_cast<int>(triangles.cols()));
+    for (int h = 0; h < half_edge_count(); ++h) {
+        if (twin[h] != none && seam[h] == none) found.join(h / 3, twin[h] / 3);
+    }
+    return found;
 }
 
 Vector2 SeamMesh::in_frame(int h, const Vector3& weights) const {

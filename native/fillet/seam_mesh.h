@@ -7,6 +7,7 @@
 
 #include "base/types.h"
 #include "mesh/edges.h"
+#include "mesh/union_find.h"
 
 namespace fairing {
 
@@ -47,6 +48,8 @@ struct SeamMesh {
     // The next half-edge with the same tail, counter-clockwise or clockwise; `none` beyond a wall.
     [[nodiscard]] int turned(int h) const { return twin[previous(h)]; }
     [[nodiscard]] int turned_back(int h) const { return twin[h] == none ? none : next(twin[h]); }
+    // The triangles between seams, walls and borders.
+    [[nodiscard]] UnionFind parts() const;
     // In the frame of half-edge h: the place with these barycentric weights in its triangle.
     [[nodiscard]] Vector2 in_frame(int h, const Vector3& weights) const;
     [[nodiscard]] Vector3 place(int triangle, const Vector3& weights) const;

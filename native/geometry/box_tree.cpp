@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 
 #include "base/limits.h"
 #include "base/parallel.h"
@@ -55,41 +54,16 @@ struct Cube {
     }
 };
 
-// Counting sorts by eleven bits at a time, the lowest first; what has one place stays as it was.
-void sort_many(std::span<Key> keys) {
-    constexpr unsigned bits = 11;               // in each pass
-    constexpr unsigned passes = 6;              // an even number: the last one ends where the first began
-    constexpr std::size_t digits = 1U << bits;  // that a pass tells apart
-    const auto digit = [](const Key& key, unsigned pass) { return key.place >> pass * bits & (digits - 1); };
-    std::vector<std::array<int, digits + 1>> begin(passes);
-    for (const Key& key : keys) {
-        for (unsigned pass = 0; pass < passes; ++pass) ++begin[pass][digit(key, pass) + 1];
-    }
-    std::vector<Key> other(keys.size());
-    std::span<Key> from = keys;
-    std::span<Key> to = other;
-    for (unsigned pass = 0; pass < passes; ++pass) {
-        std::partial_sum(begin[pass].begin(), begin[pass].end(), begin[pass].begin());
-        for (const Key& key : from) to[begin[pass][digit(key, pass)]++] = key;
-        std::swap(from, to);
-    }
-}
-
-void sort_few(std::span<Key> keys) {
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return a.place != b.place ? a.place < b.place : a.triangle < b.triangle;
-    });
-}
-
 // What falls into one cell is sorted in a cube of its own: small parts of a large mesh would be in disorder otherwise.
 void sort_along_curve(std::span<Key> keys, const Points& centres) {
-    constexpr std::size_t many = 1024;  // fewer are sorted by comparison
     const Cube cube(centres, keys);
     if (!(cube.edge > 0.0 && cube.edge < HUGE_VAL)) return;
     for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) keys[k].place = cube.place(centres.col(keys[k].triangle));
     });
-    (keys.size() < many ? sort_few : sort_many)(keys);
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.place != b.place ? a.place < b.place : a.triangle < b.triangle;
+    });
     for (auto begin = keys.begin(); begin != keys.end();) {
         auto end = begin + 1;
         while (end != keys.end() && end->place == begin->place) ++end;

@@ -12,6 +12,9 @@ namespace fairing {
 // A sine below this part of the longest edge squared counts as that: the cotangent of a degenerate triangle stays a
 // number that does not drown its neighbours'.
 constexpr double least_twice_area = 1e-12;
+// Of an edge where values are continued harmonically: with those of obtuse angles, which are less, they would
+// overshoot.
+constexpr double least_harmonic_weight = 1e-3;
 
 // |a × b| of two edges of a triangle, bounded from below; `longest_squared`: of these edges.
 inline double safe_twice_area(double twice_area, double longest_squared) {

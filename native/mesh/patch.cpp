@@ -18,6 +18,8 @@ Patch::Patch(PatchMembers members, Twins twins) : PatchMembers(std::move(members
     flatten_rings(twins);
 }
 
+bool Patch::has_pins() const { return std::find(pin.begin(), pin.end(), 1) != pin.end(); }
+
 std::vector<Indices> Patch::loops() const {
     std::vector<char> seen(vertex_count(), 0);
     std::vector<Indices> result;

@@ -38,6 +38,7 @@ public:
     [[nodiscard]] int edge_count() const { return static_cast<int>(edge_ends.size()); }
     [[nodiscard]] int triangle_count() const { return static_cast<int>(triangles.cols()); }
     [[nodiscard]] bool is_free(int vertex) const { return vertex < free_count; }
+    [[nodiscard]] bool has_pins() const;
     [[nodiscard]] RingView ring(int vertex) const;
     // Closed loops of border edges, the patch on their left, vertex by vertex.
     [[nodiscard]] std::vector<Indices> loops() const;

@@ -20,7 +20,7 @@ enum class Step {
     least_variation,  // the surface of least variation, also as the equation asked for
     old_shape,        // the shape before, as smooth as it can be (stand_in/smoothed)
     loft,             // between several loops (stand_in/lofted)
-    first_surface,    // where nothing better is found (method/first_surface)
+    first_surface,    // where nothing better is found (method/nested)
 };
 
 // For the log and for people.

@@ -8,7 +8,6 @@
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "method/direct.h"
-#include "method/first_surface.h"
 #include "method/nested.h"
 #include "method/own_mesh.h"
 #include "method/pinned.h"

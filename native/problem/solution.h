@@ -54,7 +54,7 @@ enum class Provenance {
     least_bent,     // where the descent of the bending energy ended (start/globalisation)
     swept_tube,     // cross-sections swept along a bend (start/swept_start)
     old_shape,      // the shape before, as smooth as it can be (stand_in/smoothed)
-    first_surface,  // what every run can begin with (method/first_surface)
+    first_surface,  // what every run can begin with (method/nested)
 };
 
 // Whether another surface than the equation's was taken.

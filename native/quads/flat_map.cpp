@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -13,15 +12,14 @@
 #include "base/errors.h"
 #include "fill/conformal_map.h"
 #include "geometry/angle.h"
+#include "geometry/cotangent.h"
 #include "geometry/face_geometry.h"
 
 namespace fairing {
 
 namespace {
 
-constexpr double turn = 2.0 * std::numbers::pi;  // a full one
-constexpr double inner_radius = 0.3;             // of the ring that a tube is mapped to
-constexpr double least_weight = 1e-3;            // obtuse angles would turn triangles over
+constexpr double inner_radius = 0.3;  // of the ring that a tube is mapped to
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -85,7 +83,7 @@ std::vector<FlatMap::Edge> FlatMap::triangle_edges() const {
     std::vector<Edge> edges;
     for (int e = 0; e < patch_.edge_count(); ++e) {
         const auto [a, b] = patch_.edge_ends[e];
-        edges.push_back({a, b, std::max(least_weight, stiffness.weights[e]), 0});
+        edges.push_back({a, b, std::max(least_harmonic_weight, stiffness.weights[e]), 0});
     }
     for (std::size_t k = 0; k < cut_.size(); ++k) {
         const RingView ring = patch_.ring(cut_[k]);
@@ -120,13 +118,14 @@ FlatMap::Flat FlatMap::known() const {
     const VectorX outer = along(loops_[0]);
     Flat result(2, is_tube() ? first + static_cast<Eigen::Index>(loops_[1].size()) : first);
     for (Eigen::Index k = 0; k < first; ++k) {
-        const double angle = turn * outer[k] / outer[first];
+        const double angle = full_turn * outer[k] / outer[first];
         result.col(k) = is_tube() ? Eigen::Vector2d(angle, 0.0) : Eigen::Vector2d(std::cos(angle), std::sin(angle));
     }
     if (!is_tube()) return result;
     const VectorX inner = along(loops_[1]);
     for (Eigen::Index k = 0; k < inner.size() - 1; ++k)
-        result.col(first + k) = Eigen::Vector2d(k == 0 ? 0.0 : turn * (1.0 - inner[k] / inner[inner.size() - 1]), 1.0);
+        result.col(first + k) =
+            Eigen::Vector2d(k == 0 ? 0.0 : full_turn * (1.0 - inner[k] / inner[inner.size() - 1]), 1.0);
     return result;
 }
 
@@ -142,7 +141,7 @@ FlatMap::Flat FlatMap::solved(const std::vector<Edge>& edges, Flat flat, const s
     const auto add = [&](int v, int other, double weight, int turns) {
         if (row[v] == none) return;
         entries.emplace_back(row[v], row[v], weight);
-        right(row[v], 0) += weight * turn * turns;
+        right(row[v], 0) += weight * full_turn * turns;
         if (row[other] == none)
             right.row(row[v]) += weight * flat.col(other).transpose();
         else

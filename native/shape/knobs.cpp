@@ -1,7 +1,6 @@
 #include "shape/knobs.h"
 
 #include <algorithm>
-#include <numbers>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -11,8 +10,6 @@
 namespace fairing {
 
 namespace {
-
-constexpr double full_turn = 2.0 * std::numbers::pi;  // around a vertex of a plane
 
 double angle_around(const Patch& patch, const Points& points, int vertex) {
     const RingView ring = patch.ring(vertex);
@@ -48,8 +45,7 @@ Indices most_bent(const VectorX& defects, double sum) {
 }  // namespace
 
 bool is_plain_disc(const Patch& patch) {
-    const bool has_pins = std::find(patch.pin.begin(), patch.pin.end(), 1) != patch.pin.end();
-    return !has_pins && patch.vertex_count() - patch.edge_count() + patch.triangle_count() == 1;
+    return !patch.has_pins() && patch.vertex_count() - patch.edge_count() + patch.triangle_count() == 1;
 }
 
 Knobs knobs_of(const Patch& patch, const Points& points, double before) {

@@ -144,8 +144,7 @@ VectorX one_sided_join(const Patch& patch, const Points& points, const Points& p
     const DihedralBands bands(places, strip.triangles);
     const Indices sides = border_sides(patch, strip, bands.edges());
     VectorX excess(static_cast<Eigen::Index>(sides.size()));
-    constexpr int grain = 32;  // each piece has marks of its own
-    for_ranges(static_cast<int>(sides.size()), grain, [&](int begin, int end) {
+    for_ranges(static_cast<int>(sides.size()), fine_grain, [&](int begin, int end) {
         DihedralBands::Walk walk = bands.walk();
         for (int k = begin; k < end; ++k) {
             const int side = sides[k];

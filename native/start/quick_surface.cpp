@@ -1,6 +1,5 @@
 #include "start/quick_surface.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -26,10 +25,6 @@ std::optional<Points> harmonic_map(const Problem& problem, const Progress& progr
     Points points = Points::Zero(3, problem.patch.vertex_count());
     points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
     return harmonic_between(problem.patch, std::move(points), progress);
-}
-
-bool has_slopes(const Patch& patch) {
-    return std::find(patch.pin.begin(), patch.pin.end(), char{1}) == patch.pin.end();
 }
 
 class Fills {
@@ -90,8 +85,8 @@ private:
 
 std::optional<Points> least_bent_fill(const Problem& given, const std::optional<Points>& before,
                                       const Progress& progress) {
-    std::optional<Points> slopes = has_slopes(given.patch) ? std::nullopt : before;
-    if (!has_slopes(given.patch) && !slopes) slopes = harmonic_map(given, progress);
+    std::optional<Points> slopes = given.patch.has_pins() ? before : std::nullopt;
+    if (given.patch.has_pins() && !slopes) slopes = harmonic_map(given, progress);
     const Problem problem = slopes ? with_slopes_of(given, *slopes) : given;
     Fills fills(problem, progress);
     fills.add(uniform_stiffness(problem.patch));

@@ -26,8 +26,7 @@ std::size_t touching(const Patch& patch, const std::vector<Indices>& loops) {
 bool is_held_elsewhere(const Patch& patch, const std::vector<Indices>& loops) {
     std::size_t on_loops = 0;
     for (const Indices& loop : loops) on_loops += loop.size();
-    const bool pinned = std::any_of(patch.pin.begin(), patch.pin.end(), [](char pin) { return pin != 0; });
-    return pinned || on_loops != static_cast<std::size_t>(patch.vertex_count() - patch.free_count);
+    return patch.has_pins() || on_loops != static_cast<std::size_t>(patch.vertex_count() - patch.free_count);
 }
 
 struct Loop {

@@ -14,8 +14,6 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_weight = 1e-3;  // obtuse angles would overshoot
-
 bool is_oriented_surface(const Triangles& triangles, const EdgeTable& edges) {
     for (int e = 0; e < edges.size(); ++e) {
         if (edges.side_count(e) > 2) return false;
@@ -35,7 +33,7 @@ InnerWeights own_weights(const Points& points, const Triangles& triangles, const
             const Vector3 apex = points.col(triangles((side % 3 + 2) % 3, side / 3));
             sum += cotangent(points.col(edges.ends[e][0]) - apex, points.col(edges.ends[e][1]) - apex);
         }
-        weights.push_back({edges.ends[e][0], edges.ends[e][1], std::max(sum, least_weight)});
+        weights.push_back({edges.ends[e][0], edges.ends[e][1], std::max(sum, least_harmonic_weight)});
     }
     return weights;
 }
