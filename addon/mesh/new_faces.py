@@ -100,9 +100,10 @@ def refuse_doubles(bm: Any, data: FaceData) -> None:
     """Raise MeshRefusal where a new face is there already, old or new, as no mesh has one twice: before any is made."""
     made = set()
     for polygon in data.polygons:
-        if frozenset(polygon) in made:
+        corners = frozenset(polygon)
+        if corners in made:
             raise doubled([data.stay[corner].index for corner in polygon if corner < len(data.stay)])
-        made.add(frozenset(polygon))
+        made.add(corners)
         if max(polygon) >= len(data.stay):
             continue
         face = bm.faces.get([data.stay[corner] for corner in polygon])

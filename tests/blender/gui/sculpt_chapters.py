@@ -21,6 +21,14 @@ def _undo(redo: bool = False) -> Story:
     yield 1.0
 
 
+def _begin_sculpting() -> None:
+    """Go to sculpt mode, with a step to come back to."""
+    with in_view():
+        bpy.ops.view3d.view_all()
+        bpy.ops.object.mode_set(mode="SCULPT")
+        bpy.ops.ed.undo_push(message="start")
+
+
 def _sculpt() -> None:
     """Turn the mask round: a step of sculpt mode's own. Brushes are assets, which not every Blender brings."""
     with in_view():
@@ -35,10 +43,7 @@ def _now() -> np.ndarray:
 def masked_in_sculpt_mode() -> Story:
     """The mask turned round and back, Fair Masked, the mask turned round; then back step by step, and forth again."""
     tell(f"masked: {spoilt_scenes.masked()} faces")
-    with in_view():
-        bpy.ops.view3d.view_all()
-        bpy.ops.object.mode_set(mode="SCULPT")
-        bpy.ops.ed.undo_push(message="start")
+    _begin_sculpting()
     open_tab()
     yield 1.0
     screenshot("sculpt_before")
@@ -88,10 +93,7 @@ def face_set_by_a_click() -> Story:
 
 def _clicked_and_undone(name: str) -> Story:
     tell(f"face sets: {spoilt_scenes.face_sets()} faces in one of them; {name}")
-    with in_view():
-        bpy.ops.view3d.view_all()
-        bpy.ops.object.mode_set(mode="SCULPT")
-        bpy.ops.ed.undo_push(message="start")
+    _begin_sculpting()
     open_tab()
     yield 0.7
     before = _now()
@@ -117,10 +119,7 @@ def _clicked_and_undone(name: str) -> Story:
 def level_in_sculpt_mode() -> Story:
     """The face set that is clicked on a level of a Multiresolution modifier is faired; undo, redo."""
     spoilt_scenes.levelled()
-    with in_view():
-        bpy.ops.view3d.view_all()
-        bpy.ops.object.mode_set(mode="SCULPT")
-        bpy.ops.ed.undo_push(message="start")
+    _begin_sculpting()
     open_tab()
     yield 0.7
     before = spoilt_scenes.level_positions()
@@ -184,10 +183,8 @@ def dynamic_topology_in_sculpt_mode() -> Story:
 def brush_in_sculpt_mode() -> Story:
     """A dent is painted over: on release it is fair, one step back brings it again; a small radius says so."""
     spoilt_scenes.dented()
+    _begin_sculpting()
     with in_view():
-        bpy.ops.view3d.view_all()
-        bpy.ops.object.mode_set(mode="SCULPT")
-        bpy.ops.ed.undo_push(message="start")
         bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.brush")
         bpy.context.workspace.tools.from_space_view3d_mode("SCULPT").operator_properties("mesh.fair_brush").radius = 110
     open_tab()

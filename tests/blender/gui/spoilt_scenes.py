@@ -179,9 +179,7 @@ def level_positions() -> Any:
     levels, obj = module("mesh.levels"), bpy.context.object
     level = obj.modifiers[0].sculpt_levels
     with module("run.outside").in_object_mode(obj), levels.at_level(obj, level) as shown:
-        flat = np.empty(3 * len(shown.data.vertices), dtype=np.float32)
-        shown.data.vertices.foreach_get("co", flat)
-        return flat.reshape(-1, 3)
+        return module("mesh.painted").positions(shown.data)
 
 
 def dented() -> None:
