@@ -13,7 +13,6 @@ import demo  # before bpy: it sets Blender's scratch folder
 import bpy
 import numpy as np
 
-import along_seams
 import demo_pictures as pictures
 import demo_scenes as scenes
 import hard
@@ -21,18 +20,15 @@ import lesson_sheets  # before more: it adds the folder of the lessons' scenes
 import more
 import moving
 import options
-import quality
 import rivals
 import sheet
-import slopes
 import textures
 import tools
-import wired
 from rows import Row, smooth
 
 WIDTH = 1200  # pixels of a sheet at least
 LEAST = 300  # of one picture
-MODULES = (rivals, hard, options, more, slopes, textures)
+MODULES = (rivals, hard, options, more, textures)
 SHEETS: dict[str, list[list[Row]]] = {name: lines for module in MODULES for name, lines in module.SHEETS.items()}
 
 
@@ -107,8 +103,7 @@ def main() -> None:
     package, out = Path(sys.argv[1]), Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
     demo.install(package)
-    single = (quality.NAME, wired.NAME, along_seams.NAME)
-    for name in sys.argv[3:] or [*SHEETS, *single, *lesson_sheets.LESSONS, *moving.MOVING]:
+    for name in sys.argv[3:] or [*SHEETS, *lesson_sheets.LESSONS, *moving.MOVING]:
         if name in moving.MOVING:
             moving.write(name, out)
         else:
@@ -119,11 +114,6 @@ def lines_of(name: str, out: Path) -> list[list[sheet.Tile]]:
     """The pictures of a sheet, line by line."""
     if name in lesson_sheets.LESSONS:
         return [lesson_sheets.tiles(name, out)]
-    if name == quality.NAME:
-        return [quality.tiles(out, LEAST)]
-    for made in (wired, along_seams):
-        if name == made.NAME:
-            return [made.tiles(out, WIDTH // made.COUNT)]
     lines = SHEETS[name]
     pictures.SIZE = max(LEAST, WIDTH // max(sum(len(row.runs) + 1 for row in line) for line in lines))
     return [
