@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr auto last = Code::pins_not_spread;  // of the codes
+constexpr auto last = Code::unclear_cells;  // of the codes
 
 constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names{
     "NONFINITE",
@@ -34,6 +34,21 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names
     "G2_NOT_MET",
     "TENSION_NOT_MET",
     "PINS_NOT_SPREAD",
+    "OUTLINE_KEPT",
+    "NOT_A_LOOP",
+    "NOT_A_HOLE",
+    "LOOPS_NOT_JOINED",
+    "OUT_OF_PROPORTION",
+    "NOT_TANGENT",
+    "EDGES_LEFT_ALONE",
+    "NO_QUAD_ROWS",
+    "NO_SEAM",
+    "SEAM_ON_BORDER",
+    "WIDTH_TOO_LARGE",
+    "WIRES_END",
+    "WIRES_CROSS",
+    "NO_CELL",
+    "UNCLEAR_CELLS",
 };
 static_assert(!names.back().empty(), "each code has a name");
 

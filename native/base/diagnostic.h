@@ -37,6 +37,21 @@ enum class Code {
     g2_not_met,
     tension_not_met,
     pins_not_spread,
+    outline_kept,
+    not_a_loop,
+    not_a_hole,
+    loops_not_joined,
+    out_of_proportion,
+    not_tangent,
+    edges_left_alone,
+    no_quad_rows,
+    no_seam,
+    seam_on_border,
+    width_too_large,
+    wires_end,
+    wires_cross,
+    no_cell,
+    unclear_cells,
 };
 
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.

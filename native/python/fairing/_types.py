@@ -12,11 +12,7 @@ from fairing import _core
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
-CODES: tuple[str, ...] = (  # all that a `Diagnostic` may have
-    *_core.CODES, "OUTLINE_KEPT", "NOT_A_LOOP", "NOT_A_HOLE", "LOOPS_NOT_JOINED", "OUT_OF_PROPORTION", "NOT_TANGENT",
-    "EDGES_LEFT_ALONE", "NO_QUAD_ROWS", "NO_SEAM", "SEAM_ON_BORDER", "WIDTH_TOO_LARGE",
-    "WIRES_END", "WIRES_CROSS", "NO_CELL", "UNCLEAR_CELLS",
-)  # fmt: skip
+CODES: tuple[str, ...] = _core.CODES  # all that a `Diagnostic` may have
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 
 
