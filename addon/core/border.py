@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -31,6 +31,10 @@ class Left:
     vertices: Ints
     reason: str
     spots: Ints  # vertices that the reason is about
+
+    def named(self, numbers: Callable[[Ints], Ints]) -> Left:
+        """Return it with other numbers of its vertices."""
+        return replace(self, vertices=np.unique(numbers(self.vertices)), spots=numbers(self.spots))
 
 
 def left_by(error: Exception, vertices: Ints) -> Left:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -16,6 +16,7 @@ from .engine import Progress
 from .fill_options import DENOISE
 from .moved_keys import MovedKey
 from .option_table import fields_of, read_named
+from .reflected import whole_of
 from .region import MeshArrays, free_vertices, to_local
 
 
@@ -63,6 +64,15 @@ def denoise_arrays(
 
     Raises what `fairing.denoise` does, with mesh indices, and ValueError where the matrix has no inverse.
     """
+    whole = whole_of(mesh)
+    if whole is None:
+        return _denoised(mesh, matrix, options, progress)
+    found = _denoised(whole.mesh, matrix, options, progress)
+    vertices, positions = whole.moved(found.vertices, found.positions)
+    return replace(found, vertices=vertices, positions=positions)
+
+
+def _denoised(mesh: MeshArrays, matrix: Floats, options: DenoiseOptions, progress: Progress | None) -> Denoised:
     with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
         world = mesh.transformed(matrix)
     free = free_vertices(mesh)

@@ -13,13 +13,10 @@ import fairing
 from .across import Loose, Numbering, drawn_edges, marked_edges, within
 from .arrays import Floats, Ints
 from .border import BorderRefusal
-from .doubled import doubled_places, doubled_triangles
 from .engine import Progress
 from .fill_pieces import FillOptions, Piece
 from .fill_verdict import Surface, judge
 from .findings import Origin
-from .half_surface import half_surface
-from .halves import Half, symmetric_half
 from .key_surface import Surroundings
 from .neighbourhood import Neighbourhood
 from .parted import parted, stars_of
@@ -34,7 +31,6 @@ _TWO = "Bridge needs two boundary loops that face each other: switch it off to c
 _SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
 _SINGLE = 4  # edges of those that one face closes
 _TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE", "NO_QUAD_ROWS")
-_NO_ROWS_MIRRORED = "The quads are in no rows: X mirror is on"
 
 
 @dataclass(frozen=True)
@@ -52,69 +48,6 @@ class Job:
         """Begin with a mesh in its own coordinates."""
         world = mesh.transformed(matrix)
         return cls(world, matrix, options, Neighbourhood(world.positions, world.triangles), Loose.of(world))
-
-    def over(self, mesh: MeshArrays, spacing: float) -> Job:
-        """Return the same over another mesh, with other edges."""
-        return Job.of(mesh, self.matrix, replace(self.options, spacing=spacing))
-
-    def half(self, mesh: MeshArrays, half: Half, progress: Progress | None) -> Piece:
-        """Make the surface over half of a hole; mesh: in its own coordinates."""
-        found, local = half_surface(self, mesh, half, progress), self.local(half.chain)
-        triangles = found.surface.triangles
-        return Piece(
-            loops=(half.chain,),
-            points=found.surface.points,
-            positions=found.positions,
-            triangles=triangles[:, ::-1] if self.world.mirrored else triangles,
-            verdict=found.verdict,
-            result=found.surface.result,
-            join=found.surface.join,
-            around=_keyed_from(local.vertices, local.around, half.chain, self.matrix),
-            quads=self.options.quads,
-            limit_total=self.options.limit_total,
-            notes=(_NO_ROWS_MIRRORED,) if self.options.quads else (),
-            on_plane=found.on_plane,
-        )
-
-    def whole(self, mesh: MeshArrays, loops: list[Ints], progress: Progress | None) -> Piece:
-        """Make one surface, symmetric where the mesh asks for it and the boundary is; mesh: in its own coordinates."""
-        half = symmetric_half(mesh, loops[0]) if mesh.mirror_x and len(loops) == 1 else None
-        if half is not None:
-            try:
-                return self.symmetric(mesh, half, progress)
-            except (ValueError, fairing.SolverError):
-                pass  # the hole may have a surface all the same, which tells why where it has none
-        return self.piece(loops, progress)
-
-    def symmetric(self, mesh: MeshArrays, half: Half, progress: Progress | None) -> Piece:
-        """Make a surface that is symmetric to the last bit; mesh: in its own coordinates."""
-        found = half_surface(self, mesh, half, progress)
-        on = len(found.on_plane) - 2
-        _, loop = half.whole(mesh)
-        positions = doubled_places(found.positions, on)
-        inside = positions @ self.matrix[:3, :3].T + self.matrix[:3, 3]
-        triangles = doubled_triangles(found.surface.triangles, len(half.chain), on)
-        local, world = self.local(loop), self.world
-        points = np.concatenate([world.positions[loop], inside])
-        rim = local.numbers(loop)
-        joined = np.concatenate([world.positions[local.vertices], inside])
-        numbers = np.concatenate([rim, len(local.vertices) + np.arange(len(inside))])
-        at = np.sort(rim)
-        join = join_at(local.vertices[at], fairing.visible_join(joined, numbers[triangles], local.around, at))
-        surface = Surface(points, triangles, found.surface.result, join)
-        return Piece(
-            loops=(loop,),
-            points=points,
-            positions=positions,
-            triangles=triangles[:, ::-1] if world.mirrored else triangles,
-            verdict=judge(world, loop, surface, local.vertices[local.around]),
-            result=surface.result,
-            join=join,
-            around=_keyed_from(local.vertices, local.around, loop, self.matrix),
-            quads=self.options.quads,
-            limit_total=self.options.limit_total,
-            notes=(_NO_ROWS_MIRRORED,) if self.options.quads else (),
-        )
 
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
         """Make one surface, over a loop or between several."""

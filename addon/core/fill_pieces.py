@@ -16,13 +16,14 @@ from .border import Left
 from .checked import refuse_negative, refuse_other_kinds
 from .faces import Faces, faces_in_rows, faces_of, paired_faces
 from .fill_options import FILL, FILL_EQUATIONS
-from .harmonic import carried_over_half, harmonic, nearest
+from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
 from .option_items import ACCEPT, HARD_EDGES, INNER
 from .option_shared import LEAST_SPACING
 from .option_table import fields_of, read_named
 from .options import CONTINUITIES, OF_CURVATURE
 from .quality import Join
+from .reflected import Whole
 from .region import nothing
 from .subdivided import Subdivided
 from .verdict import UNUSABLE, Verdict
@@ -101,7 +102,6 @@ class Piece:
     rows: bool = False  # whether these are in rows: those of the result
     limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
-    on_plane: Ints = field(default_factory=nothing)  # points that close a boundary which is a chain: see core.halves
     across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
     def faces(self, kinds: Ints, lines: Ints) -> Faces:
@@ -115,11 +115,6 @@ class Piece:
         if self.rows and self.result.quads is not None:
             return faces_in_rows(self.triangles, self.result.quads.pairs.astype(np.int64), lines)
         return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is half of a surface, whose boundary is a chain."""
-        return len(self.on_plane) > 0
 
     @property
     def outline(self) -> Ints:
@@ -138,16 +133,14 @@ class Piece:
 
     def carried(self, values: Floats) -> Floats:
         """Return (k, c): values (r, c) of the boundary at the new vertices."""
-        if self.is_open:
-            return carried_over_half(self.points, self.triangles, values, self.on_plane)
         return harmonic(self.points, self.triangles, values)
 
     def keyed(self, places: list[Floats], carried: list[Floats]) -> list[Floats | None]:
         """Return (k, 3) for each shape key: where it has the new vertices, see core.key_surface.
 
-        None where curves run across the surface, and over halves: there they stay where they are carried.
+        None where curves run across the surface: there they stay where they are carried.
         """
-        if len(self.across.edges) or self.is_open:
+        if len(self.across.edges):
             return [None] * len(places)
         mirrored = np.linalg.det(self.around.matrix[:3, :3]) < 0.0
         triangles = self.triangles[:, ::-1] if mirrored else self.triangles
@@ -162,7 +155,6 @@ class Piece:
         near = nearest(self.triangles, len(self.points), rim)
         of_face = near[self.triangles[:, 0]]
         following = np.append(self.following, np.full(len(self.points) - rim, -1))
-        following[rim - 1] = -1 if self.is_open else following[rim - 1]
         for tail, head in ((0, 1), (1, 2), (2, 0)):
             at_edge = following[self.triangles[:, tail]] == self.triangles[:, head]
             of_face[at_edge] = self.triangles[at_edge, tail]
@@ -176,6 +168,7 @@ class Filled:
     pieces: list[Piece]
     left: tuple[Left, ...] = ()
     parted: Subdivided | None = None  # the mesh that the pieces' numbers are those of; None: as it was read
+    whole: Whole | None = None  # that mesh with its image, likewise but for verdicts; None: it is no half
 
     @property
     def left_vertices(self) -> Ints:
@@ -187,15 +180,23 @@ class Filled:
         """Return it with more holes that stay open, before its own."""
         return replace(self, left=(*left, *self.left))
 
+    def for_half(self, whole: Whole) -> Filled:
+        """Return what was found for a whole, to be written to its half."""
+        pieces = [replace(piece, verdict=whole.about_half(piece.verdict)) for piece in self.pieces]
+        return replace(self, pieces=pieces, left=tuple(each.named(whole.own) for each in self.left), whole=whole)
+
     def unfilled(self) -> Filled:
         """Return it without any surface."""
-        left = (Left(np.unique(piece.outline), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
+        left = (Left(self._outline(piece), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
         return Filled([], (*self.left, *left))
+
+    def _outline(self, piece: Piece) -> Ints:
+        return np.unique(piece.outline if self.whole is None else self.whole.own(piece.outline))
 
     def settled(self, options: FillOptions) -> Filled:
         """Return what is to be written: surfaces that are not usable are left out where others are."""
         usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
         if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
             return self
-        bad = Filled([piece for piece in self.pieces if piece.verdict.grade == UNUSABLE])
+        bad = replace(self, pieces=[piece for piece in self.pieces if piece.verdict.grade == UNUSABLE], left=())
         return replace(self, pieces=usable, left=(*self.left, *bad.unfilled().left))

@@ -9,6 +9,7 @@ from .across import reported
 from .border import notes_on
 from .fill_pieces import Filled, FillOptions, Piece
 from .report import MISSED, Check, Report, distortion_text, kink_checks, shape_checks
+from .symmetry import NOT_SYMMETRIC
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, NotUsable, Verdict
 from .words import counted
 
@@ -19,11 +20,13 @@ Named = Sequence[tuple[str, Filled]]
 class Added:
     """What is reported about the new faces of one object."""
 
+    vertices: int
     faces: int
     mixed: int  # boundary vertices where colours or other values of the two border faces differ: their mean counts
     seams: int  # new edges where UVs part
     distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
     covering: int = 0  # new triangles that lie over other faces on that map
+    is_symmetric: bool = True  # as X mirror asks for
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -38,6 +41,8 @@ class Added:
         if self.mixed:
             text = counted(self.mixed, "vertex of the boundary lies", "vertices of the boundary lie")
             notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")
+        if not self.is_symmetric:
+            notes.append(NOT_SYMMETRIC)
         return tuple(notes)
 
 
@@ -75,7 +80,7 @@ def make_fill_report(
     distortion = max((each.distortion for each in added), default=0.0)
     return Report(
         objects=tuple(name for name, _ in named),
-        free_vertices=sum(len(piece.positions) for piece in pieces),
+        free_vertices=sum(each.vertices for each in added) or sum(len(piece.positions) for piece in pieces),
         converged=all(result.converged for result in results),
         residual=max((result.residual for result in results), default=0.0),
         boundary_angle=max((float(result.boundary_angle.max(initial=0.0)) for result in results), default=0.0),

@@ -38,25 +38,3 @@ def nearest(triangles: Ints, count: int, known: int) -> Ints:
         if not reached.any():
             return label
         label[heads[reached]] = label[tails[reached]]
-
-
-def carried_over_half(points: Floats, triangles: Ints, values: Floats, on_plane: Ints) -> Floats:
-    """Return harmonic values inside half of a surface that a plane makes whole: symmetric across it.
-
-    As `harmonic` does, but the points `on_plane` are inside the whole; values (r, c) are those of the boundary's chain.
-    Harmonic values depend on edge lengths alone, so that the image may lie where the half does.
-    """
-    rim, count = len(values), len(points)
-    off = np.setdiff1d(np.arange(count), on_plane)
-    image = np.arange(count)
-    image[off] = count + np.arange(len(off))
-    both = np.concatenate([points, points[off]])
-    whole = np.concatenate([triangles, image[triangles][:, ::-1]])
-    chain = np.setdiff1d(np.arange(rim), on_plane)
-    first = np.concatenate([np.arange(rim), image[chain]])
-    order = np.concatenate([first, np.setdiff1d(np.arange(len(both)), first)])
-    number = np.empty(len(both), dtype=np.int64)
-    number[order] = np.arange(len(order))
-    found = harmonic(both[order], number[whole], np.concatenate([values, values[chain]]))
-    inside: Floats = found[number[rim:count] - len(first)]
-    return inside

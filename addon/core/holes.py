@@ -11,28 +11,33 @@ import fairing
 from .arrays import Floats, Ints, Mask
 from .border import BorderRefusal, Left, border_loops, refuse_all
 from .fill_pieces import FillOptions
-from .halves import Half, halves_of
 from .islands import islands_inside
+from .reflected import Whole, with_image
 from .region import MeshArrays, nothing
+from .sentences import in_numbers_of
+from .symmetry import vertices_with_image
 from .words import counted
 
 
 @dataclass(frozen=True)
 class Borders:
-    """Border loops, each with the hole on its left."""
+    """Border loops, each with the hole on its left, in numbers of the whole."""
 
+    whole: Whole
     loops: list[Ints]  # that are to be filled
     left_open: tuple[Ints, ...] = ()  # outer borders
-    left: tuple[Left, ...] = ()  # what can't be filled
+    left: tuple[Left, ...] = ()  # what can't be filled, in numbers of the half
     longer: int = 0  # how many are longer than asked for
-    halves: tuple[Half, ...] = ()  # of holes at a plane of reflection
 
     @property
     def vertices(self) -> Ints:
-        """Those of all that are to be filled, ascending."""
-        chains = [half.chain for half in self.halves]
-        found: Ints = np.unique(np.concatenate([nothing(), *self.loops, *chains]))
-        return found
+        """Those of the half of all that are to be filled, ascending."""
+        return np.sort(self.whole.own(np.concatenate([nothing(), *self.loops])))
+
+    def expected_vertices(self, matrix: Floats, bridge: bool) -> float:
+        """Return about how many vertices will be new, with edges as long as the boundaries'."""
+        world = _placed(self.whole.mesh, matrix)
+        return fairing.expected_vertices(world.positions, world.triangles, self.loops, bridge=bridge)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -57,47 +62,37 @@ class Borders:
         return (counted(self.longer, "longer border stays open", "longer borders stay open"),)
 
 
-def _without_outer_halves(mesh: MeshArrays, matrix: Floats, borders: Borders) -> Borders:
-    """Return the borders without halves of those around the outside of a sheet."""
-    kept, outer = [], []
-    for half in borders.halves:
-        whole, loop = half.whole(mesh)
-        world = _placed(whole, matrix)
-        is_outer = fairing.outer_borders(world.positions, world.triangles, [loop])[0]
-        outer += [half.chain] * bool(is_outer)
-        kept += [half] * (not is_outer)
-    return replace(borders, halves=tuple(kept), left_open=(*borders.left_open, *outer))
-
-
 def borders_at(mesh: MeshArrays, seeds: Mask) -> Borders:
-    """Return the borders through the vertices of the (n,) mask; see border_loops and halves_of."""
-    found, left = border_loops(mesh, seeds)
-    loops: list[Ints] = []
-    halves: list[Half] = []
-    for loop in found:
-        parts = halves_of(mesh, loop)
-        if parts is None:
-            loops.append(loop)
-            continue
-        halves += [half for half in parts[0] if seeds[half.chain[1:-1]].any()]
-        left += [each for each in parts[1] if seeds[each.vertices].any()]
-    return Borders(loops, left=tuple(left), halves=tuple(halves))
+    """Return the borders through the vertices of the (n,) mask; see border_loops.
+
+    Where they end at a plane of reflection they are those of the whole, which is closed along the plane.
+    """
+    seeds = vertices_with_image(mesh, seeds)
+    loops, left = border_loops(mesh, seeds)
+    touched = np.zeros(len(seeds), dtype=bool)
+    touched[np.concatenate([nothing(), *loops, *(each.vertices for each in left)])] = True
+    whole = with_image(mesh, touched)
+    if whole.planes:
+        on = np.any([plane.on_plane(mesh.positions) for plane in whole.planes], axis=0)
+        own = np.arange(len(whole.mesh.positions)) < len(seeds)
+        loops, left = border_loops(whole.mesh, own & whole.vertices(seeds & ~on))
+        left = [each.named(whole.own) for each in left]
+    return Borders(whole, loops, left=tuple(left))
 
 
-def chosen_borders(mesh: MeshArrays, matrix: Floats, borders: Borders, options: FillOptions, every: bool) -> Borders:
+def chosen_borders(matrix: Floats, borders: Borders, options: FillOptions, every: bool) -> Borders:
     """Return the borders that are meant: not the longer ones, and where nobody chose any (`every`), the holes alone.
 
     Raises BorderRefusal with the first reason where there is none.
     """
-    if not borders.loops and not borders.halves:
+    if not borders.loops:
         refuse_all(borders.left)
-    short = short_among(mesh, matrix, borders, options)
-    if every:
-        short = _without_outer_halves(mesh, matrix, short)
-    return holes_among(mesh, matrix, short, options.islands) if every else short
+    with in_numbers_of(borders.whole.own):
+        short = short_among(matrix, borders, options)
+        return holes_among(matrix, short, options.islands) if every else short
 
 
-def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders, islands: bool = False) -> Borders:
+def holes_among(matrix: Floats, borders: Borders, islands: bool = False) -> Borders:
     """Return the holes among all border loops of a mesh, and with `islands` the loose pieces inside them.
 
     matrix: 4×4, to where they are filled.
@@ -107,16 +102,15 @@ def holes_among(mesh: MeshArrays, matrix: Floats, borders: Borders, islands: boo
     loops = borders.loops
     if not loops:
         return borders
-    world = _placed(mesh, matrix)
+    world = _placed(borders.whole.mesh, matrix)
     outer = fairing.outer_borders(world.positions, world.triangles, loops)
     if islands:
         outer[list(islands_inside(world, loops, outer))] = False
-    if outer.all() and not borders.halves:
+    if outer.all():
         refuse_all(borders.left)
         raise BorderRefusal(_all_outside(len(loops)), np.concatenate(loops))
     pairs = list(zip(loops, outer.tolist(), strict=True))
     left_open = tuple(loop for loop, out in pairs if out)
-    left_open = (*borders.left_open, *left_open)
     return replace(borders, loops=[loop for loop, out in pairs if not out], left_open=left_open)
 
 
@@ -132,46 +126,29 @@ def _all_outside(count: int) -> str:
     )
 
 
-def short_among(mesh: MeshArrays, matrix: Floats, borders: Borders, options: FillOptions) -> Borders:
+def short_among(matrix: Floats, borders: Borders, options: FillOptions) -> Borders:
     """Return the borders with no more edges than asked for, and no longer in the space that `matrix` leads to.
 
     Raises BorderRefusal where there are borders, and none is so short.
     """
     edges, length = options.longest, options.longest_length
-    if not (borders.loops or borders.halves) or not (edges or length):
+    if not borders.loops or not (edges or length):
         return borders
-    world = _placed(mesh, matrix)
-    halves = tuple(
-        half
-        for half in borders.halves
-        if (not edges or 2 * len(half.chain) - 2 <= edges)
-        and (not length or 2.0 * _along(world.positions[half.chain]) <= length)
-    )
+    world = _placed(borders.whole.mesh, matrix)
     sizes = [_length(world.positions[loop]) for loop in borders.loops]
     kept = [
         loop
         for loop, size in zip(borders.loops, sizes, strict=True)
         if (not edges or len(loop) <= edges) and (not length or size <= length)
     ]
-    if not kept and not halves:
+    if not kept:
         refuse_all(borders.left)
         text = "All borders are longer than that"
         if borders.loops:
             edges, length = min(map(len, borders.loops)), min(sizes)
             text = f"{text}: the one with the fewest has {edges} edges, the shortest is {length:.4g} long"
         raise BorderRefusal(text, borders.vertices)
-    longer = len(borders.loops) - len(kept) + len(borders.halves) - len(halves)
-    return replace(borders, loops=kept, halves=halves, longer=longer)
-
-
-def expected_vertices(mesh: MeshArrays, matrix: Floats, loops: list[Ints], bridge: bool) -> float:
-    """Return about how many vertices will be new, with edges as long as the boundaries'."""
-    world = _placed(mesh, matrix)
-    return fairing.expected_vertices(world.positions, world.triangles, loops, bridge=bridge)
-
-
-def _along(points: Floats) -> float:
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
+    return replace(borders, loops=kept, longer=len(borders.loops) - len(kept))
 
 
 def _length(points: Floats) -> float:

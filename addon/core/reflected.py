@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from functools import cached_property
+from typing import Protocol, Self, TypeVar
 
 import numpy as np
 
@@ -11,9 +13,13 @@ import fairing
 
 from .arrays import Floats, Ints, Mask
 from .outcome import Fairing, leading_part
+from .pairs import edge_keys
 from .quality import Join, Quality
 from .region import MeshArrays, Reflection, free_vertices, reversed_corners, vertices_of
+from .sentences import in_numbers_of
 from .verdict import Verdict
+
+_IN_PLANE = "A face lies in the Mirror modifier's plane: delete it, or apply the modifier"
 
 
 @dataclass(frozen=True)
@@ -24,6 +30,16 @@ class Copy:
     back: Floats  # (4, 4) affine: from their places to the half's, in the mesh's own coordinates
 
 
+class Found(Protocol):
+    """New faces, in numbers of the mesh that they were found for."""
+
+    def for_half(self, whole: Whole) -> Self:
+        """Return what was found for a whole, to be written to its half."""
+
+
+Answer = TypeVar("Answer", bound=Found)
+
+
 @dataclass(frozen=True)
 class Whole:
     """The half and its images. The half's own vertices, edges and faces come first."""
@@ -31,43 +47,77 @@ class Whole:
     half: MeshArrays
     mesh: MeshArrays
     copies: tuple[Copy, ...]
+    planes: tuple[Reflection, ...] = ()
+
+    @classmethod
+    def of(cls, mesh: MeshArrays) -> Whole:
+        """Return a mesh that is half of nothing."""
+        return cls(mesh, mesh, (Copy(np.arange(len(mesh.positions)), np.eye(4)),))
+
+    def found(self, find: Callable[[MeshArrays], Answer]) -> Answer:
+        """Return the new faces that are found for the whole, to be written to the half; raises what `find` does."""
+        if not self.planes:
+            return find(self.mesh)
+        with in_numbers_of(self.own):
+            return find(self.mesh).for_half(self)
 
     @property
     def free_count(self) -> int:
         """How many of the half's vertices are free to move."""
         return int(np.count_nonzero(free_vertices(self.mesh)[: len(self.half.positions)]))
 
-    def half_of(self, found: Fairing) -> Fairing:
-        """Return what was found for the whole in terms of the half: the mean of all copies."""
-        assert isinstance(found.result, fairing.FairResult)  # the whole's own vertices
-        sources, own = self._sources(), len(self.half.positions)
-        after = self.mesh.positions.copy()
-        after[found.vertices] = found.positions
-        vertices = np.unique(sources[found.vertices])
-        inside = np.flatnonzero(vertices_of(self.mesh, self.mesh.in_patch))
-        return replace(
-            found,
-            vertices=vertices,
-            positions=self._mean(after)[vertices],
-            result=leading_part(found.result, int(np.count_nonzero(inside < own))),
-            before=self._quality(found.before),
-            after=self._quality(found.after),
-            join=_leading_join(found.join, own),
-            verdict=_about(found.verdict, sources),
-            free_count=self.free_count,
-        )
-
-    def _sources(self) -> Ints:
-        """Return (n',): the half's vertex of each of the whole."""
+    @cached_property
+    def sources(self) -> Ints:
+        """(n',) the half's vertex of each of the whole."""
         sources = np.empty(len(self.mesh.positions), dtype=np.int64)
         for copy in reversed(self.copies):
             sources[copy.vertices] = np.arange(len(copy.vertices))
         return sources
 
-    def _mean(self, positions: Floats) -> Floats:
-        places = [positions[copy.vertices] @ copy.back[:3, :3].T + copy.back[:3, 3] for copy in self.copies]
+    def own(self, vertices: Ints) -> Ints:
+        """Return the half's vertices for some of the whole, each once, in the order of their first."""
+        found = self.sources[vertices]
+        first: Ints = found[np.sort(np.unique(found, return_index=True)[1])]
+        return first
+
+    def vertices(self, chosen: Mask) -> Mask:
+        """Return the (n',) mask of the half's vertices in the (n,) mask and their images."""
+        return chosen[self.sources]
+
+    def edges(self, chosen: Mask) -> Mask:
+        """Return the (e',) mask of the half's edges in the (e,) mask and their images."""
+        return np.isin(edge_keys(self.sources[self.mesh.edges]), edge_keys(self.half.edges[chosen]))
+
+    def about_half(self, verdict: Verdict) -> Verdict:
+        """Return the verdict about the half's vertices."""
+        return replace(verdict, spots=self.own(verdict.spots))
+
+    def moved(self, vertices: Ints, positions: Floats) -> tuple[Ints, Floats]:
+        """Return the half's vertices for those (k,) of the whole, and where they go: the mean of all copies."""
+        after = self.mesh.positions.copy()
+        after[vertices] = positions
+        places = [after[copy.vertices] @ copy.back[:3, :3].T + copy.back[:3, 3] for copy in self.copies]
+        own = np.unique(self.sources[vertices])
         mean: Floats = sum(places[1:], places[0]) / len(places)
-        return mean
+        return own, mean[own]
+
+    def half_of(self, found: Fairing) -> Fairing:
+        """Return what was found for the whole in terms of the half."""
+        assert isinstance(found.result, fairing.FairResult)  # the whole's own vertices
+        count = len(self.half.positions)
+        vertices, positions = self.moved(found.vertices, found.positions)
+        inside = np.flatnonzero(vertices_of(self.mesh, self.mesh.in_patch))
+        return replace(
+            found,
+            vertices=vertices,
+            positions=positions,
+            result=leading_part(found.result, int(np.count_nonzero(inside < count))),
+            before=self._quality(found.before),
+            after=self._quality(found.after),
+            join=_leading_join(found.join, count),
+            verdict=self.about_half(found.verdict),
+            free_count=self.free_count,
+        )
 
     def _quality(self, of: Quality) -> Quality:
         count = len(self.half.in_patch)
@@ -75,31 +125,47 @@ class Whole:
         return Quality(folded, needles, None if of.crossing is None else of.crossing[of.crossing < count])
 
 
-def whole_of(mesh: MeshArrays) -> Whole | None:
-    """Return the mesh with its images where the patch reaches a plane of reflection with an open border; else None."""
-    whole = mesh
+def whole_of(mesh: MeshArrays, touched: Mask | None = None) -> Whole | None:
+    """Return the mesh with its images where what is worked on ends at a plane of reflection, else None.
+
+    touched: (n,) vertices that are worked on; None: the patch, which has edges there.
+    """
+    whole, planes = mesh, []
     copies = [Copy(np.arange(len(mesh.positions)), np.eye(4))]
     for reflection in mesh.reflections:
         seam = reflection.on_plane(whole.positions)
-        if not _is_cut_there(whole, seam):
+        if not _ends_there(whole, seam, touched):
             continue
         whole, image = _with_image(whole, reflection, seam)
+        touched = _twice(touched, ~seam)
+        planes.append(reflection)
         copies += [Copy(image[copy.vertices], copy.back @ reflection.matrix) for copy in copies]
-    return Whole(mesh, whole, tuple(copies)) if len(copies) > 1 else None
+    return Whole(mesh, whole, tuple(copies), tuple(planes)) if planes else None
 
 
-def with_image_across(mesh: MeshArrays, reflection: Reflection) -> tuple[MeshArrays, Ints]:
-    """Return the mesh with its image across a plane after it, and (n,) the image of each vertex."""
-    return _with_image(mesh, reflection, reflection.on_plane(mesh.positions))
+def with_image(mesh: MeshArrays, touched: Mask | None = None) -> Whole:
+    """Return the mesh with its images, as `whole_of` does, for new faces; the mesh alone where it has none.
+
+    Raises ValueError where the mesh can't have its images.
+    """
+    whole = whole_of(mesh, touched) or Whole.of(mesh)
+    for plane in whole.planes:
+        off = ~plane.on_plane(mesh.positions)
+        if not np.bincount(mesh.corner_faces, off[mesh.corner_vertices]).all():
+            raise ValueError(_IN_PLANE)
+    return whole
 
 
-def _is_cut_there(mesh: MeshArrays, seam: Mask) -> bool:
-    """Return whether the patch has edges on the seam, all of them borders: with a second face they would have four."""
-    chosen = mesh.in_patch[mesh.corner_faces]
+def _ends_there(mesh: MeshArrays, seam: Mask, touched: Mask | None) -> bool:
+    """Return whether it reaches the seam, and no edge there has two faces: with images they would be four."""
     sides = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
-    own = np.bincount(mesh.corner_edges[chosen], minlength=len(mesh.edges)) > 0
-    on_seam = own & seam[mesh.edges].all(axis=1)
-    return bool(on_seam.any() and (sides[on_seam] == 1).all())
+    on_seam = seam[mesh.edges].all(axis=1)
+    if touched is None:
+        chosen = mesh.in_patch[mesh.corner_faces]
+        on_seam &= np.bincount(mesh.corner_edges[chosen], minlength=len(mesh.edges)) > 0
+        return bool(on_seam.any() and (sides[on_seam] == 1).all())
+    near = on_seam & touched[mesh.edges].any(axis=1)
+    return bool((touched & seam).any() and (sides[near] <= 1).all())
 
 
 def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[MeshArrays, Ints]:
@@ -107,9 +173,10 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
     off, apart = ~seam, ~seam[mesh.edges].all(axis=1)
     image, edge_image = _numbers_after(off), _numbers_after(apart)
     turned, along = reversed_corners(mesh.corner_faces)
-    faces, normals = len(mesh.in_patch), mesh.corner_normals
+    faces, normals, offsets = len(mesh.in_patch), mesh.corner_normals, mesh.shown_offsets
+    linear = reflection.matrix[:3, :3]
     if normals is not None:
-        normals = np.concatenate([normals, normals[turned] @ reflection.matrix[:3, :3].T])
+        normals = np.concatenate([normals, normals[turned] @ linear.T])
     both = replace(
         mesh,
         positions=np.concatenate([mesh.positions, reflection.of(mesh.positions[off])]),
@@ -132,6 +199,8 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
         sharp=_twice(mesh.sharp, apart),
         hard=_twice(mesh.hard, apart),
         held_by_angle=_twice(mesh.held_by_angle, off),
+        lines={name: np.concatenate([edges, edges[apart]]) for name, edges in mesh.lines.items()},
+        shown_offsets=None if offsets is None else np.concatenate([offsets, offsets[off] @ linear.T]),
         corner_normals=normals,
     )
     return both, image
@@ -157,10 +226,3 @@ def _leading_join(join: Join, count: int) -> Join:
     number = np.cumsum(kept) - 1
     kinks = number[join.kinks[kept[join.kinks]]]
     return replace(join, vertices=join.vertices[kept], degrees=join.degrees[kept], kinks=kinks)
-
-
-def _about(verdict: Verdict, sources: Ints) -> Verdict:
-    """Return the verdict about the half's vertices, in the same order."""
-    spots = sources[verdict.spots]
-    first = np.sort(np.unique(spots, return_index=True)[1])
-    return replace(verdict, spots=spots[first])

@@ -20,7 +20,7 @@ from .new_part import NewPart, new_part
 from .options import FairOptions
 from .outcome import Fairing
 from .piercing import Sheet, pierced, places
-from .reflected import whole_of
+from .reflected import Whole, with_image
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
 from .sentences import in_mesh_words, in_numbers_of
@@ -44,6 +44,11 @@ class Remeshed(Fairing):
     limit_total: int  # as FairOptions has it
     parted: Subdivided | None = None  # the mesh whose numbers these are; None: as it was read
     unselected: int = 0  # faces at the beginning that are not to be selected
+    whole: Whole | None = None  # the mesh with its image, whose numbers these are but for the verdict's
+
+    def for_half(self, whole: Whole) -> Remeshed:
+        """Return what was found for a whole, to be written to its half."""
+        return replace(self, whole=whole, verdict=whole.about_half(self.verdict))
 
     def faces(self, kinds: Ints) -> Faces:
         """Return what is written; kinds: (m,) of the triangles: quads in rows have one kind, and each pair has."""
@@ -77,6 +82,10 @@ def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progre
     Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     refuse_options(options)
+    return with_image(mesh).found(lambda mesh: _remeshed(mesh, matrix, options, progress))
+
+
+def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Remeshed:
     if options.subdivide_boundary:
         return _subdivided(mesh, matrix, options, progress)
     options = replace(options, inner_fairness="CONFORMAL")  # new vertices take values from where they were
@@ -270,8 +279,6 @@ def _largest_curvatures(result: fairing.RemeshResult) -> tuple[float, float]:
 def _limits(mesh: MeshArrays) -> tuple[str, ...]:
     """Return what was asked for and a new mesh does not do."""
     said = {
-        "X mirror is on, but a new mesh is not symmetric": mesh.mirror_x,
-        "A new mesh stops at the Mirror modifier's plane: it may have an edge there": whole_of(mesh) is not None,
         "A new mesh holds open borders: Fair Open Borders has no effect": mesh.fair_border,
     }
     return tuple(text for text, applies in said.items() if applies)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -21,6 +21,7 @@ from .option_table import fields_of, read_named
 from .options import CONTINUITIES
 from .outline import two_sided_edges
 from .pairs import edge_keys
+from .reflected import Whole, with_image
 from .region import MeshArrays, nothing, to_local
 from .rounded_part import rounded_part
 from .sentences import in_mesh_words, sentences
@@ -85,6 +86,11 @@ class Rounded:
     warnings: tuple[str, ...] = ()
     vertices: Ints = field(default_factory=nothing)  # old ones that move: none
     positions: Floats = field(default_factory=lambda: np.empty((0, 3)))
+    whole: Whole | None = None  # the mesh with its image, whose numbers these are but for the verdict's
+
+    def for_half(self, whole: Whole) -> Rounded:
+        """Return what was found for a whole, to be written to its half."""
+        return replace(self, whole=whole, verdict=whole.about_half(self.verdict))
 
     @property
     def surface(self) -> tuple[Floats, Ints]:
@@ -137,6 +143,14 @@ def round_arrays(
     """
     if not seams.any():
         raise ValueError(NO_SEAM)
+    touched = np.isin(np.arange(len(mesh.positions)), mesh.edges[seams])
+    whole = with_image(mesh, touched)
+    return whole.found(lambda mesh: _rounded(mesh, whole.edges(seams), matrix, options, progress))
+
+
+def _rounded(
+    mesh: MeshArrays, seams: Mask, matrix: Floats, options: FilletOptions, progress: Progress | None
+) -> Rounded:
     world = mesh.transformed(matrix)
     count = len(world.positions)
     factors = np.ones(count) if mesh.parts is None else np.maximum(mesh.parts, LEAST_WEIGHT)

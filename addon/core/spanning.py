@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -20,6 +20,7 @@ from .harmonic import harmonic, nearest
 from .option_items import INNER
 from .option_shared import LEAST_SPACING
 from .option_table import fields_of, read_named
+from .reflected import Whole, with_image
 from .region import MeshArrays, nothing, to_local
 from .sentences import in_mesh_words, sentences
 
@@ -78,6 +79,11 @@ class Spanned:
     left_open: int
     warnings: tuple[str, ...]
     options: CurvesOptions
+    whole: Whole | None = None  # the mesh with its image, whose numbers these are
+
+    def for_half(self, whole: Whole) -> Spanned:
+        """Return what was found for a whole, to be written to its half."""
+        return replace(self, whole=whole)
 
     @property
     def faces(self) -> Faces:
@@ -103,6 +109,14 @@ def span_arrays(
 
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
+    touched = np.isin(np.arange(len(mesh.positions)), mesh.edges[chosen])
+    whole = with_image(mesh, touched)
+    return whole.found(lambda mesh: _spanned(mesh, whole.edges(chosen), matrix, options, progress))
+
+
+def _spanned(
+    mesh: MeshArrays, chosen: Mask, matrix: Floats, options: CurvesOptions, progress: Progress | None
+) -> Spanned:
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         points = mesh.transformed(matrix).positions
     wires = mesh.edges[chosen]

@@ -12,11 +12,15 @@ from itertools import product
 
 import numpy as np
 
-from .arrays import Floats, Ints
-from .region import MeshArrays, Patch
+from .arrays import Floats, Ints, Mask
+from .pairs import edge_keys
+from .region import MeshArrays, Patch, Reflection
 
 NEAR = 2e-5  # as far as Blender's own X mirror looks, in the mesh's own units
 FLIP = np.array([-1.0, 1.0, 1.0])
+ACROSS_X = Reflection(np.diag([*FLIP, 1.0]), 2.0 * NEAR)
+
+NOT_SYMMETRIC = "X mirror is on, but the new faces are not symmetric, as what is around them is not"
 
 Loop = Sequence[int]
 Edge = tuple[int, int]
@@ -77,6 +81,30 @@ def with_image(mesh: MeshArrays) -> MeshArrays:
     both = mesh.in_patch.copy()
     both[image] = True
     return replace(mesh, in_patch=both)
+
+
+def vertices_with_image(mesh: MeshArrays, chosen: Mask) -> Mask:
+    """Return the (n,) mask with the mirror images of its vertices where the mesh asks for symmetry and has them."""
+    vertices = np.flatnonzero(chosen)
+    images = _images_in(mesh, vertices) if mesh.mirror_x else None
+    return chosen if images is None else chosen | np.isin(np.arange(len(chosen)), images)
+
+
+def edges_with_image(mesh: MeshArrays, chosen: Mask) -> Mask:
+    """Return the (e,) mask likewise with the images of its edges."""
+    ends = np.unique(mesh.edges[chosen])
+    images = _images_in(mesh, ends) if mesh.mirror_x else None
+    if images is None:
+        return chosen
+    across = images[np.searchsorted(ends, mesh.edges[chosen])]
+    both: Mask = chosen | np.isin(edge_keys(mesh.edges), edge_keys(across))
+    return both
+
+
+def _images_in(mesh: MeshArrays, vertices: Ints) -> Ints | None:
+    """Return (k,) the mirror images of vertices (k,); None where one has none."""
+    found = _images((mesh.positions[vertices], vertices), (mesh.positions, np.arange(len(mesh.positions))))
+    return None if found is None else np.array([found[vertex] for vertex in vertices.tolist()], dtype=np.int64)
 
 
 def _image_faces(mesh: MeshArrays) -> Ints | None:

@@ -15,6 +15,7 @@ import numpy as np
 from ..core.arrays import Floats, Mask
 from ..core.fill_pieces import Filled, Piece
 from ..core.fill_report import Added
+from ..core.reflected import Whole
 from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
 from ..core.uv_overlap import covering
 from .columns import elements_of
@@ -45,13 +46,13 @@ def border_seeds(mesh: bpy.types.Mesh) -> Mask:
 
 def add_to_edit_mesh(obj: bpy.types.Object, filled: Filled) -> Added:
     """Add the surfaces to a mesh in edit mode and select them alone; nothing else about the mesh changes."""
-    with in_edit_mode(obj) as target:
+    with in_edit_mode(obj, filled.whole) as target:
         return _add(target, filled)
 
 
 def add_to_mesh(mesh: bpy.types.Mesh, filled: Filled) -> Added:
     """Add the surfaces to a mesh in object mode, to its Basis where it has shape keys."""
-    with in_object_mode(mesh) as target:
+    with in_object_mode(mesh, filled.whole) as target:
         return _add(target, filled)
 
 
@@ -63,23 +64,25 @@ def _add(target: Target, filled: Filled) -> Added:
     if filled.parted is None and target.open():
         with parted_edges(target.bm, None) as vertices:
             rims, new = _read(target, filled.pieces, vertices)
-    return _made(target, rims, new)
+    return _made(target, rims, new, filled.whole)
 
 
-def _made(target: Target, rims: list[_Rim], new: list[FaceData]) -> Added:
+def _made(target: Target, rims: list[_Rim], new: list[FaceData], whole: Whole | None) -> Added:
     bm = target.bm
-    covered = _covering(bm, rims)
-    made = [rim.fill(target, data) for rim, data in zip(rims, new, strict=True)]
-    faces = [face for _, of_one in made for face in of_one]
+    covered = _covering(bm, rims) if whole is None else 0  # images lie over each other
+    vertices, faces = target.mirror.kept([rim.fill(target, data) for rim, data in zip(rims, new, strict=True)])
     select_new_faces(bm, faces)
     bm.normal_update()
-    renew(bm, [vertex for of_one, _ in made for vertex in of_one], faces)
+    renew(bm, vertices, faces)
+    mixed = np.concatenate([rim.mixed for rim in rims])
     return Added(
+        vertices=len(vertices),
         faces=len(faces),
-        mixed=sum(rim.mixed for rim in rims),
+        mixed=len(mixed if whole is None else whole.own(mixed)),
         seams=sum(rim.seams for rim in rims),
         distortion=max((rim.distortion for rim in rims), default=0.0),
         covering=covered,
+        is_symmetric=target.mirror.is_met,
     )
 
 
@@ -117,17 +120,14 @@ class _Rim:
         self._drawn = elements_of(vertices, piece.across.drawn)
         self._around = elements_of(vertices, piece.around.vertices)
         following, before = piece.following.tolist(), np.argsort(piece.following).tolist()
-        if piece.is_open:  # the last edge is none: the one before it, or after it, stands for it
-            following[-1], before[0] = -1, 0
-        edges = [(i, j) if j >= 0 else (i - 1, i) for i, j in enumerate(following)]
-        self._faces = [_border_face(self._vertices[i], self._vertices[j]) for i, j in edges]
+        self._faces = [_border_face(self._vertices[i], self._vertices[j]) for i, j in enumerate(following)]
         self._after = [_corner(self._faces[i], vertex) for i, vertex in enumerate(self._vertices)]
         self._before = [_corner(self._faces[before[i]], vertex) for i, vertex in enumerate(self._vertices)]
         layers = MeanLayers(bm.loops.layers, OF_CORNERS)
         after, other = (np.nan_to_num(layers.read(side)) for side in (self._after, self._before))
-        names = [] if piece.is_open else layers.uv_names  # over a half UVs are carried like all else
+        names = layers.uv_names
         self._own = 2 * len(names)  # columns from which on values are carried
-        self.mixed = int(np.count_nonzero((np.abs(after - other)[:, self._own :] > SAME).any(axis=1)))
+        self.mixed = piece.outline[(np.abs(after - other)[:, self._own :] > SAME).any(axis=1)]
         self._rims = [
             RimUVs(after[:, 2 * k : 2 * k + 2], other[:, 2 * k : 2 * k + 2], self._mirrored(bm.loops.layers.uv[name]))
             for k, name in enumerate(names)
@@ -136,7 +136,7 @@ class _Rim:
         self._maps = [unwrapped(surface, rim) for rim in self._rims]
         self.seams = max((len(flat.seams) for flat in self._maps), default=0)
         active = bm.loops.layers.uv.active
-        self._active = None if active is None or piece.is_open else self._maps[layers.uv_names.index(active.name)]
+        self._active = None if active is None else self._maps[layers.uv_names.index(active.name)]
         self.distortion = 0.0 if self._active is None else self._active.distortion
 
     @property

@@ -25,19 +25,21 @@ class Written:
     """What a mesh has after a run: numbers of its faces and vertices as they are now."""
 
     face_count: int
+    new_vertices: int
     faces: Ints  # that are new
     spots: Ints  # vertices of the verdict that are still there
+    is_symmetric: bool  # as X mirror asks for
 
 
 def write_edit_mesh(obj: bpy.types.Object, outcome: Remeshed | Rounded) -> Written:
     """Replace the patch of an object in edit mode and select what is new."""
-    with in_edit_mode(obj) as target:
+    with in_edit_mode(obj, outcome.whole) as target:
         return _replace(target, outcome)
 
 
 def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed | Rounded) -> None:
     """Replace the patch of a mesh in object mode: that of its Basis, which the keys relative to it follow."""
-    with in_object_mode(mesh) as target:
+    with in_object_mode(mesh, outcome.whole) as target:
         old = _looked_up(target, outcome)
         offsets = target.shapes.offsets(old.moved)
         _written(target, outcome, old)
@@ -105,13 +107,16 @@ def _written(target: Target, outcome: Remeshed | Rounded, old: _Old) -> Written:
         vertex.co = place
     faces = make_faces(target, vertices, old.new)
     _delete(bm, old)
-    select_new_faces(bm, faces[outcome.unselected :])
+    pieces = set(faces[: outcome.unselected])
+    vertices, faces = target.mirror.kept([(vertices, faces)])
+    select_new_faces(bm, [face for face in faces if face not in pieces])
     bm.normal_update()
     renew(bm, [*vertices, *old.moved], faces)
     bm.verts.index_update()
     bm.faces.index_update()
     numbers = np.array([face.index for face in faces], dtype=np.int64)
-    return Written(len(bm.faces), numbers, np.array([vertex.index for vertex in old.spots], dtype=np.int64))
+    spots = np.array([vertex.index for vertex in old.spots], dtype=np.int64)
+    return Written(len(bm.faces), len(vertices), numbers, spots, target.mirror.is_met)
 
 
 def _delete(bm: Any, old: _Old) -> None:

@@ -7,6 +7,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Mask
+from ..core.fill_report import Added
 from ..core.spanning import Spanned
 from .columns import elements_of
 from .free_normals import renew
@@ -21,12 +22,12 @@ def selected_wires(mesh: bpy.types.Mesh) -> Mask:
     return np.array([edge.select and not edge.hide and edge.is_wire for edge in edges], dtype=bool)
 
 
-def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> int:
-    """Add a surface to a mesh in edit mode and select it alone; return the number of faces.
+def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> Added:
+    """Add a surface to a mesh in edit mode and select it alone.
 
     They are smooth but for creases, of the active material; what belongs to vertices is carried over from the curves.
     """
-    with in_edit_mode(obj) as target:
+    with in_edit_mode(obj, spanned.whole) as target:
         target.open()
         bm = target.bm
         bm.verts.ensure_lookup_table()
@@ -35,7 +36,8 @@ def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> int:
         data = VertexData(
             spanned.positions, held, spanned.carried, examples, limit=spanned.options.limit_total
         )  # fmt: skip
-        table = [*held, *make_vertices(target, data)]
+        vertices = make_vertices(target, data)
+        table = [*held, *vertices]
         made = []
         for polygon in spanned.faces.polygons:
             face = bm.faces.new([table[corner] for corner in polygon])
@@ -43,7 +45,8 @@ def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> int:
             made.append(face)
         for a, b in spanned.creases.tolist():
             bm.edges.get((table[a], table[b])).smooth = False
+        vertices, made = target.mirror.kept([(vertices, made)])
         select_new_faces(bm, made)
         bm.normal_update()
-        renew(bm, table[len(held) :], made)
-        return len(made)
+        renew(bm, vertices, made)
+        return Added(len(vertices), len(made), 0, 0, 0.0, is_symmetric=target.mirror.is_met)

@@ -10,6 +10,8 @@ from typing import Any
 import bmesh
 import bpy
 
+from ..core.reflected import Whole
+from .halved import Mirror
 from .layers import Shapes
 from .mesh_io import user_of
 from .set_aside import SetAside, has_unreached
@@ -25,13 +27,14 @@ class Target:
     aside: SetAside
     bones: list[int]  # vertex groups of bones
     edited: bpy.types.Mesh | None  # the mesh whose edit mode shows the bmesh
+    mirror: Mirror
 
     def open(self) -> bool:
         """Take out what must not be there when elements are made; before, nothing about the mesh has changed.
 
         Returns whether there was something: elements that were looked up before are of no use then.
         """
-        if self.edited is None or not self.aside:
+        if self.edited is None or not self.aside or self.aside.is_numbered:
             return False
         self.aside.take_out(self.edited)
         self.aside.number(self.bm)
@@ -39,14 +42,21 @@ class Target:
 
 
 @contextmanager
-def in_edit_mode(obj: bpy.types.Object) -> Iterator[Target]:
-    """Give the mesh of an object in edit mode, and show what was done."""
+def in_edit_mode(obj: bpy.types.Object, whole: Whole | None = None) -> Iterator[Target]:
+    """Give the mesh of an object in edit mode, and show what was done.
+
+    whole: with the images of which the mesh was solved, which it has for a while.
+    """
     mesh = obj.data
     bm = bmesh.from_edit_mesh(mesh)
     shapes = Shapes(bm, mesh.shape_keys, obj.active_shape_key)
     aside = _read_edit_mesh(mesh, bm)
+    target = Target(bm, shapes, aside, bone_groups(obj), mesh, Mirror(bm, whole, mesh.use_mirror_x))
     try:
-        yield Target(bm, shapes, aside, bone_groups(obj), mesh)
+        if whole is not None:
+            target.open()
+        with target.mirror.images():
+            yield target
     finally:
         bmesh.update_edit_mesh(mesh)
         if aside.is_numbered:  # they come back whatever has happened
@@ -54,15 +64,17 @@ def in_edit_mode(obj: bpy.types.Object) -> Iterator[Target]:
 
 
 @contextmanager
-def in_object_mode(mesh: bpy.types.Mesh) -> Iterator[Target]:
-    """Give a mesh in object mode, its Basis shown, and write that back."""
+def in_object_mode(mesh: bpy.types.Mesh, whole: Whole | None = None) -> Iterator[Target]:
+    """Give a mesh in object mode likewise, its Basis shown, and write that back."""
     aside = SetAside(mesh)
     bm = bmesh.new()
     try:
         _load(bm, mesh, aside)
         keys = mesh.shape_keys
         shapes = Shapes(bm, keys, None if keys is None else keys.reference_key)
-        yield Target(bm, shapes, aside, bone_groups(user_of(mesh)), None)
+        target = Target(bm, shapes, aside, bone_groups(user_of(mesh)), None, Mirror(bm, whole, mesh.use_mirror_x))
+        with target.mirror.images():
+            yield target
         bm.to_mesh(mesh)
         aside.put_back(mesh)
     finally:

@@ -7,13 +7,13 @@ from functools import cached_property
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
+from ..core.arrays import Floats
 from ..core.border import NO_BORDER, left_by
 from ..core.engine import REFUSALS, Progress, sub_range
 from ..core.fill_pieces import Filled, FillOptions
 from ..core.fill_report import make_fill_report, writable
-from ..core.filling import fill
-from ..core.holes import Borders, borders_at, chosen_borders, expected_vertices
+from ..core.filling import fill_borders
+from ..core.holes import Borders, borders_at, chosen_borders
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
@@ -42,14 +42,9 @@ class Task:
     borders: Borders
     key: str  # the shape key that was read, as mesh_io.writable_key names it
 
-    @property
-    def loops(self) -> list[Ints]:
-        """Those that are to be filled."""
-        return self.borders.loops
-
     def expected_vertices(self, options: FillOptions) -> float:
         """Return about how many vertices will be new."""
-        return expected_vertices(self.mesh, self.matrix, self.loops, options.bridge) / options.spacing**2
+        return self.borders.expected_vertices(self.matrix, options.bridge) / options.spacing**2
 
 
 def read(context: bpy.types.Context, options: FillOptions) -> list[Task]:
@@ -67,7 +62,7 @@ def read(context: bpy.types.Context, options: FillOptions) -> list[Task]:
             found = borders_at(mesh, seeds)
             # Where all faces are selected, too, no border was chosen.
             every = obj.data.count_selected_items()[2] == len(mesh.in_patch)
-            borders = chosen_borders(mesh, matrix, found, options, every)
+            borders = chosen_borders(matrix, found, options, every)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
         if not len(borders.vertices):  # a Mirror modifier closes them
@@ -83,11 +78,10 @@ def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[F
     for i, task in enumerate(tasks):
         part = sub_range(progress, i / len(tasks), (i + 1) / len(tasks))
         try:
-            found = fill(task.mesh, task.matrix, task.loops, options, part, task.borders.halves)
+            outcomes.append(fill_borders(task.borders, task.matrix, options, part))
         except REFUSALS as cause:
             refused = refused or Refused(task.object_name, cause)
-            found = Filled([], (left_by(cause, task.borders.vertices),))
-        outcomes.append(found.with_left(task.borders.left))
+            outcomes.append(Filled([], (*task.borders.left, left_by(cause, task.borders.vertices))))
     if refused is not None and not any(found.pieces for found in outcomes):
         raise refused from refused.cause
     return outcomes

@@ -15,7 +15,7 @@ from ..core.border import Left
 from ..core.engine import Progress
 from ..core.fill_pieces import Filled, FillOptions
 from ..core.fill_report import Added, is_written, refuse_unusable
-from ..core.filling import fill
+from ..core.filling import fill_borders as fill_chosen
 from ..core.holes import borders_at, chosen_borders
 from ..core.options import FairOptions
 from ..core.places import as_indices
@@ -76,12 +76,12 @@ def fill_borders(
     if vertices is not None:
         seeds[as_indices("vertices", vertices, len(seeds))] = True
     found = borders_at(arrays, seeds)
-    if not (found.loops or found.halves or found.left):
+    if not (found.loops or found.left):
         raise ValueError("There is no border to fill" if vertices is None else "None of the vertices is on a border")
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):
         raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    borders = chosen_borders(arrays, world, found, options, vertices is None)
-    filled = fill(arrays, world, borders.loops, options, progress, borders.halves).with_left(borders.left)
+    borders = chosen_borders(world, found, options, vertices is None)
+    filled = fill_chosen(borders, world, options, progress)
     written = is_written([(mesh.name, filled)], options)
     return Done(filled, filled_mesh.add_to_mesh(mesh, filled) if written else None, borders.notes)

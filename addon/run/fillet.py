@@ -18,6 +18,7 @@ from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.rounding import NO_SEAM, FilletOptions, Rounded, round_arrays, seams_of
+from ..core.symmetry import NOT_SYMMETRIC, edges_with_image
 from ..core.typed import Typed
 from ..core.verdict import UNUSABLE, NotUsable
 from ..host.context import edited_objects
@@ -99,7 +100,7 @@ def read(context: bpy.types.Context, group: str) -> list[Task]:
             mesh = mesh_io.read_edit_mesh(obj, FairOptions(factor_group=group), widens=False)
             matrix = np.array(obj.matrix_world, dtype=np.float64)
             by_edges = not context.tool_settings.mesh_select_mode[2]
-            seams = seams_of(mesh.transformed(matrix), edges, by_edges)
+            seams = edges_with_image(mesh, seams_of(mesh.transformed(matrix), edges, by_edges))
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
         if seams.any():
@@ -141,10 +142,12 @@ class Asked(AskedInEditMode):
         compare.forget()
         handle.flank = self.tasks[0].flank
         clear(context.window_manager.fairing_report)
-        write_each(context, zip(self.names, outcomes, strict=True), remeshed.write_edit_mesh)
+        written = write_each(context, zip(self.names, outcomes, strict=True), remeshed.write_edit_mesh)
+        if not all(each.is_symmetric for each in written):
+            say({"WARNING"}, translated(NOT_SYMMETRIC))
         for warning in (each for outcome in outcomes for each in outcome.warnings):
             say({"WARNING"}, translated(warning))
-        count = sum(len(outcome.result.vertices) for outcome in outcomes)
+        count = sum(each.new_vertices for each in written)
         seconds = time.perf_counter() - self.begin
         say({"INFO"}, translated(f"{count} new vertices in {seconds:.2f} s"))
         return {"FINISHED"}

@@ -11,6 +11,7 @@ from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import GRADE_NAMES, Report, make_report, summary
+from ..core.symmetry import NOT_SYMMETRIC
 from ..host.status import redraw_sidebars
 from ..translations import translated
 from . import compare, job, labels, last_run
@@ -68,7 +69,10 @@ class Asked(AskedInEditMode):
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         compare.remember(self.tasks, outcomes)
-        last_run.renumber(job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one))
+        written = job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one)
+        last_run.renumber(written)
+        if any(each is not None and not each.is_symmetric for each in written):
+            say({"WARNING"}, translated(NOT_SYMMETRIC))
         for warning in report.warnings:
             say({"WARNING"}, translated(warning))
         for idle in labels.idle_in(report):

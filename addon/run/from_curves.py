@@ -11,6 +11,7 @@ from ..core.engine import Progress
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.spanning import NO_WIRE, CurvesOptions, Spanned, span_arrays
+from ..core.symmetry import edges_with_image
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import mesh_io, spanned
@@ -48,6 +49,7 @@ def read(context: bpy.types.Context) -> list[Task]:
             mesh = mesh_io.read_edit_mesh(obj, FairOptions(), widens=False)
         except ValueError as cause:
             raise Refused(obj.name, cause) from cause
+        wires = edges_with_image(mesh, wires)
         tasks.append(Task(obj.name, mesh, wires, np.array(obj.matrix_world, dtype=np.float64), key))
     return tasks
 
@@ -79,8 +81,10 @@ class Asked(AskedInEditMode):
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
         clear(context.window_manager.fairing_report)
-        faces = sum(write_each(context, zip(self.names, outcomes, strict=True), spanned.add_to_edit_mesh))
-        for warning in (each for outcome in outcomes for each in outcome.warnings):
+        added = write_each(context, zip(self.names, outcomes, strict=True), spanned.add_to_edit_mesh)
+        faces = sum(each.faces for each in added)
+        said = [each for outcome in outcomes for each in outcome.warnings]
+        for warning in dict.fromkeys([*said, *(note for each in added for note in each.notes)]):
             say({"WARNING"}, translated(warning))
         cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
         say({"INFO"}, translated(f"{faces} new faces in {cells} cells; {left} openings stay"))

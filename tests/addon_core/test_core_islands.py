@@ -10,6 +10,7 @@ from core.fill_pieces import FillOptions
 from core.filling import fill
 from core.holes import Borders, chosen_borders
 from core.islands import islands_inside
+from core.reflected import Whole
 from core.region import MeshArrays
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -41,7 +42,7 @@ def test_an_island_is_found_in_its_hole() -> None:
 def test_an_island_is_joined_with_its_hole_where_that_is_asked_for() -> None:
     mesh, loops = ball_with_island()
     options = FillOptions(islands=True)
-    chosen = chosen_borders(mesh, np.eye(4), Borders(loops[:2]), options, True)
+    chosen = chosen_borders(np.eye(4), Borders(Whole.of(mesh), loops[:2]), options, True)
     assert [len(loop) for loop in chosen.loops] == [8, 32]
     done = fill(mesh, np.eye(4), chosen.loops, options)
     (piece,) = done.pieces
@@ -55,5 +56,5 @@ def test_an_island_is_joined_with_its_hole_where_that_is_asked_for() -> None:
     assert len(piece.points) - len(names) + len(piece.triangles) == 0  # a ring
     assert np.count_nonzero(uses == 1) == 40
     plain = FillOptions()
-    alone = chosen_borders(mesh, np.eye(4), Borders(loops[:2]), plain, True)
+    alone = chosen_borders(np.eye(4), Borders(Whole.of(mesh), loops[:2]), plain, True)
     assert [len(loop) for loop in alone.loops] == [32]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -51,3 +52,41 @@ def test_result_is_symmetric_to_the_bit(scale: tuple[float, float, float]) -> No
     assert meshes.fair(obj, faces) == {"FINISHED"}
     assert asymmetry(obj) == 0.0
     assert "mirror" not in meshes.report().warnings
+
+
+def cube() -> bpy.types.Object:
+    """Without a vertex at x = 0."""
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.object.data.use_mirror_x = True
+    return bpy.context.object
+
+
+def test_one_edge_stands_for_both() -> None:
+    """Report 08."""
+    obj = cube()
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in bm.edges:
+        edge.select_set(all(vertex.co.x > 0.0 and vertex.co.z > 0.0 for vertex in edge.verts))
+    bm.select_flush_mode()
+    assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3) == {"FINISHED"}
+    meshes.leave()
+    points = meshes.positions(obj)
+    assert np.count_nonzero(points[:, 0] > 0.5) == np.count_nonzero(points[:, 0] < -0.5) > 50
+    flipped = points * (-1.0, 1.0, 1.0)
+    assert max(np.linalg.norm(points - each, axis=1).min() for each in flipped) < 2e-5
+
+
+def test_a_new_mesh_is_symmetric_to_the_bit() -> None:
+    obj, faces = symmetric_dome()
+    obj.data.use_mirror_x = True
+    group = obj.vertex_groups.new(name="Left")
+    group.add([v.index for v in obj.data.vertices if v.co.x < -0.01], 1.0, "REPLACE")
+    assert meshes.fair(obj, faces, mesh="NEW", spacing=0.8) == {"FINISHED"}
+    points = meshes.positions(obj)
+    there = {tuple(row + 0.0) for row in points}
+    assert {tuple(row * (-1.0, 1.0, 1.0) + 0.0) for row in points} == there
+    for vertex in obj.data.vertices:  # each side keeps its own data
+        weight = sum(each.weight for each in vertex.groups)
+        assert weight == 0.0 if vertex.co.x > 0.2 else weight > 0.9 if vertex.co.x < -0.2 else True

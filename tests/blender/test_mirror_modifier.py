@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -79,8 +81,129 @@ def test_scripts_get_the_half() -> None:
     assert len(result.vertices) == len(corners)
 
 
-def test_a_new_mesh_tells_of_the_plane() -> None:
+def seen(obj: bpy.types.Object) -> Any:
+    """The mesh as the modifier shows it, as a bmesh."""
+    bm = bmesh.new()
+    bpy.context.view_layer.update()
+    bm.from_object(obj, bpy.context.evaluated_depsgraph_get())
+    bm.normal_update()
+    return bm
+
+
+def bends(bm: Any) -> Any:
+    """Degrees by which the edges bend, and how far these are from the plane."""
+    edges = [edge for edge in bm.edges if len(edge.link_faces) == 2]
+    angles = np.degrees([edge.calc_face_angle() for edge in edges])
+    return angles, np.array([abs(0.5 * (edge.verts[0].co.x + edge.verts[1].co.x)) for edge in edges])
+
+
+@pytest.mark.parametrize("quads", [False, True])
+def test_a_new_mesh_is_half_of_the_whole_ones(quads: bool) -> None:
     obj, faces = half_dome()
-    assert meshes.fair(obj, faces, mesh="NEW") == {"FINISHED"}
-    assert "Mirror modifier" in meshes.report().warnings
-    assert "open borders" not in meshes.report().warnings
+    before = meshes.positions(obj)
+    assert meshes.fair(obj, faces, mesh="NEW", quads=quads, spacing=0.7) == {"FINISHED"}
+    points = meshes.positions(obj)
+    assert (points[:, 0] <= 0.0).all()
+    assert off_sphere(obj) < 2e-3
+    outside = ~((before[:, 0] > -0.6) & (np.abs(before[:, 1]) < 0.6))
+    there = {tuple(row) for row in points.tolist()}
+    assert all(tuple(row) in there for row in before[outside].tolist())
+    bm = seen(obj)
+    assert all(len(edge.link_faces) == 2 or abs(edge.verts[0].co.y) == 1.0 or abs(edge.verts[0].co.x) == 1.0
+               for edge in bm.edges)  # fmt: skip
+    angles, away = bends(bm)
+    assert angles[away < 0.05].max() < 1.5 * angles[away > 0.1].max()
+    bm.free()
+
+
+def half_box() -> bpy.types.Object:
+    """The half x ≥ 0 of a box, open at x = 0, with a Mirror modifier."""
+    corners = [(x, y, z) for x in (0.0, 1.0) for y in (-1.0, 1.0) for z in (-0.5, 0.5)]
+    faces = [(4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    obj = meshes.add(np.array(corners), faces)
+    obj.modifiers.new("Mirror", "MIRROR")
+    return obj
+
+
+def select_edges(obj: bpy.types.Object, chosen: Callable[[Any, Any], bool]) -> None:
+    meshes.leave() if obj.mode == "EDIT" else None
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in bm.edges:
+        edge.select_set(chosen(*(vertex.co for vertex in edge.verts)))
+    bm.select_flush_mode()
+
+
+@pytest.mark.parametrize("quads", [False, True])
+def test_a_fillet_goes_on_through_the_plane(quads: bool) -> None:
+    """Report 07: no thorn, and the corner at the plane is gone."""
+    obj = half_box()
+    select_edges(obj, lambda a, b: a.z > 0.4 and b.z > 0.4 and max(a.x, b.x) > 0.5)
+    assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.2, quads=quads) == {"FINISHED"}
+    meshes.leave()
+    points = meshes.positions(obj)
+    assert np.linalg.norm(points - [0.0, 1.0, 0.5], axis=1).min() > 0.05
+    assert points[:, 0].min() == 0.0
+    bm = seen(obj)
+    assert all(len(edge.link_faces) == 2 for edge in bm.edges)
+    angles, away = bends(bm)
+    assert angles[away < 0.12].max() < 1.3 * angles[(away > 0.3) & (away < 0.7)].max()
+    bm.free()
+
+
+def test_roughness_goes_over_the_plane() -> None:
+    obj, faces = half_dome()
+    meshes.enter(obj, faces)
+    assert bpy.ops.mesh.fair_denoise("EXEC_DEFAULT", True) == {"FINISHED"}
+    meshes.leave()
+    np.testing.assert_array_equal(on_plane(obj)[:, 0], 0.0)
+    bm = seen(obj)
+    angles, away = bends(bm)
+    assert angles[away < 0.02].max() < 1.5 * angles[away > 0.1].max()
+    bm.free()
+
+
+def test_curves_and_their_images_get_one_surface() -> None:
+    """Half of three rings: the half of a tube."""
+    turns = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 17)
+    rings = [np.stack([np.cos(turns), np.sin(turns), np.full(17, z)], axis=1) for z in (-1.0, 0.0, 1.0)]
+    points = np.concatenate(rings)
+    points[np.abs(points[:, 0]) < 1e-9, 0] = 0.0
+    edges = [(17 * r + k, 17 * r + k + 1) for r in range(3) for k in range(16)]
+    edges += [(17 * r + k, 17 * r + 17 + k) for r in range(2) for k in (0, 4, 12, 16)]
+    mesh = bpy.data.meshes.new("Curves")
+    mesh.from_pydata(points.tolist(), edges, [])
+    obj = bpy.data.objects.new("Curves", mesh)
+    bpy.context.collection.objects.link(obj)
+    bpy.context.view_layer.objects.active = obj
+    obj.modifiers.new("Mirror", "MIRROR")
+    select_edges(obj, lambda a, b: True)
+    assert bpy.ops.mesh.fair_from_curves("EXEC_DEFAULT", True) == {"FINISHED"}
+    meshes.leave()
+    assert meshes.positions(obj)[:, 0].min() == 0.0
+    assert np.abs(np.hypot(*meshes.positions(obj)[:, :2].T) - 1.0).max() < 5e-3
+    bm = seen(obj)
+    assert sum(edge.is_boundary for edge in bm.edges) == 64  # the rims
+    bm.free()
+
+
+def test_what_is_refused_leaves_no_image() -> None:
+    obj = half_box()
+    before = meshes.positions(obj)
+    select_edges(obj, lambda a, b: a.z > 0.4 and b.z > 0.4 and max(a.x, b.x) > 0.5)
+    with pytest.raises(RuntimeError):
+        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.2, max_vertices=5)
+    meshes.leave()
+    np.testing.assert_array_equal(meshes.positions(obj), before)
+    assert (len(obj.data.edges), len(obj.data.polygons)) == (12, 5)
+
+
+def test_a_face_in_the_plane_is_refused_by_name() -> None:
+    obj = half_box()
+    with meshes.rebuilt(obj) as bm:
+        bm.faces.new([bm.verts.new((0.0, y, z)) for y, z in ((5.0, 0.0), (6.0, 0.0), (5.0, 1.0))])
+    select_edges(obj, lambda a, b: a.z > 0.4 and b.z > 0.4 and min(a.x, b.x) < 0.5 < max(a.x, b.x))
+    with pytest.raises(RuntimeError, match="A face lies in the Mirror modifier's plane"):
+        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.2)
+    meshes.leave()
