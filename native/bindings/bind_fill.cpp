@@ -6,6 +6,7 @@
 #include "bindings/topics.h"
 #include "bindings/words.h"
 #include "fill/conformal_map.h"
+#include "fill/joined_loops.h"
 #include "fill/quads.h"
 
 namespace fairing::bindings {
@@ -113,6 +114,10 @@ py::tuple quads_of(const DoubleArray& vertices, const IntArray& triangles, const
     return py::make_tuple(quads, pairs, from_indices(result.rest));
 }
 
+py::array triangulated(const DoubleArray& vertices, const IntArray& corners, const IntArray& sizes) {
+    return from_triangles(triangulated_faces(to_points(vertices), to_indices(corners), to_indices(sizes)));
+}
+
 }  // namespace
 
 void bind_fill(py::module_& module) {
@@ -120,6 +125,7 @@ void bind_fill(py::module_& module) {
                py::arg("values"));
     module.def("conformal_map", &conformal_map_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("places"));
+    module.def("triangulated", &triangulated, py::arg("vertices"), py::arg("corners"), py::arg("sizes"));
     module.def("paired_quads", &quads_of, py::arg("vertices"), py::arg("triangles"), py::arg("kept"));
     module.def("fill_loops", &fill_arrays, py::arg("vertices"), py::arg("loops"), py::arg("normals"), py::arg("bridge"),
                py::arg("equation"), py::arg("progress"));

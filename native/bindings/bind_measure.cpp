@@ -5,6 +5,7 @@
 #include "geometry/nearest_point.h"
 #include "geometry/self_intersection.h"
 #include "mesh/loops.h"
+#include "mesh/turned.h"
 
 namespace fairing::bindings {
 
@@ -36,6 +37,10 @@ py::list boundary_loop_arrays(const IntArray& triangles) {
     py::list loops;
     for (const Indices& loop : boundary_loops(list, count)) loops.append(from_indices(loop));
     return loops;
+}
+
+py::array turned_array(const IntArray& triangles, int vertex_count) {
+    return from_indices(turned_triangles(to_triangles(triangles), vertex_count));
 }
 
 py::array component_array(const IntArray& triangles, const std::optional<IntArray>& fixed, int vertex_count) {
@@ -71,6 +76,7 @@ void bind_measure(py::module_& module) {
     module.def("cotan_laplacian", &cotan_laplacian_arrays, py::arg("vertices"), py::arg("triangles"));
     module.def("components", &component_array, py::arg("triangles"), py::arg("fixed"), py::arg("vertex_count"));
     module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
+    module.def("turned_triangles", &turned_array, py::arg("triangles"), py::arg("vertex_count"));
     module.def("flipped_triangles", &flipped_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"));
     module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"), py::arg("near"));
     module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include <Eigen/Geometry>
 
@@ -90,6 +91,22 @@ Triangles joined_loops(const Points& points, const std::vector<Indices>& loops, 
         loops.size() == 1 || normals != nullptr ? TriangleCost(points) : cost_around(points, loops);
     const Indices polygon = loops.size() == 1 ? loops.front() : linked(points, loops);
     return as_columns(cheapest_triangulation(polygon, normals == nullptr ? cost : cost.along(*normals)));
+}
+
+Triangles triangulated_faces(const Points& points, const Indices& corners, const Indices& sizes) {
+    std::vector<Eigen::Vector3i> triangles;
+    auto begin = corners.begin();
+    for (const int size : sizes) {
+        const Indices face(begin, begin + size);
+        begin += size;
+        const Points local = points(Eigen::all, face).colwise() - points.col(face.front());
+        Indices own(face.size());
+        std::iota(own.begin(), own.end(), 0);
+        const Points normals = area_vector(local, own).stableNormalized().replicate(1, size);
+        for (const Eigen::Vector3i& each : cheapest_triangulation(own, TriangleCost(local).along(normals)))
+            triangles.emplace_back(face[each[0]], face[each[1]], face[each[2]]);
+    }
+    return as_columns(triangles);
 }
 
 }  // namespace fairing

@@ -13,4 +13,8 @@ namespace fairing {
 // vertices or more in a loop, none of them twice.
 Triangles joined_loops(const Points& points, const std::vector<Indices>& loops, const Points* normals = nullptr);
 
+// Triangles over faces of 3 corners or more, `sizes` of them one after the other in `corners`: of each face size − 2,
+// in the order of the faces, as near to its plane as can be, however concave it is.
+Triangles triangulated_faces(const Points& points, const Indices& corners, const Indices& sizes);
+
 }  // namespace fairing

@@ -7,6 +7,7 @@
 #include "base/errors.h"
 #include "mesh/loops.h"
 #include "mesh/pieces.h"
+#include "mesh/turned.h"
 #include "meshes.h"
 
 using namespace fairing;
@@ -158,4 +159,15 @@ TEST_CASE("pieces are numbered by their lowest triangles, whatever their vertice
     for (std::size_t t = 0; t < cut.piece.size(); t += 1000) {
         CHECK(cut.piece[t] == (cut.input_triangle[t] < mesh.triangles.cols() ? 0 : 1));
     }
+}
+
+TEST_CASE("triangles wound against most of their piece are found; a piece with one side has none") {
+    Triangles mixed = octahedron();
+    std::swap(mixed(0, 2), mixed(1, 2));
+    std::swap(mixed(0, 5), mixed(1, 5));
+    CHECK(turned_triangles(mixed, 6) == Indices{2, 5});
+    CHECK(turned_triangles(octahedron(), 6).empty());
+    Triangles strip(3, 5);  // a Möbius strip of five triangles
+    for (int k = 0; k < 5; ++k) strip.col(k) << k, (k + 1) % 5, (k + 2) % 5;
+    CHECK(turned_triangles(strip, 5).empty());
 }

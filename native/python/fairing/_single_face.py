@@ -90,6 +90,6 @@ def report_of(equation: str, continuity: str) -> dict[str, Any]:
     return {
         "continuity": continuity, "converged": True, "polished": True, "cut": False, "termination": "converged",
         "equation": "harmonic" if equation == "automatic" else equation, "provenance": "equation", "girth": None,
-        "iterations": 0, "residual": 0.0, "initial_residual": 0.0, "levels": (), "seconds": {}, "way": (),
+        "iterations": 0, "residual": 0.0, "initial_residual": 0.0, "levels": (), "seconds": {"total": 0.0}, "way": (),
         "warnings": (),
     }  # fmt: skip

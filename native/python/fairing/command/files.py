@@ -1,61 +1,88 @@
-"""Meshes in files, by meshio or trimesh (extra `io`): whichever reads the one format and writes the other."""
+"""Meshes in files: PLY, OFF, OBJ and STL by what stands beside, other formats by meshio or trimesh (extra `io`)."""
 
 from __future__ import annotations
 
 import importlib
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-_MESHIO = {".ply", ".off", ".stl", ".vtk", ".vtu", ".msh", ".xdmf", ".inp", ".med", ".su2"}
-_TRIMESH = {".obj", ".glb", ".gltf", ".3mf", ".ply", ".off", ".stl"}
+from fairing.command import obj, off, ply, scenes, stl
+from fairing.objects.hosts import opened
+from fairing.objects.parts import Parts
+
+_OWN: dict[str, Any] = {".ply": ply, ".off": off, ".obj": obj, ".stl": stl}
+_LIBRARIES = {
+    "trimesh": (".glb", ".gltf", ".3mf"),
+    "meshio": (".vtk", ".vtu", ".msh", ".xdmf", ".inp", ".med", ".su2", ".mesh", ".bdf", ".nas", ".dat", ".avs"),
+}
+Write = Callable[[Path, Parts], list[str]]
 
 
-def library_for(source: Path, target: Path) -> str:
-    """Name the library; ValueError where none knows both formats."""
-    both = {source.suffix.lower(), target.suffix.lower()}
-    for name, known in (("meshio", _MESHIO), ("trimesh", _TRIMESH)):
-        if both <= known:
-            return name
-    raise ValueError(
-        f"{source.name} to {target.name}: one library has to know both formats; meshio knows "
-        f"{' '.join(sorted(_MESHIO))}, trimesh {' '.join(sorted(_TRIMESH))}"
+def read(source: Path) -> tuple[Parts, Write]:
+    """The mesh, and what writes a mesh like it and tells what can't be written; ValueError where it can't be read."""
+    kind = source.suffix.lower()
+    if not source.is_file():
+        raise ValueError(f"{source}: there is no such file")
+    if kind in _OWN:
+        try:
+            parts, header = _OWN[kind].read(source)
+        except (ValueError, IndexError, KeyError, TypeError, OverflowError) as error:
+            said = error if isinstance(error, ValueError) else "it is damaged, or ends too early"
+            raise ValueError(f"{source}: can't be read: {said}") from error
+        return parts, lambda target, made: _written(target, made, header if target.suffix.lower() == kind else None)
+    library = _library(kind)
+    try:
+        if library.__name__ == "trimesh":
+            parts, write = scenes.read(library, source)
+        else:
+            parts, write = _by_meshio(library, source)
+    except (Exception, SystemExit) as error:  # of broken files these libraries raise anything
+        raise ValueError(f"{source}: {library.__name__} can't read it: {error!r}") from error
+    return (
+        parts,
+        lambda target, made: write(target, made) if target.suffix.lower() == kind else _written(target, made, None),
     )
 
 
-def read(source: Path, library: str) -> Any:
-    """The mesh; ValueError where the library is missing or the file holds no single mesh."""
-    try:
-        module = importlib.import_module(library)
-    except ImportError as error:
-        raise ValueError(f"{source.name} needs {library}: pip install 'intrinsic-fairing[io]'") from error
-    if not source.is_file():
-        raise ValueError(f"{source}: there is no such file")
-    if source.suffix.lower() == ".ply" and not _has_header(source):
-        raise ValueError(f"{source}: is no PLY file: its header has no end")
-    if library == "meshio":
-        try:
-            return module.read(source)
-        except (SystemExit, module.ReadError) as error:  # of a broken file it ends the program
-            raise ValueError(f"{source}: meshio can't read it: {error}") from error
-    try:
-        mesh = module.load(source, force="mesh", process=False)
-    except (NotImplementedError, KeyError, IndexError, TypeError) as error:
-        raise ValueError(f"{source}: trimesh can't read it: {error}") from error
-    if not hasattr(mesh, "faces"):
-        raise ValueError(f"{source}: holds no mesh")
-    return mesh
+def _by_meshio(library: Any, source: Path) -> tuple[Parts, Write]:
+    parts, make = opened(library.read(source))
+
+    def write(target: Path, made: Parts) -> list[str]:
+        make(made).write(target)
+        return []
+
+    return parts, write
 
 
-def _has_header(source: Path) -> bool:
-    """Whether a PLY file has one; without its end meshio would read for ever."""
-    with source.open("rb") as file:
-        return b"end_header" in file.read(1 << 20)
+def _written(target: Path, parts: Parts, header: Any) -> list[str]:
+    """By what writes the format; ``header``: what a file of that format said besides."""
+    kind = target.suffix.lower()
+    if kind in _OWN:
+        found: list[str] = _OWN[kind].write(target, parts, header)
+        return found
+    library = _library(kind)
+    if library.__name__ == "trimesh":
+        made = parts.in_triangles()
+        library.Trimesh(made.points, made.own, process=False).export(target)
+        return sorted({*parts.vertex_data, *parts.face_data})
+    empty = library.Mesh(parts.points[:3], [("triangle", [[0, 1, 2]])])
+    opened(empty)[1](parts).write(target)
+    return []
 
 
-def write(mesh: Any, target: Path) -> None:
-    """Write the mesh; both libraries go by the name."""
-    target.parent.mkdir(parents=True, exist_ok=True)
-    if hasattr(mesh, "write"):
-        mesh.write(target)
-    else:
-        mesh.export(target)
+def check(kind: str) -> None:
+    """ValueError where a format can't be written here."""
+    if kind not in _OWN:
+        _library(kind)
+
+
+def _library(kind: str) -> Any:
+    for name, kinds in _LIBRARIES.items():
+        if kind in kinds:
+            try:
+                return importlib.import_module(name)
+            except ImportError as error:
+                raise ValueError(f"{kind} needs {name}: pip install 'intrinsic-fairing[io]'") from error
+    known = " ".join([*_OWN, *(each for kinds in _LIBRARIES.values() for each in kinds)])
+    raise ValueError(f"{kind or 'a name without an ending'}: no format that is known; those are {known}")

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import shutil
+import sys
 import time
 from argparse import Namespace
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
@@ -14,14 +17,16 @@ from fairing._borders import outer_borders
 from fairing._hard_edges import hard_edges
 from fairing._hole_loops import hole_loops
 from fairing._measure import self_intersections
-from fairing._types import Cancelled, FloatArray, IntArray, SolverError
+from fairing._types import Cancelled, FloatArray, IntArray, MeshError, SolverError
 from fairing.command import files
 from fairing.command.verdict import GOOD, UNUSABLE, judged
 from fairing.objects import fair_faces, fill_holes, fillet_edges
-from fairing.objects.hosts import opened
+from fairing.objects.calls import once
+from fairing.objects.parts import Parts
 
 Report = dict[str, Any]
 Progress = Callable[[float, str], "bool | None"]
+_NOTHING = {"NO_BOUNDARY", "NOT_A_HOLE"}  # codes of a mesh without holes
 SUFFIX = {"fill": "_filled", "fair": "_fair", "fillet": "_fillet"}
 _OPTIONS = {
     "fill": ("longest", "longest_length", "bridge", "spacing", "faces", "edges", "continuity", "equation", "threads"),
@@ -35,10 +40,14 @@ def done_with(source: Path, target: Path | None, given: Namespace, progress: Pro
     begin = time.perf_counter()
     report: Report = {"file": str(source)}
     try:
-        if target is None:
-            report.update(verdict=GOOD, **measured(files.read(source, files.library_for(source, source))))
-        else:
-            report.update(_made(source, target, given, progress))
+        with redirect_stdout(sys.stderr):  # libraries that read files print what they like
+            parts, write = files.read(source)
+            if target is None:
+                report.update(verdict=GOOD, **measured(parts))
+            else:
+                files.check(target.suffix.lower())
+                target.parent.mkdir(parents=True, exist_ok=True)
+                report.update(_made((source, parts, write), target, given, progress))
     except (ValueError, OSError, SolverError, MemoryError) as error:
         report.update(verdict=UNUSABLE, reason=str(error), code=getattr(error, "code", type(error).__name__))
     except Cancelled:
@@ -47,20 +56,29 @@ def done_with(source: Path, target: Path | None, given: Namespace, progress: Pro
     return report
 
 
-def _made(source: Path, target: Path, given: Namespace, progress: Progress | None) -> Report:
-    mesh = files.read(source, files.library_for(source, target))
+def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespace, progress: Progress | None) -> Report:
+    source, parts, write = opened
     options = {name: value for name in _OPTIONS[given.command] if (value := getattr(given, name)) is not None}
     options["progress"] = progress
-    if given.command == "fill":
-        made: Any = fill_holes(mesh, **options)
-    elif given.command == "fair":
-        made = fair_faces(mesh, selection(mesh, given), **options)
-    else:
-        made = fillet_edges(mesh, **options)
+    try:
+        if given.command == "fill":
+            made: Any = fill_holes(parts, **options)
+        elif given.command == "fair":
+            made = fair_faces(parts, selection(parts, given), **options)
+        else:
+            made = fillet_edges(parts, **options)
+    except MeshError as error:
+        if error.code not in _NOTHING or given.bridge:
+            raise
+        if source.suffix.lower() == target.suffix.lower():
+            shutil.copyfile(source, target)
+        else:
+            write(target, parts)
+        return {"verdict": GOOD, "reason": f"nothing to fill: {error.diagnostic.message}", "written": str(target)}
     verdict, reason = judged(made.result)
     report = {"verdict": verdict, "reason": reason, **_figures(made.result)}
     if verdict != UNUSABLE or given.accept_all:
-        files.write(made.mesh, target)
+        report["not_written"] = write(target, made.mesh)
         report["written"] = str(target)
     return report
 
@@ -76,25 +94,24 @@ def _figures(result: Any) -> Report:
         "worst_boundary_angle": round(float(np.max(result.boundary_angle, initial=0.0)), 3),
         "left_open": len(getattr(result, "left_open", ())),
         "warnings": [
-            {"code": each.code, "message": each.message, "figures": dict(each.figures)} for each in result.warnings
+            {"code": each.code, "message": each.message, "figures": dict(each.figures), "count": count}
+            for each, count in once(result.warnings)
         ],
     }
 
 
-def selection(mesh: Any, given: Namespace) -> Any:
+def selection(parts: Parts, given: Namespace) -> Any:
     """The faces that the arguments name."""
     if given.select is not None:
         return given.select
     if given.faces is not None:
         return np.loadtxt(given.faces, dtype=np.int64, ndmin=1)
-    parts, _ = opened(mesh)
     middle = np.add.reduceat(parts.points[parts.faces.corners], parts.faces.first) / parts.faces.sizes[:, None]
     return np.linalg.norm(middle - given.sphere[:3], axis=1) < given.sphere[3]
 
 
-def measured(mesh: Any) -> Report:
+def measured(parts: Parts) -> Report:
     """What there is to fill, to round and to mend."""
-    parts, _ = opened(mesh)
     triangles = parts.triangles
     found = hole_loops(parts.points, triangles)
     outer = outer_borders(parts.points, triangles, found.loops) if found.loops else np.zeros(0, bool)

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import logging
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments
+from fairing import _arguments, _core
 from fairing._boundary_normals import boundary_normals
 from fairing._fair import fair
 from fairing._fill import fill
 from fairing._fillet import fillet
-from fairing._measure import boundary_loops
-from fairing._new_mesh import FilletResult, FillResult, NewMeshResult
-from fairing._types import FairResult, IntArray
+from fairing._measure import boundary_loops, self_intersections
+from fairing._new_mesh import FilletResult, FillResult
+from fairing._types import Diagnostic, FairResult, IntArray
 from fairing.objects import data
 from fairing.objects.hosts import opened
-from fairing.objects.parts import Data, Parts, Polygons
+from fairing.objects.parts import Parts, Polygons
+from fairing.objects.seams import filled
 
 Result = TypeVar("Result", FairResult, FillResult, FilletResult)
 log = logging.getLogger(__name__.partition(".")[0])
@@ -34,9 +38,9 @@ class Made(NamedTuple, Generic[Result]):
 def fair_faces(mesh: Any, selected: Any, *, side: str = "automatic", **options: Any) -> Made[FairResult]:
     """Replace the selected faces' inner vertices by the fairest surface that continues the faces around them.
 
-    Vertices and faces keep their numbers, everything that is stored with them stays, and normals stored at vertices
-    are renewed where these move. The boundary is met with the slope of the faces outside; see ``side``. Vertices in one
-    place on two borders, as files have them along seams, count as one. The mesh given is not changed.
+    Vertices and faces keep their numbers, everything that is stored with them stays, and normals stored at vertices are
+    renewed where these move. Vertices in one place on two borders, as files have them along seams, count as one. The
+    mesh given is not changed. Errors are those of :func:`fairing.fair`, and ValueError for a mesh that is not known.
 
     Parameters
     ----------
@@ -47,40 +51,25 @@ def fair_faces(mesh: Any, selected: Any, *, side: str = "automatic", **options: 
     side : "automatic" | "outside" | "inside"
         Whose slope counts at the boundary: that of :func:`fairing.boundary_normals`.
     options
-        Those of :func:`fairing.fair`: ``continuity``, ``equation``, ``detail``, ``progress``, ``threads``, …
-
-    Returns
-    -------
-    Made
-        The new mesh, of the kind given, and the :class:`fairing.FairResult`. Also unpacks: ``mesh, result = …``.
-
-    Raises
-    ------
-    ValueError
-        The mesh or the selection is none that is known here.
-    MeshError, Cancelled, SolverError, MemoryError
-        As for :func:`fairing.fair`.
+        Those of :func:`fairing.fair`.
     """
     parts, make = opened(mesh)
-    faces = _selection(selected, parts)
     mask = np.zeros(len(parts.faces.sizes), dtype=bool)
-    mask[faces] = True
+    mask[_selection(selected, parts)] = True
     within = mask[parts.faces.face_of]
     inside, outside = parts.triangles[within], parts.triangles[~within]
     outline = np.unique(np.concatenate([np.empty(0, np.int32), *boundary_loops(inside)]))
     slopes = boundary_normals(parts.points, inside, outline, outside=outside, side=side).normals
     known = np.linalg.norm(slopes, axis=1) > 0
     if (parts.faces.sizes[mask] > 3).any():
-        options.setdefault("neighbours", parts.faces.edges(faces, parts.same))
+        options.setdefault("neighbours", _edges(parts, mask))
     result = fair(
         parts.points, inside, fixed=outline[known], fixed_normals=slopes[known], outside=outside, **options
     )  # fmt: skip
     moved = np.flatnonzero((result.vertices != parts.points).any(axis=1)[parts.same]).astype(np.int32)
     points = parts.points.copy()
     points[moved] = result.vertices[parts.same[moved]]
-    made = data.with_normals(Parts(points, parts.faces, parts.vertex_data, parts.face_data), moved)
-    _report("fair_faces", result, len(moved))
-    return Made(make(made), result)
+    return _made(make, replace(parts, points=points), result, moved)
 
 
 def fill_holes(
@@ -88,9 +77,11 @@ def fill_holes(
 ) -> Made[FillResult]:
     """Fill the holes of a mesh, or bridge its boundary loops, with the fairest surface that continues what is there.
 
-    Vertices and faces given keep their numbers; new ones come behind them. Real numbers and colours stored at vertices
-    go on over the new surface, as heat would spread from its boundary. Everything else is taken from the nearest vertex
-    or face of the boundary. Outer borders of a sheet stay open.
+    Vertices and faces given keep their numbers; new ones come behind them. Real numbers and colours at vertices spread
+    over the new surface from its boundary; everything else is that of the nearest vertex or face there. Where a seam
+    crosses a hole, new vertices are parted, too. Faces wound against most of their piece are turned
+    (INCONSISTENT_WINDING). Outer borders of a sheet stay open. Errors are those of :func:`fairing.fill`: NO_BOUNDARY
+    where there is no hole.
 
     Parameters
     ----------
@@ -103,48 +94,30 @@ def fill_holes(
     loops : list of (k,) int
         These loops of border vertices instead of all holes.
     options
-        Those of :func:`fairing.fill`: ``spacing``, ``faces``, ``continuity``, ``edges``, ``progress``, … Quads become
-        faces of four corners where the kind of mesh has them.
-
-    Returns
-    -------
-    Made
-        The new mesh and the :class:`fairing.FillResult`, whose ``left_open`` has the loops that stay open.
-
-    Raises
-    ------
-    ValueError, MeshError, Cancelled, SolverError, MemoryError
-        As for :func:`fairing.fill`; MeshError NO_BOUNDARY where there is no hole.
+        Those of :func:`fairing.fill`. Quads become faces of four corners where the kind of mesh has them.
     """
     parts, make = opened(mesh)
+    parts, turned = _wound_alike(parts)
     given = None if loops is None else [parts.same[np.asarray(loop)] for loop in loops]
     result = fill(
-        parts.points, parts.triangles, given,
+        parts.points, parts.triangles[parts.sound], given,
         bridge=bridge, longest=longest, longest_length=longest_length, **options,
     )  # fmt: skip
-    count = len(parts.points)
-    points = np.concatenate([parts.points, result.vertices])
-    of_vertices = data.spread(parts.vertex_data, points, result.triangles, count)
-    rim = np.flatnonzero(np.isin(parts.triangles, np.concatenate(result.loops)).any(axis=1))
     new_faces = Polygons.of(result.triangles)
     if result.quads is not None:
         new_faces = Polygons.joined([Polygons.of(result.quads.quads), Polygons.of(result.quads.triangles)])
-    firsts = np.column_stack([new_faces.corners[new_faces.first + k] for k in range(3)])
-    middles = [points[triangles].mean(axis=1) for triangles in (firsts, parts.triangles[rim])]
-    beside = parts.faces.face_of[rim[data.nearest(*middles)]]
-    of_faces = {name: np.concatenate([values, values[beside]]) for name, values in parts.face_data.items()}
-    whole = Polygons.joined([parts.faces, new_faces])
-    new = np.arange(count, len(points), dtype=np.int32)
-    made = data.with_normals(Parts(points, whole, of_vertices, of_faces), new)
-    _report("fill_holes", result, len(new))
-    return Made(make(made), result)
+    made = filled(parts, result.vertices, result.triangles, new_faces)
+    result = replace(result, warnings=(*result.warnings, *turned))
+    return _made(make, made, result, np.arange(len(parts.points), len(made.points), dtype=np.int32))
 
 
 def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float, **options: Any) -> Made[FilletResult]:
     """Round edges of a mesh: what lies within ``width`` of them becomes the fairest surface.
 
     Faces that the fillet cuts become triangles; the others keep their order. Data at vertices is mixed from the corners
-    of the old triangle that a new vertex lies on, that of faces comes from the old face.
+    of the old triangle that a new vertex lies on, that of faces comes from the old face. The numbers of the result are
+    those of the old vertices and, behind them, the new ones; the mesh has them in this order without the old ones that
+    no face uses any more. Errors are those of :func:`fairing.fillet`.
 
     Parameters
     ----------
@@ -155,26 +128,15 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
     width : float
         How far the fillet reaches on either side.
     options
-        Those of :func:`fairing.fillet`: ``width_2``, ``walls``, ``profile``, ``spacing``, ``faces``, …
-
-    Returns
-    -------
-    Made
-        The new mesh and the :class:`fairing.FilletResult`. Its numbers are those of the old vertices and, behind them,
-        the new ones; the mesh has them in this order without the old ones that no face uses any more.
-
-    Raises
-    ------
-    ValueError, MeshError, Cancelled, SolverError, MemoryError
-        As for :func:`fairing.fillet`.
+        Those of :func:`fairing.fillet`.
     """
     parts, make = opened(mesh)
     seam = None if edges is None else parts.same[_arguments.integers("edges", edges, 2)]
     if (parts.faces.sizes > 3).any():
-        options.setdefault("neighbours", parts.faces.edges(np.arange(len(parts.faces.sizes)), parts.same))
+        options.setdefault("neighbours", _edges(parts, np.ones(len(parts.faces.sizes), dtype=bool)))
     result = fillet(parts.points, parts.triangles, seam, width=width, **options)
     triangles, weights = result.origin
-    of_vertices = data.mixed(parts.vertex_data, parts.faces.triangles[triangles], weights)
+    of_vertices = data.mixed(parts.vertex_data, parts.own[triangles], weights)
     stays = ~np.isin(np.arange(len(parts.triangles)), result.gone)
     whole = np.ones(len(parts.faces.sizes), dtype=bool)
     whole[parts.faces.face_of[result.gone]] = False
@@ -183,26 +145,35 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
     if result.quads is not None:
         new_faces = Polygons.joined([Polygons.of(result.quads.triangles), Polygons.of(result.quads.quads)])
         under = np.concatenate([under[result.quads.rest], under[result.quads.pairs[:, 0]]])
-    faces = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.faces.triangles[halves]), new_faces])
+    faces = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.own[halves]), new_faces])
     order = np.concatenate(
         [np.flatnonzero(whole), parts.faces.face_of[halves], parts.faces.face_of[under]]
     )  # the old face of each
     of_faces = {name: values[order] for name, values in parts.face_data.items()}
     points = np.concatenate([parts.points, result.vertices])
-    new = np.arange(len(parts.points), len(points), dtype=np.int32)
-    made = data.with_normals(Parts(points, faces, of_vertices, of_faces), new)
-    _report("fillet_edges", result, len(new))
-    return Made(make(_without_unused(made, parts)), result)
+    used = np.isin(np.arange(len(points)), faces.corners)  # without those that only faces which have gone did use
+    used[: len(parts.points)] |= ~np.isin(np.arange(len(parts.points)), parts.faces.corners)
+    faces = Polygons((np.cumsum(used) - 1)[faces.corners].astype(np.int32), faces.sizes)
+    made = Parts(points[used], faces, {name: values[used] for name, values in of_vertices.items()}, of_faces)
+    return _made(make, made, result, np.arange(used[: len(parts.points)].sum(), len(made.points), dtype=np.int32))
 
 
-def _without_unused(made: Parts, before: Parts) -> Parts:
-    """Without the vertices that only faces which have gone did use."""
-    kept = np.isin(np.arange(len(made.points)), made.faces.corners)
-    kept[: len(before.points)] |= ~np.isin(np.arange(len(before.points)), before.faces.corners)
-    number = np.cumsum(kept) - 1
-    of_vertices: Data = {name: values[kept] for name, values in made.vertex_data.items()}
-    faces = Polygons(number[made.faces.corners].astype(np.int32), made.faces.sizes)
-    return Parts(made.points[kept], faces, of_vertices, made.face_data)
+def _wound_alike(parts: Parts) -> tuple[Parts, tuple[Diagnostic, ...]]:
+    """The same with faces turned that are wound against most of their piece, and what to say of it."""
+    sound = np.flatnonzero(parts.sound)
+    turned = sound[_core.turned_triangles(parts.triangles[sound], len(parts.points))]
+    faces = np.unique(parts.faces.face_of[turned])
+    if not len(faces):
+        return parts, ()
+    text = f"{len(faces)} faces were wound against most of their piece and are turned"
+    said = Diagnostic("INCONSISTENT_WINDING", text, turned.astype(np.int32), "triangle", {"faces": float(len(faces))})
+    return replace(parts, faces=parts.faces.turned(faces)), (said,)
+
+
+def _edges(parts: Parts, faces: npt.NDArray[np.bool_]) -> IntArray:
+    """(e, 2) the edges of some faces, those between two of them once."""
+    found: IntArray = np.unique(np.sort(parts.same[parts.faces.sides(faces)], axis=1), axis=0)
+    return found
 
 
 def _selection(selected: Any, parts: Parts) -> IntArray:
@@ -225,7 +196,24 @@ def _selection(selected: Any, parts: Parts) -> IntArray:
     return faces
 
 
-def _report(call: str, result: FairResult | NewMeshResult, vertices: int) -> None:
-    log.info("%s: %d vertices, %s, %.2f s", call, vertices, result.termination, result.seconds["total"])
-    for warning in result.warnings:
-        log.warning("%s: %s: %s", call, warning.code, warning.message)
+def _made(make: Callable[[Parts], Any], made: Parts, result: Any, moved: IntArray) -> Made[Any]:
+    """The new mesh. What the engine does not see is reported, too: a surface that passes through other faces."""
+    near = np.flatnonzero(np.isin(made.own, moved).any(axis=1))
+    crossing = self_intersections(made.points, made.own, near=near)
+    if len(crossing) and not any(warning.code == "SELF_INTERSECTION" for warning in result.warnings):
+        text = f"{len(crossing)} triangles cross: the surface passes through other faces of the mesh"
+        found = Diagnostic("SELF_INTERSECTION", text, crossing, "triangle", {"others": float(len(crossing))})
+        result = replace(result, warnings=(*result.warnings, found))
+    call = {"FairResult": "fair_faces", "FillResult": "fill_holes"}.get(type(result).__name__, "fillet_edges")
+    log.info("%s: %d vertices, %s, %.2f s", call, len(moved), result.termination, result.seconds["total"])
+    for warning, count in once(result.warnings):
+        log.warning("%s: %s: %s%s", call, warning.code, warning.message, f" ({count} times)" if count > 1 else "")
+    return Made(make(data.with_normals(made, moved)), result)
+
+
+def once(found: Iterable[Diagnostic]) -> list[tuple[Diagnostic, int]]:
+    """Diagnostics that differ in figures alone as the first of them, and how many there are."""
+    alike: dict[tuple[str, str], list[Diagnostic]] = {}
+    for each in found:
+        alike.setdefault((each.code, re.sub(r"[-\d.,]+", "#", each.message)), []).append(each)
+    return [(group[0], len(group)) for group in alike.values()]

@@ -16,31 +16,32 @@ Array = npt.NDArray[Any]
 _NORMALS = {"normals", "normal", "vertex_normals"}
 
 
-def spread(data: Data, points: FloatArray, triangles: IntArray, count: int) -> Data:
-    """Data of ``count`` vertices and, behind them, of the new ones that the triangles over them use.
+def spread(
+    surface: tuple[FloatArray, IntArray], pins: tuple[IntArray, Array], held: IntArray,
+    trend: tuple[FloatArray, Array] | None,
+) -> Array:  # fmt: skip
+    """Values at all vertices of a surface, spread from its boundary ``held`` inwards as heat would.
 
-    Real numbers and colours spread as heat would, from the boundary inwards; what can't be mixed comes from the nearest
-    vertex of the boundary.
+    ``pins``: the vertices of ``held`` with a value, and their values. ``trend``: places and values around; a linear
+    function fitted to them goes on where ``held`` has no value, and the rest spreads.
     """
-    held = np.unique(triangles[triangles < count])
-    new = np.arange(count, len(points))
-    near = held[nearest(points[new], points[held])] if len(new) else new
-
-    def new_rows(values: Array) -> Array:
-        if not _mixes(values[held]):
-            found: Array = values[near]
-            return found
-        flat = values[held].reshape(len(held), -1).astype(np.float64)
-        return _like(interpolate(points, triangles, held, flat)[new], values)
-
-    return {name: np.concatenate([values, new_rows(values)]) if len(new) else values for name, values in data.items()}
+    points, triangles = surface
+    flat = pins[1].reshape(len(pins[0]), -1).astype(np.float64)
+    base, rest = np.zeros((len(points), flat.shape[1])), np.zeros((len(held), flat.shape[1]))
+    if trend is not None:
+        middle = trend[0].mean(axis=0)
+        rows = trend[1].reshape(len(trend[0]), -1).astype(np.float64)
+        slope, *_ = np.linalg.lstsq(np.insert(trend[0] - middle, 3, 1.0, axis=1), rows, rcond=1e-6)
+        base = np.insert(points - middle, 3, 1.0, axis=1) @ slope
+    rest[np.searchsorted(held, pins[0])] = flat - base[pins[0]]
+    return _like(interpolate(points, triangles, held, rest) + base, pins[1])
 
 
 def mixed(data: Data, corners: IntArray, weights: FloatArray) -> Data:
     """Data of old vertices and, behind them, of new ones that lie at these corners (k, 3) with these weights (k, 3)."""
 
     def new_rows(values: Array) -> Array:
-        if not _mixes(values):
+        if not mixes(values):
             found: Array = values[corners[np.arange(len(corners)), weights.argmax(axis=1)]]
             return found
         flat = values.reshape(len(values), -1).astype(np.float64)
@@ -50,17 +51,23 @@ def mixed(data: Data, corners: IntArray, weights: FloatArray) -> Data:
 
 
 def with_normals(made: Parts, moved: IntArray) -> Parts:
-    """The same with normals that are stored at vertices renewed where these vertices and their neighbours moved."""
-    stored = [name for name, values in made.vertex_data.items() if _is_normal(name, values)]
+    """The same with normals that are stored at vertices renewed where these vertices and their neighbours moved.
+
+    Where one place has several, as along hard edges, each is that of its own faces.
+    """
+    stored = [name for name, values in made.vertex_data.items() if is_normal(name, values)]
     if not stored or not len(moved):
         return made
     near = np.unique(made.triangles[np.isin(made.triangles, made.same[moved]).any(axis=1)])
     touched = np.flatnonzero(np.isin(made.same, near))
-    normals = vertex_normals(made.points, made.triangles)[made.same[touched]]
+    smooth = vertex_normals(made.points, made.triangles)[made.same[touched]]
+    own = vertex_normals(made.points, made.own, normals="averaged")[touched]
     data = dict(made.vertex_data)
     for name in stored:
-        data[name] = data[name].copy()
-        data[name][touched] = normals
+        data[name] = values = data[name].copy()
+        hard = np.zeros(len(values), dtype=bool)
+        hard[made.same[(values != values[made.same]).any(axis=1)]] = True
+        values[touched] = np.where(hard[made.same[touched], None], own, smooth)
     return Parts(made.points, made.faces, data, made.face_data)
 
 
@@ -75,11 +82,11 @@ def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
     return result
 
 
-def _is_normal(name: str, values: Array) -> bool:
+def is_normal(name: str, values: Array) -> bool:
     return name.lower() in _NORMALS and values.dtype.kind == "f" and values.shape[1:] == (3,)
 
 
-def _mixes(values: Array) -> bool:
+def mixes(values: Array) -> bool:
     """Whether a mean of two has a meaning: real numbers, and bytes, which are colours."""
     return values.dtype == np.uint8 or (values.dtype.kind == "f" and bool(np.isfinite(values).all()))
 
@@ -87,4 +94,4 @@ def _mixes(values: Array) -> bool:
 def _like(rows: FloatArray, values: Array) -> Array:
     """(k, c) numbers in the type and with the columns of the values."""
     shaped = rows.reshape(-1, *values.shape[1:])
-    return (np.rint(shaped) if values.dtype == np.uint8 else shaped).astype(values.dtype)
+    return (np.clip(np.rint(shaped), 0, 255) if values.dtype == np.uint8 else shaped).astype(values.dtype)

@@ -1,4 +1,4 @@
-"""A mesh of any library as points, polygons and their data."""
+"""A mesh of any library or file as points, polygons and their data."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments
-from fairing._hole_loops import hole_loops
+from fairing import _arguments, _core
+from fairing._measure import edges_with_uses
 from fairing._types import FloatArray, IntArray
 
 Data = dict[str, npt.NDArray[Any]]
+PLACE = "\0place"  # vertex data: the number in its file of a vertex that stands there once for several values
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,12 +27,14 @@ class Polygons:
     """(m,) how many of them each face has."""
 
     @classmethod
-    def of(cls, rows: npt.ArrayLike) -> Polygons:
-        """Faces that all have as many corners, (m, k)."""
-        array = np.asarray(rows)
-        if array.dtype.kind not in "iu" or array.ndim != 2 or array.shape[1] < 3:
-            raise ValueError(f"faces: whole numbers, (m, 3) or wider, are needed, not {array.dtype} {array.shape}")
-        return cls(array.ravel().astype(np.int32), np.full(len(array), array.shape[1], dtype=np.int32))
+    def of(cls, rows: Any) -> Polygons:
+        """Faces that all have as many corners, (m, k), or a list with the corners of each."""
+        counts = [np.size(row) for row in rows] if isinstance(rows, (list, tuple)) else []
+        array = np.concatenate([np.asarray(row) for row in rows])[None] if len({*counts}) > 1 else np.atleast_1d(rows)
+        sizes = np.array(counts or [array.shape[-1]] * len(array), np.int32)
+        if array.dtype.kind not in "iu" or array.ndim != 2 or (sizes < 3).any():
+            raise ValueError(f"faces: whole numbers, 3 or more in each, are needed, not {array.dtype} {array.shape}")
+        return cls(array.ravel().astype(np.int32), sizes)
 
     @classmethod
     def joined(cls, parts: list[Polygons]) -> Polygons:
@@ -50,34 +53,31 @@ class Polygons:
         faces: IntArray = np.repeat(np.arange(len(self.sizes), dtype=np.int32), self.sizes - 2)
         return faces
 
-    @cached_property
-    def triangles(self) -> IntArray:
-        """(t, 3) each face as a fan around its first corner, wound as it is."""
-        step = np.arange(len(self.face_of)) - np.repeat(np.cumsum(self.sizes - 2) - (self.sizes - 2), self.sizes - 2)
-        begin = self.first[self.face_of]
-        places = np.column_stack([begin, begin + step + 1, begin + step + 2])
-        return np.ascontiguousarray(self.corners[places], dtype=np.int32)
-
-    def edges(self, faces: IntArray, same: IntArray) -> IntArray:
-        """(e, 2) the edges of some faces, those between two of them once; ``same``: which vertex stands for each."""
+    def sides(self, faces: npt.NDArray[Any]) -> IntArray:
+        """(Σ k, 2) the sides of some faces, each as its face runs along it."""
         kept = self.chosen(faces)
         after = np.arange(len(kept.corners)) + 1
         after[kept.first + kept.sizes - 1] = kept.first
-        pairs = np.sort(same[np.column_stack([kept.corners, kept.corners[after]])], axis=1)
-        found: IntArray = np.unique(pairs, axis=0)
-        return found
+        return np.column_stack([kept.corners, kept.corners[after]])
 
     def chosen(self, faces: npt.NDArray[Any]) -> Polygons:
-        """Some of the faces."""
+        """Some of the faces, in their order here."""
         taken = np.zeros(len(self.sizes), dtype=bool)
         taken[faces] = True
         return Polygons(self.corners[np.repeat(taken, self.sizes)], self.sizes[taken])
+
+    def turned(self, faces: IntArray) -> Polygons:
+        """The same with some faces wound the other way."""
+        places = np.arange(len(self.corners))
+        mine = np.repeat(np.isin(np.arange(len(self.sizes)), faces), self.sizes)
+        ends = np.repeat(2 * self.first + self.sizes - 1, self.sizes)
+        return Polygons(self.corners[np.where(mine, ends - places, places)], self.sizes)
 
     def rows(self) -> npt.NDArray[np.int32] | list[IntArray]:
         """(m, k) where all have k corners, else a list with the corners of each."""
         if len(self.sizes) and (self.sizes == self.sizes[0]).all():
             return self.corners.reshape(len(self.sizes), -1)
-        return [self.corners[begin : begin + size] for begin, size in zip(self.first, self.sizes, strict=True)]
+        return np.split(self.corners, self.first[1:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,23 +89,29 @@ class Parts:
     vertex_data: Data = field(default_factory=dict)
     face_data: Data = field(default_factory=dict)
 
-    @classmethod
-    def checked(cls, points: npt.ArrayLike, faces: Polygons, vertex_data: Data, face_data: Data) -> Parts:
-        """The same with its arrays checked; the numbers of rows, too."""
-        at = _arguments.floats("vertices", points)
-        _arguments.triangles_within(faces.triangles, len(at))
-        for what, data, count in (("vertex", vertex_data, len(at)), ("face", face_data, len(faces.sizes))):
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", _arguments.floats("vertices", self.points))
+        _arguments.indices_within("faces", self.faces.corners, len(self.points))
+        for what, data, count in (
+            ("vertex", self.vertex_data, len(self.points)), ("face", self.face_data, len(self.faces.sizes)),
+        ):  # fmt: skip
             for name, values in data.items():
                 if len(values) != count:
                     raise ValueError(f"{what} data {name!r}: {count} rows are needed, not {len(values)}")
-        return cls(at, faces, vertex_data, face_data)
+
+    @cached_property
+    def own(self) -> IntArray:
+        """(t, 3) the faces in triangles, one face after the other, wound as they are."""
+        if (self.faces.sizes == 3).all():
+            return self.faces.corners.reshape(-1, 3)
+        return _core.triangulated(self.points, self.faces.corners, self.faces.sizes)
 
     @cached_property
     def same(self) -> IntArray:
         """(n,) the first vertex in the same place, where both are on a border: files part vertices along seams."""
         numbers = np.arange(len(self.points), dtype=np.int32)
-        loops = hole_loops(self.points, self.faces.triangles)
-        border = np.unique(np.concatenate([np.empty(0, np.int32), *loops.loops, *loops.torn]))
+        edges, uses = edges_with_uses(self.own)
+        border = np.unique(edges[uses == 1])
         if len(border):
             _, first, place = np.unique(self.points[border], axis=0, return_index=True, return_inverse=True)
             numbers[border] = border[first[place.ravel()]]
@@ -114,9 +120,16 @@ class Parts:
     @cached_property
     def triangles(self) -> IntArray:
         """(t, 3) with one vertex for each place along seams."""
-        return np.ascontiguousarray(self.same[self.faces.triangles])
+        return np.ascontiguousarray(self.same[self.own])
+
+    @cached_property
+    def sound(self) -> npt.NDArray[np.bool_]:
+        """(t,) whether a triangle has three vertices."""
+        a, b, c = self.triangles.T
+        three: npt.NDArray[np.bool_] = (a != b) & (b != c) & (c != a)
+        return three
 
     def in_triangles(self) -> Parts:
-        """The same with each face as a fan of triangles, which all have what is stored for it."""
+        """The same with each face in triangles, which all have what is stored for it."""
         data = {name: values[self.faces.face_of] for name, values in self.face_data.items()}
-        return Parts(self.points, Polygons.of(self.faces.triangles), self.vertex_data, data)
+        return Parts(self.points, Polygons.of(self.own), self.vertex_data, data)

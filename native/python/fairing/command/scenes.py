@@ -1,0 +1,93 @@
+"""Scenes of several objects (GLB, glTF, 3MF) by trimesh: one mesh in the scene's own coordinates, and back."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fairing._types import FloatArray
+from fairing.objects.hosts import opened
+from fairing.objects.parts import Parts, Polygons
+
+_OBJECT = "\0object"  # data: the number of the object that vertices and faces belong to
+
+
+def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
+    """All objects as one mesh, each where it stands first, and what writes such a mesh as a scene again."""
+    scene = trimesh.load_scene(source, process=False)
+    meshes = {name: opened(mesh) for name, mesh in scene.geometry.items() if hasattr(mesh, "faces")}
+    if not meshes:
+        raise ValueError("it holds no mesh")
+    places: dict[str, FloatArray] = {}
+    for node in scene.graph.nodes_geometry:
+        matrix, name = scene.graph[node]
+        places.setdefault(name, matrix)
+    matrices = [places.get(name, np.eye(4)) for name in meshes]
+
+    def write(target: Path, made: Parts) -> list[str]:
+        for number, (name, (before, make)) in enumerate(meshes.items()):
+            scene.geometry[name] = make(_one_of(made, number, before, np.linalg.inv(matrices[number])))
+        said = _json(source)
+        scene.export(str(target), **({"include_normals": True} if '"NORMAL"' in json.dumps(said) else {}))
+        return [key for key in ("animations", "skins", "cameras") if said.get(key)]
+
+    return _joined([parts for parts, _ in meshes.values()], matrices), write
+
+
+def _joined(own: list[Parts], matrices: list[FloatArray]) -> Parts:
+    counts = [len(parts.points) for parts in own]
+    begins = np.cumsum([0, *counts])
+    corners = [(parts.faces.corners + begin).astype(np.int32) for parts, begin in zip(own, begins, strict=False)]
+    sizes = [parts.faces.sizes for parts in own]
+    return Parts(
+        np.concatenate([_moved(parts.points, matrix) for parts, matrix in zip(own, matrices, strict=True)]),
+        Polygons(np.concatenate(corners), np.concatenate(sizes)),
+        _together([parts.vertex_data for parts in own], counts),
+        _together([parts.face_data for parts in own], [len(each) for each in sizes]),
+    )
+
+
+def _one_of(made: Parts, number: int, before: Parts, matrix: FloatArray) -> Parts:
+    """The faces of one object, with its own vertices and the kinds of data that it had."""
+    mine, places = made.face_data[_OBJECT] == number, np.arange(len(made.points))
+    chosen = made.faces.chosen(mine)
+    kept = ~np.isin(places, made.faces.corners) & (made.vertex_data[_OBJECT] == number) | np.isin(
+        places, chosen.corners
+    )
+    faces = Polygons((np.cumsum(kept) - 1)[chosen.corners].astype(np.int32), chosen.sizes)
+    of_vertices = {key: made.vertex_data[key][kept] for key in before.vertex_data}
+    return Parts(
+        _moved(made.points[kept], matrix),
+        faces,
+        of_vertices,
+        {key: made.face_data[key][mine] for key in before.face_data},
+    )
+
+
+def _moved(points: FloatArray, matrix: FloatArray) -> FloatArray:
+    return points if (matrix == np.eye(4)).all() else points @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def _together(data: list[dict[str, Any]], counts: list[int]) -> dict[str, Any]:
+    """One table of all objects, zero where one has no such data, with the number of each row's object."""
+    names = {name: values for each in data for name, values in each.items()}
+    made = {}
+    for name, like in names.items():
+        shape, kind = like.shape[1:], like.dtype
+        rows = [each.get(name, np.zeros((n, *shape), kind)) for each, n in zip(data, counts, strict=True)]
+        made[name] = np.concatenate(rows)
+    return made | {_OBJECT: np.repeat(np.arange(len(counts)), counts)}
+
+
+def _json(source: Path) -> dict[str, Any]:
+    """The text of a glTF file; empty of others."""
+    raw = source.read_bytes()
+    if source.suffix.lower() == ".glb":
+        raw = raw[20 : 20 + int(np.frombuffer(raw, "<u4", 1, 12)[0])]
+    elif source.suffix.lower() != ".gltf":
+        return {}
+    found: dict[str, Any] = json.loads(raw)
+    return found

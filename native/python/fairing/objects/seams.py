@@ -1,0 +1,112 @@
+"""Seams across holes: files part vertices where texture coordinates or materials end; surfaces go on over them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fairing._types import FloatArray, IntArray
+from fairing.objects.data import is_normal, mixes, nearest, spread
+from fairing.objects.parts import PLACE, Data, Parts, Polygons
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """The triangles around holes, parted where vertices in one place differ in what is stored for them."""
+
+    of_rim: IntArray
+    """(r,) the side of each triangle, named by one of its vertices."""
+    copies: dict[int, dict[int, int]]
+    """Of each side: the vertex that stands for a place."""
+    corners: IntArray
+    """(r, 3) the triangles' vertices; one for all that are alike."""
+
+    @classmethod
+    def around(cls, parts: Parts, rim: IntArray) -> Sides:
+        """The sides of the triangles ``rim``: as large as they get while none has a place twice."""
+        used, corners = np.unique(parts.own[rim], return_inverse=True)
+        stored = [
+            np.nan_to_num(values[used].reshape(len(used), -1).astype(np.float64))
+            for name, values in parts.vertex_data.items()
+            if name != PLACE and not is_normal(name, values) and values.dtype.kind in "biuf"
+        ]
+        key = np.column_stack([parts.same[used], *stored])
+        _, first, alike = np.unique(key, axis=0, return_index=True, return_inverse=True)
+        own: IntArray = used[first][alike.ravel()[corners.reshape(-1, 3)]]
+        places, times = np.unique(parts.same[used[first]], return_counts=True)
+        copies = {v: {int(parts.same[v]): v} for v in used[first].tolist()}
+        if (times == 1).all():
+            name = int(used[0])
+            return cls(
+                np.full(len(rim), name),
+                {name: {place: v for each in copies.values() for place, v in each.items()}},
+                own,
+            )
+        middles, seam = parts.points[own].mean(axis=1), parts.points[places[times > 1]]
+        away = np.linalg.norm(middles - seam[nearest(middles, seam)], axis=1)
+        side = {v: v for v in copies}
+        for triangle in own[np.argsort(away)].tolist():  # sides that must end do so far from the seams
+            for corner in triangle[1:]:
+                a, b = sorted((side[triangle[0]], side[corner]), key=lambda v: len(copies[v]))
+                if a != b and not copies[a].keys() & copies[b].keys():
+                    side.update(dict.fromkeys(copies[a].values(), b))
+                    copies[b] |= copies.pop(a)
+        return cls(np.array([side[v] for v in own[:, 0].tolist()]), copies, own)
+
+
+def filled(parts: Parts, new: FloatArray, triangles: IntArray, faces: Polygons) -> Parts:
+    """Parts with new vertices (k, 3) and faces behind those there are, over holes of the welded mesh.
+
+    ``triangles``: the same surface as ``faces``. A new face lies on the side of a seam that the face nearest to it lies
+    on, and has the data of that one; where two sides meet, new vertices are parted as the old ones are.
+    """
+    count = len(parts.points)
+    points = np.concatenate([parts.points, new])
+    rim = np.flatnonzero(np.isin(parts.triangles, triangles).any(axis=1))
+    sides = Sides.around(parts, rim)
+    middles = np.add.reduceat(points[faces.corners], faces.first) / faces.sizes[:, None]
+    beside = nearest(middles, parts.points[parts.own[rim]].mean(axis=1))
+    each = np.column_stack([faces.corners, np.repeat(sides.of_rim[beside], faces.sizes)])
+    pairs, pair_of = np.unique(each, axis=0, return_inverse=True)
+    numbers = np.array([sides.copies[s].get(v, -1) for v, s in pairs.tolist()])
+    inner, firsts = np.unique(pairs[:, 0], return_index=True)
+    numbers[firsts[inner >= count]] = inner[inner >= count]
+    again = np.flatnonzero(numbers < 0)  # places that a second side needs
+    numbers[again] = len(points) + np.arange(len(again))
+    side = np.full(len(points) - count, sides.of_rim[0])
+    side[inner[inner >= count] - count] = pairs[firsts[inner >= count], 1]
+    places = np.concatenate([np.arange(count, len(points)), pairs[again, 0]])
+    added = _rows(parts, sides, (points, triangles), places, np.concatenate([side, pairs[again, 1]]))
+    of_faces = {
+        name: np.concatenate([values, values[parts.faces.face_of[rim[beside]]]])
+        for name, values in parts.face_data.items()
+    }
+    whole = Polygons.joined([parts.faces, Polygons(numbers[pair_of.ravel()].astype(np.int32), faces.sizes)])
+    of_vertices = {name: np.concatenate([values, added[name]]) for name, values in parts.vertex_data.items()}
+    return Parts(np.concatenate([points, points[pairs[again, 0]]]), whole, of_vertices, of_faces)
+
+
+def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], places: IntArray, of: IntArray) -> Data:
+    """What is stored at new vertices: in these ``places`` (k,) of the surface, on these sides (k,)."""
+    points, triangles = surface
+    held = np.unique(triangles[triangles < len(parts.points)])
+    everywhere = dict(zip(held.tolist(), held.tolist(), strict=True))
+    found = {
+        name: np.empty((len(places), *values.shape[1:]), values.dtype) for name, values in parts.vertex_data.items()
+    }
+    for name, values in parts.vertex_data.items():
+        differs = any((values[v] != values[p]).any() for each in sides.copies.values() for p, v in each.items())
+        for side in np.unique(of) if differs else [None]:
+            mine = slice(None) if side is None else of == side
+            copies = (
+                everywhere if side is None else {p: v for p, v in sides.copies[int(side)].items() if p in everywhere}
+            )
+            pins, rows = np.array(list(copies)), values[list(copies.values())]
+            if not mixes(rows):
+                found[name][mine] = rows[nearest(points[places[mine]], points[pins])]
+                continue
+            around = np.unique(sides.corners[sides.of_rim == side]) if differs else None
+            trend = (points[around], values[around]) if differs else None
+            found[name][mine] = spread(surface, (pins, rows), held, trend)[places[mine]]
+    return found

@@ -1,0 +1,255 @@
+"""python -m fairing on files as other programs write them: read, filled, and written with all that was in them."""
+
+from __future__ import annotations
+
+import json
+import struct
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import fairing
+import odd_files
+from fairing.command import batch, files
+from fairing.objects.parts import Parts, Polygons
+from test_mesh_objects import COLUMNS, holed, radius, split, tube
+
+GOOD, BROKEN = odd_files.good(), odd_files.broken()
+
+
+def report_of(folder: Path, *words: object) -> tuple[int, list[dict[str, Any]]]:
+    status = batch.main([*map(str, words), "--json", str(folder / "report.json")])
+    return status, json.loads((folder / "report.json").read_text(encoding="utf-8"))
+
+
+def filled(source: Path, *words: object) -> tuple[Parts, dict[str, Any]]:
+    """What was written, and the report."""
+    target = source.with_name("out" + source.suffix)
+    status, (report,) = report_of(source.parent, "fill", source, "-o", target, *words)
+    assert status in (0, 1), report
+    return files.read(target)[0], report
+
+
+def volume(mesh: Parts) -> float:
+    corners = mesh.points[mesh.triangles]
+    return float(np.einsum("ti,ti->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6)
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_odd_files_are_read(name: str, tmp_path: Path) -> None:
+    """The box is closed, with nothing lost but what stands in no mesh."""
+    (tmp_path / name).write_bytes(GOOD[name])
+    before = files.read(tmp_path / name)[0]
+    mesh, report = filled(tmp_path / name)
+    assert volume(mesh) == pytest.approx(1.0)
+    assert not len(fairing.hole_loops(mesh.points, mesh.triangles).loops)
+    assert np.array_equal(mesh.points[: len(before.points)], before.points)
+    assert mesh.vertex_data.keys() == before.vertex_data.keys() and mesh.face_data.keys() == before.face_data.keys()
+    for key, values in before.vertex_data.items():
+        assert mesh.vertex_data[key].dtype == values.dtype
+    assert report["not_written"] == (["l", "p", "vp"] if name == "points_lines.obj" else [])
+
+
+def test_broken_files_are_rows_of_the_report(tmp_path: Path) -> None:
+    """The batch goes on, and nothing but the report is on the standard output."""
+    for name, raw in BROKEN.items():
+        (tmp_path / name).write_bytes(raw)
+    (tmp_path / "box.off").write_bytes(GOOD["plain.off"])
+    sources = [tmp_path / name for name in [*BROKEN, "missing.ply", "box.off"]]
+    command = [
+        sys.executable,
+        "-m",
+        "fairing",
+        "fill",
+        *map(str, sources),
+        "--into",
+        str(tmp_path / "out"),
+        "--json",
+        "-",
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    reports = json.loads(done.stdout)
+    assert (done.returncode, "Traceback" in done.stderr) == (3, False)
+    assert [report["verdict"] for report in reports] == ["unusable"] * (len(sources) - 1) + ["good"]
+    assert all(report["reason"] for report in reports[:-1])
+
+
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
+def test_properties_of_a_ply_file_stay(form: str, tmp_path: Path) -> None:
+    """Bytes are blended and stay bytes; types, order and comments stay, and elements that are not known."""
+    points, triangles = holed()
+    header = files.ply.Header(form, ["comment of a scanner"])
+    red = np.rint(127 + 120 * points[:, 2]).astype(np.uint8)
+    data = {"colors": np.column_stack([red, red, red]), "quality": points[:, 2].astype(np.float32)}
+    source = tmp_path / "scan.ply"
+    files.ply.write(source, Parts(points, Polygons.of(triangles), data, {"flags": np.arange(len(triangles))}), header)
+    before = source.read_bytes().partition(b"end_header")[0].decode()
+    extra = "element camera 1\nproperty float view_px\nproperty list uchar int ids\n"
+    row = b"0.5 2 7 8\n" if form == "ascii" else struct.pack(("<" if "little" in form else ">") + "fBii", 0.5, 2, 7, 8)
+    source.write_bytes(source.read_bytes().replace(b"end_header", extra.encode() + b"end_header") + row)
+    mesh, _ = filled(source, "--longest", 20)
+    raw = (tmp_path / "out.ply").read_bytes()
+    head, _, body = raw.partition(b"end_header\n")
+    lines = head.decode().splitlines()
+    assert "property uchar red" in lines and "comment of a scanner" in lines and body.endswith(row)
+    assert [line for line in lines if "property" in line] == [
+        *(x for x in before.splitlines() if "property" in x),
+        *extra.splitlines()[1:],
+    ]
+    new = mesh.points[len(points) :]
+    assert len(new) and abs(mesh.vertex_data["colors"][len(points) :, 0] - (127 + 120 * new[:, 2])).max() < 3
+    assert np.array_equal(mesh.vertex_data["colors"][: len(points)], data["colors"])
+    assert np.array_equal(mesh.face_data["flags"][: len(triangles)], np.arange(len(triangles)))
+
+
+def test_objects_groups_and_materials_of_an_obj_file_stay(tmp_path: Path) -> None:
+    """New faces have those of the nearest; the materials' files go along into another folder."""
+    points, triangles = holed()
+    left = points[triangles].mean(axis=1)[:, 2] < 0
+    lines = ["mtllib m.mtl", *(f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist())]
+    for name, mine in (("left", left), ("right", ~left)):
+        lines += [f"o {name}", f"g {name} all", f"usemtl {name}", "s off"]
+        lines += ["f " + " ".join(map(str, row)) for row in (triangles[mine] + 1).tolist()]
+    (tmp_path / "tube.obj").write_text("\n".join(lines))
+    (tmp_path / "m.mtl").write_text("newmtl left\nmap_Kd -s 1 1 1 wall.png\nnewmtl right\n")
+    (tmp_path / "wall.png").write_bytes(b"\x89PNG")
+    target = tmp_path / "out" / "tube.obj"
+    status, _ = report_of(tmp_path, "fill", tmp_path / "tube.obj", "-o", target, "--longest", 20)
+    now, faces = {}, {"left": [], "right": []}
+    for word, *rest in map(str.split, target.read_text().splitlines()):
+        now[word] = rest
+        if word == "f":
+            assert now["usemtl"] == now["o"] == now["g"][:1] and now["g"][1:] == ["all"]
+            faces[rest and now["o"][0]].append([int(each) - 1 for each in rest])
+    mesh = files.read(target)[0]
+    assert status == 0 and {path.name for path in target.parent.iterdir()} == {"tube.obj", "m.mtl", "wall.png"}
+    assert np.array_equal(mesh.points[: len(points)], points)
+    assert len(faces["left"]) > left.sum() and len(faces["right"]) > (~left).sum()
+    assert mesh.points[np.concatenate(faces["left"])][:, 2].max() < 0.2
+
+
+def test_a_seam_goes_on_over_a_hole(tmp_path: Path) -> None:
+    """The tube's image ends where it begins, in the hole: no new face reaches over the image, the picture goes on."""
+    points, quads = tube()
+    across = np.arange(COLUMNS + 1) / COLUMNS
+    row, column = np.divmod(np.arange(len(quads)), COLUMNS)
+    kept = ~((row >= 6) & (row < 10) & ((column < 2) | (column >= COLUMNS - 2)))
+    texture = [f"vt {u!r} {z!r}" for z in (points[::COLUMNS, 2] / 2 + 0.5).tolist() for u in across.tolist()]
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()] + texture
+    for quad, i, k in zip(quads[kept].tolist(), column[kept].tolist(), row[kept].tolist(), strict=True):
+        first = k * (COLUMNS + 1) + i
+        names = zip(quad, (first, first + 1, first + COLUMNS + 2, first + COLUMNS + 1), strict=True)
+        lines.append("f " + " ".join(f"{v + 1}/{t + 1}" for v, t in names))
+    (tmp_path / "tube.obj").write_text("\n".join(lines))
+    before = files.read(tmp_path / "tube.obj")[0]
+    mesh, _ = filled(tmp_path / "tube.obj", "--longest", 20)
+    assert len(before.points) == len(points) + ROWS_OF_SEAM and mesh.face_data.keys() == before.face_data.keys()
+    new = mesh.own[len(before.own) :]
+    u = mesh.vertex_data["uv"][new, 0]
+    true = np.mod(np.arctan2(mesh.points[new, 1], mesh.points[new, 0]) / (2 * np.pi), 1)
+    off = np.abs(np.mod(u - true + 0.5, 1) - 0.5)
+    assert len(new) > 20 and np.ptp(u, axis=1).max() < 2.5 / COLUMNS
+    assert off.max() < 0.02
+    assert not len(fairing.hole_loops(mesh.points, mesh.triangles).torn)
+
+
+ROWS_OF_SEAM = 17 - 3  # the tube's rows of vertices without those inside the hole, which the seam parts
+
+
+def test_objects_of_a_scene_stay(tmp_path: Path) -> None:
+    """Two objects share a mesh of two primitives; the hole between these is closed once, and both objects show it."""
+    trimesh = pytest.importorskip("trimesh")
+    points, triangles = holed()
+    scene = trimesh.Scene()
+    upper = points[triangles].mean(axis=1)[:, 2] > 0.1
+    for name, mine in (("upper", upper), ("lower", ~upper)):
+        part = trimesh.Trimesh(points, triangles[mine], process=False)
+        part.remove_unreferenced_vertices()
+        scene.add_geometry(
+            part, geom_name=name, node_name=name, transform=trimesh.transformations.translation_matrix([3, 0, 0])
+        )
+    scene.export(str(tmp_path / "tube.glb"))
+    mesh, report = filled(tmp_path / "tube.glb", "--longest", 20)
+    after = trimesh.load_scene(tmp_path / "out.glb", process=False)
+    assert report["verdict"] == "good" and {*after.graph.nodes_geometry} == {"upper", "lower"}
+    assert {*after.geometry} == {"upper", "lower"}
+    assert abs(radius(mesh.points - [3, 0, 0]) - 1).max() < 1e-4
+    found = fairing.hole_loops(mesh.points, mesh.triangles)
+    assert sorted(map(len, found.loops)) == [COLUMNS, COLUMNS] and not found.torn
+
+
+def test_nothing_to_fill_is_good(tmp_path: Path) -> None:
+    """A closed mesh is copied as it is; the outer border of a sheet stays open, and the report says so."""
+    closed = odd_files.ply(faces=[*odd_files.QUADS, (4, 5, 6, 7)])
+    (tmp_path / "closed.ply").write_bytes(closed)
+    sheet = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
+    (tmp_path / "sheet.obj").write_text(sheet)
+    names = tmp_path / "closed.ply", tmp_path / "sheet.obj"
+    status, reports = report_of(tmp_path, "fill", *names, "--into", tmp_path / "out")
+    assert (status, [report["verdict"] for report in reports]) == (0, ["good", "good"])
+    assert "outside of a sheet" in reports[1]["reason"]
+    assert (tmp_path / "out" / "closed_filled.ply").read_bytes() == closed
+    assert (tmp_path / "out" / "sheet_filled.obj").read_text() == sheet
+
+
+def test_a_surface_through_other_faces_is_never_good(tmp_path: Path) -> None:
+    """A ball lies in the way of a tube's new wall."""
+    points, triangles = holed()
+    at = np.array([np.cos(0.98), np.sin(0.98), -0.05])  # the middle of the hole
+    ball = points * [0.1, 0.1, 0.1]
+    mesh = np.concatenate([points, ball + at]), np.concatenate([triangles, split(tube()[1]) + len(points)])
+    result = fairing.fill_holes(mesh, longest=20).result
+    (warning,) = (each for each in result.warnings if each.code == "SELF_INTERSECTION")
+    assert len(warning.elements) > 4
+    files.off.write(tmp_path / "two.off", Parts(mesh[0], Polygons.of(mesh[1])), None)
+    status, (report,) = report_of(tmp_path, "fill", tmp_path / "two.off", "--longest", 20)
+    assert (status, report["verdict"]) == (1, "look") and "passes through" in report["reason"]
+    assert Path(report["written"]).is_file()
+
+
+def test_pieces_that_are_wound_the_other_way_are_turned(tmp_path: Path) -> None:
+    points, triangles = holed()
+    mixed = triangles.copy()
+    mixed[100:300] = mixed[100:300, ::-1]
+    (new_points, faces), result = fairing.fill_holes((points, mixed), longest=20)
+    alike = fairing.fill_holes((points, triangles), longest=20).mesh
+    assert np.allclose(new_points, alike[0])
+    corners = new_points[faces]
+    outwards = np.einsum(
+        "ti,ti->t",
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, :2],
+        corners.mean(axis=1)[:, :2],
+    )
+    assert (outwards > 0).all()
+    (said,) = (each for each in result.warnings if each.code == "INCONSISTENT_WINDING")
+    assert len(said.elements) == 200
+
+
+def test_triangles_that_name_a_vertex_twice_stop_nothing() -> None:
+    points, triangles = holed()
+    odd = np.concatenate([triangles, [[0, 0, 1], [200, 200, 201], [9, 9, 9]]])
+    mesh, result = fairing.fill_holes((points, odd), longest=20)
+    assert result.converged and len(result.loops) == 1 and np.array_equal(mesh[1][: len(odd)], odd)
+
+
+@pytest.mark.parametrize("begin", range(6))
+def test_a_concave_face_is_cut_within_itself(begin: int) -> None:
+    """Whatever its first corner; where it is one."""
+    corners = np.roll([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], -begin, axis=0)
+    mesh = Parts(np.column_stack([corners, np.zeros(6)]), Polygons.of([range(6)]))
+    at = mesh.points[mesh.own]
+    areas = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])[:, 2] / 2
+    assert len(areas) == 4 and (areas > 0).all() and areas.sum() == pytest.approx(3.0)
+
+
+def test_the_same_message_is_said_once(tmp_path: Path) -> None:
+    points, triangles = holed()
+    several = np.concatenate([points + np.array([0, 0, 4 * k]) for k in range(3)])
+    mesh = several, np.concatenate([triangles + k * len(points) for k in range(3)])
+    files.off.write(tmp_path / "three.off", Parts(mesh[0], Polygons.of(mesh[1])), None)
+    status, (report,) = report_of(tmp_path, "fill", tmp_path / "three.off", "--longest", 20)
+    assert status == 0 and len({each["message"] for each in report["warnings"]}) == len(report["warnings"])
