@@ -178,7 +178,50 @@ def good() -> dict[str, bytes]:
         "binary_no_count.stl": _binary_stl(count=0),
         "binary_tail.stl": _binary_stl(tail=b"made by\n"),
     }  # fmt: skip
+    line, twice, lone = (0, 1), (4, 4, 5), "v 9 9 9\n"
+    files |= {
+        "a_line.ply": ply(faces=[*QUADS, line]),
+        "a_line_binary.ply": ply("binary_little_endian", faces=[line, *QUADS]),
+        "a_line.off": _off(counts="8 6 0\n") + b"2 0 1\n",
+        "a_line.obj": _obj() + b"f 1 2\n",
+        "twice.ply": ply(faces=[*QUADS, twice]),
+        "twice.off": _off(counts="8 6 0\n") + b"3 4 4 5\n",
+        "twice.obj": _obj() + b"f 5 5 6\n",
+        "lone_vertex.obj": _obj(before=lone),
+        "late_vertices.obj": _obj(lambda v: str(v)) + b"v 5 5 5\ng end\n",
+        "strips.ply": _strips("ascii"),
+        "strips_binary.ply": _strips("binary_big_endian"),
+        "wedges.ply": _wedges("ascii"),
+        "wedges_binary.ply": _wedges("binary_little_endian"),
+    }
     return files
+
+
+def _strips(form: str) -> bytes:
+    """Strips of triangles instead of faces, as scanned models have them."""
+    numbers = [0, 3, 1, 2, -1, 0, 1, 4, 5, -1, 1, 2, 5, 6, -1, 2, 3, 6, 7, -1, 3, 0, 7, 4, -1]
+    head, _, body = ply(form, faces=[]).partition(b"end_header\n")
+    head = head.replace(
+        b"element face 0\nproperty list uchar int vertex_indices",
+        b"element tristrips 1\nproperty list int int vertex_indices",
+    )
+    row = " ".join(map(str, [len(numbers), *numbers])).encode() + b"\n"
+    if form != "ascii":
+        row = struct.pack(f">{len(numbers) + 1}i", len(numbers), *numbers)
+    return head + b"end_header\n" + body + row
+
+
+def _wedges(form: str) -> bytes:
+    """Places in an image at the corners of faces."""
+    head, _, body = ply(form).partition(b"end_header\n")
+    head = head.replace(b"vertex_indices\n", b"vertex_indices\nproperty list uchar float texcoord\n")
+    if form == "ascii":
+        lines = body.decode().splitlines()
+        lines[8:] = [line + " 8 0 0 1 0 1 1 0 1" for line in lines[8:]]
+        return head + b"end_header\n" + "\n".join([*lines, ""]).encode()
+    at, tail = 8 * 12, struct.pack("<B8f", 8, 0, 0, 1, 0, 1, 1, 0, 1)
+    rows = [body[at + 17 * k : at + 17 * (k + 1)] + tail for k in range(5)]
+    return head + b"end_header\n" + body[:at] + b"".join(rows)
 
 
 def broken() -> dict[str, bytes]:

@@ -46,7 +46,7 @@ def test_odd_files_are_read(name: str, tmp_path: Path) -> None:
     before = files.read(tmp_path / name)[0]
     mesh, report = filled(tmp_path / name)
     assert volume(mesh) == pytest.approx(1.0)
-    assert not len(fairing.hole_loops(mesh.points, mesh.triangles).loops)
+    assert not len(fairing.hole_loops(mesh.points, mesh.triangles[mesh.sound]).loops)
     assert np.array_equal(mesh.points[: len(before.points)], before.points)
     assert mesh.vertex_data.keys() == before.vertex_data.keys() and mesh.face_data.keys() == before.face_data.keys()
     for key, values in before.vertex_data.items():
@@ -152,12 +152,35 @@ def test_a_seam_goes_on_over_a_hole(tmp_path: Path) -> None:
     u = mesh.vertex_data["uv"][new, 0]
     true = np.mod(np.arctan2(mesh.points[new, 1], mesh.points[new, 0]) / (2 * np.pi), 1)
     off = np.abs(np.mod(u - true + 0.5, 1) - 0.5)
+    lines = (tmp_path / "out.obj").read_text().splitlines()
+    assert sum(line.startswith("v ") for line in lines) == len(np.unique(mesh.points, axis=0))
     assert len(new) > 20 and np.ptp(u, axis=1).max() < 2.5 / COLUMNS
     assert off.max() < 0.02
     assert not len(fairing.hole_loops(mesh.points, mesh.triangles).torn)
 
 
 ROWS_OF_SEAM = 17 - 3  # the tube's rows of vertices without those inside the hole, which the seam parts
+
+
+def test_a_seam_goes_on_over_a_fillet() -> None:
+    """A tube with a lid, each with an image of its own, and the tube's ends where it begins."""
+    angle = 2 * np.pi * np.arange(COLUMNS + 1) / COLUMNS
+    side = np.column_stack([np.tile(angle / (2 * np.pi), 2), np.repeat([0.0, 1.0], COLUMNS + 1)])
+    at = np.column_stack([np.cos(angle), np.sin(angle)])
+    lower, upper = (np.insert(at, 2, z, axis=1) for z in (-1.0, 1.0))
+    places = np.concatenate([lower, upper, upper[:-1]])
+    places[COLUMNS], places[2 * COLUMNS + 1] = places[0], places[COLUMNS + 1]
+    k = np.arange(COLUMNS)
+    walls = np.column_stack([k, k + 1, k + COLUMNS + 2, k + COLUMNS + 1])
+    lid = 2 * (COLUMNS + 1) + k
+    uv = np.concatenate([side, 5 + places[lid, :2]])
+    mesh = Parts(places, Polygons.of([*walls, lid]), {"uv": uv})
+    made, result = fairing.fillet_edges(mesh, width=0.2)
+    u = made.vertex_data["uv"][made.own, 0]
+    on_lid = (u > 3).any(axis=1)
+    assert result.converged and (u[on_lid] > 3).all() and np.ptp(u[~on_lid], axis=1).max() < 0.1
+    found = fairing.hole_loops(made.points, made.triangles)
+    assert [len(loop) for loop in found.loops] == [COLUMNS] and not found.torn
 
 
 def test_objects_of_a_scene_stay(tmp_path: Path) -> None:

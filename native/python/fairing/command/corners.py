@@ -11,8 +11,13 @@ from fairing.objects.parts import PLACE, Data, Parts, Polygons
 def by_vertices(points: FloatArray, faces: Polygons, stores: tuple[Data, Data], at_corners: Data) -> Parts:
     """Parts with a vertex for each value (Σ sizes, c) that a point has at corners; the points keep their order.
 
-    ``stores``: data of points and of faces.
+    ``stores``: data of points and of faces. What has less than three corners is no face.
     """
+    if (faces.sizes < 3).any():
+        whole = faces.sizes > 2
+        at_corners = {name: values[np.repeat(whole, faces.sizes)] for name, values in at_corners.items()}
+        stores = stores[0], {name: values[whole] for name, values in stores[1].items()}
+        faces = faces.chosen(whole)
     unused = np.setdiff1d(np.arange(len(points)), faces.corners)
     if not at_corners:
         return Parts(points, faces, *stores)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -32,27 +33,33 @@ def read(source: Path) -> tuple[Parts, Write]:
             raise ValueError(f"{source}: can't be read: {said}") from error
         return parts, lambda target, made: _written(target, made, header if target.suffix.lower() == kind else None)
     library = _library(kind)
-    try:
+    with _told(library, source):
         if library.__name__ == "trimesh":
             parts, write = scenes.read(library, source)
         else:
-            parts, write = _by_meshio(library, source)
-    except (Exception, SystemExit) as error:  # of broken files these libraries raise anything
-        raise ValueError(f"{source}: {library.__name__} can't read it: {error!r}") from error
-    return (
-        parts,
-        lambda target, made: write(target, made) if target.suffix.lower() == kind else _written(target, made, None),
-    )
+            parts, make = opened(library.read(source))
+
+            def write(target: Path, made: Parts) -> list[str]:
+                make(made).write(target)
+                return []
+
+    def written(target: Path, made: Parts) -> list[str]:
+        if target.suffix.lower() != kind:
+            return _written(target, made, None)
+        with _told(library, target):
+            gone: list[str] = write(target, made)
+        return gone
+
+    return parts, written
 
 
-def _by_meshio(library: Any, source: Path) -> tuple[Parts, Write]:
-    parts, make = opened(library.read(source))
-
-    def write(target: Path, made: Parts) -> list[str]:
-        make(made).write(target)
-        return []
-
-    return parts, write
+@contextmanager
+def _told(library: Any, path: Path) -> Iterator[None]:
+    """ValueError for anything that a library raises: of broken files they end the program, too."""
+    try:
+        yield
+    except (Exception, SystemExit) as error:
+        raise ValueError(f"{path}: {library.__name__} stops: {error!r}") from error
 
 
 def _written(target: Path, parts: Parts, header: Any) -> list[str]:
@@ -62,12 +69,12 @@ def _written(target: Path, parts: Parts, header: Any) -> list[str]:
         found: list[str] = _OWN[kind].write(target, parts, header)
         return found
     library = _library(kind)
-    if library.__name__ == "trimesh":
-        made = parts.in_triangles()
-        library.Trimesh(made.points, made.own, process=False).export(target)
-        return sorted({*parts.vertex_data, *parts.face_data})
-    empty = library.Mesh(parts.points[:3], [("triangle", [[0, 1, 2]])])
-    opened(empty)[1](parts).write(target)
+    with _told(library, target):
+        if library.__name__ == "trimesh":
+            library.Trimesh(parts.points, parts.own, process=False).export(target)
+            return sorted({*parts.vertex_data, *parts.face_data})
+        empty = library.Mesh(parts.points[:3], [("triangle", [[0, 1, 2]])])
+        opened(empty)[1](parts).write(target)
     return []
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing.command.corners import by_points
+from fairing.command.corners import by_points, by_vertices
 from fairing.objects.parts import PLACE, Data, Parts, Polygons
 
 Array = npt.NDArray[Any]
@@ -44,12 +44,13 @@ def read(source: Path) -> tuple[Parts, str]:
         data["colors"] = _colours(colours)
     if st:
         data["uv"] = table[:, -2:].astype(np.float64)
-    polygons = Polygons.of([np.array(row[1 : int(row[0]) + 1], np.int32) for row in faces])
+    corners = [int(word) for row in faces for word in row[1 : int(row[0]) + 1]]
+    polygons = Polygons(np.array(corners, np.int32), np.array([int(row[0]) for row in faces], np.int32))
     tails = {len(row) - int(row[0]) - 1 for row in faces}
     of_faces: Data = {}
     if tails in ({3}, {4}):
         of_faces["colors"] = _colours(_table([row[int(row[0]) + 1 :] for row in faces]))
-    return Parts(points, polygons, data, of_faces), ""
+    return by_vertices(points, polygons, (data, of_faces), {}), ""
 
 
 def _in_lines(lines: list[Words], counts: list[int], width: int) -> tuple[list[Words], list[Words]]:

@@ -31,7 +31,8 @@ def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
         for number, (name, (before, make)) in enumerate(meshes.items()):
             scene.geometry[name] = make(_one_of(made, number, before, np.linalg.inv(matrices[number])))
         said = _json(source)
-        scene.export(str(target), **({"include_normals": True} if '"NORMAL"' in json.dumps(said) else {}))
+        options = {"include_normals": True} if '"NORMAL"' in json.dumps(said) else {}
+        scene.export(str(target), **options, **({"embed_buffers": True} if target.suffix.lower() == ".gltf" else {}))
         return [key for key in ("animations", "skins", "cameras") if said.get(key)]
 
     return _joined([parts for parts, _ in meshes.values()], matrices), write

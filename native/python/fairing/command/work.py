@@ -112,7 +112,7 @@ def selection(parts: Parts, given: Namespace) -> Any:
 
 def measured(parts: Parts) -> Report:
     """What there is to fill, to round and to mend."""
-    triangles = parts.triangles
+    triangles = parts.triangles[parts.sound]
     found = hole_loops(parts.points, triangles)
     outer = outer_borders(parts.points, triangles, found.loops) if found.loops else np.zeros(0, bool)
     holes = [loop for loop, is_outer in zip(found.loops, outer, strict=True) if not is_outer]

@@ -22,7 +22,7 @@ from fairing._types import Diagnostic, FairResult, IntArray
 from fairing.objects import data
 from fairing.objects.hosts import opened
 from fairing.objects.parts import Parts, Polygons
-from fairing.objects.seams import filled
+from fairing.objects.seams import filled, rounded
 
 Result = TypeVar("Result", FairResult, FillResult, FilletResult)
 log = logging.getLogger(__name__.partition(".")[0])
@@ -69,7 +69,10 @@ def fair_faces(mesh: Any, selected: Any, *, side: str = "automatic", **options: 
     moved = np.flatnonzero((result.vertices != parts.points).any(axis=1)[parts.same]).astype(np.int32)
     points = parts.points.copy()
     points[moved] = result.vertices[parts.same[moved]]
-    return _made(make, replace(parts, points=points), result, moved)
+    made = replace(parts, points=points)
+    near = np.isin(parts.own, moved).any(axis=1)
+    near[self_intersections(parts.points, parts.own, near=np.flatnonzero(near))] = False  # they did before
+    return _made(make, made, result, moved, near)
 
 
 def fill_holes(
@@ -108,7 +111,8 @@ def fill_holes(
         new_faces = Polygons.joined([Polygons.of(result.quads.quads), Polygons.of(result.quads.triangles)])
     made = filled(parts, result.vertices, result.triangles, new_faces)
     result = replace(result, warnings=(*result.warnings, *turned))
-    return _made(make, made, result, np.arange(len(parts.points), len(made.points), dtype=np.int32))
+    new = np.arange(len(parts.points), len(made.points), dtype=np.int32)
+    return _made(make, made, result, new, np.arange(len(made.own)) >= len(parts.own))
 
 
 def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float, **options: Any) -> Made[FilletResult]:
@@ -135,27 +139,9 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
     if (parts.faces.sizes > 3).any():
         options.setdefault("neighbours", _edges(parts, np.ones(len(parts.faces.sizes), dtype=bool)))
     result = fillet(parts.points, parts.triangles, seam, width=width, **options)
-    triangles, weights = result.origin
-    of_vertices = data.mixed(parts.vertex_data, parts.own[triangles], weights)
-    stays = ~np.isin(np.arange(len(parts.triangles)), result.gone)
-    whole = np.ones(len(parts.faces.sizes), dtype=bool)
-    whole[parts.faces.face_of[result.gone]] = False
-    halves = np.flatnonzero(stays & ~whole[parts.faces.face_of])
-    new_faces, under = Polygons.of(result.triangles), result.parent
-    if result.quads is not None:
-        new_faces = Polygons.joined([Polygons.of(result.quads.triangles), Polygons.of(result.quads.quads)])
-        under = np.concatenate([under[result.quads.rest], under[result.quads.pairs[:, 0]]])
-    faces = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.own[halves]), new_faces])
-    order = np.concatenate(
-        [np.flatnonzero(whole), parts.faces.face_of[halves], parts.faces.face_of[under]]
-    )  # the old face of each
-    of_faces = {name: values[order] for name, values in parts.face_data.items()}
-    points = np.concatenate([parts.points, result.vertices])
-    used = np.isin(np.arange(len(points)), faces.corners)  # without those that only faces which have gone did use
-    used[: len(parts.points)] |= ~np.isin(np.arange(len(parts.points)), parts.faces.corners)
-    faces = Polygons((np.cumsum(used) - 1)[faces.corners].astype(np.int32), faces.sizes)
-    made = Parts(points[used], faces, {name: values[used] for name, values in of_vertices.items()}, of_faces)
-    return _made(make, made, result, np.arange(used[: len(parts.points)].sum(), len(made.points), dtype=np.int32))
+    made, kept = rounded(parts, result)
+    new = np.arange(kept, len(made.points), dtype=np.int32)
+    return _made(make, made, result, new, np.isin(made.own, new).any(axis=1))
 
 
 def _wound_alike(parts: Parts) -> tuple[Parts, tuple[Diagnostic, ...]]:
@@ -196,10 +182,9 @@ def _selection(selected: Any, parts: Parts) -> IntArray:
     return faces
 
 
-def _made(make: Callable[[Parts], Any], made: Parts, result: Any, moved: IntArray) -> Made[Any]:
-    """The new mesh. What the engine does not see is reported, too: a surface that passes through other faces."""
-    near = np.flatnonzero(np.isin(made.own, moved).any(axis=1))
-    crossing = self_intersections(made.points, made.own, near=near)
+def _made(make: Callable[[Parts], Any], made: Parts, result: Any, moved: IntArray, new: npt.NDArray[Any]) -> Made[Any]:
+    """The new mesh; ``new``: its new triangles. Where these cross others is reported: the engine doesn't see it."""
+    crossing = self_intersections(made.points, made.own, near=np.flatnonzero(new))
     if len(crossing) and not any(warning.code == "SELF_INTERSECTION" for warning in result.warnings):
         text = f"{len(crossing)} triangles cross: the surface passes through other faces of the mesh"
         found = Diagnostic("SELF_INTERSECTION", text, crossing, "triangle", {"others": float(len(crossing))})

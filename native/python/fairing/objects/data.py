@@ -38,16 +38,15 @@ def spread(
 
 
 def mixed(data: Data, corners: IntArray, weights: FloatArray) -> Data:
-    """Data of old vertices and, behind them, of new ones that lie at these corners (k, 3) with these weights (k, 3)."""
-
-    def new_rows(values: Array) -> Array:
-        if not mixes(values):
-            found: Array = values[corners[np.arange(len(corners)), weights.argmax(axis=1)]]
-            return found
-        flat = values.reshape(len(values), -1).astype(np.float64)
-        return _like(np.einsum("kc,kcd->kd", weights, flat[corners]), values)
-
-    return {name: np.concatenate([values, new_rows(values)]) for name, values in data.items()}
+    """Data of vertices that lie at these corners (k, 3) with these weights (k, 3)."""
+    nearest_corner = corners[np.arange(len(corners)), weights.argmax(axis=1)]
+    rows: Data = {}
+    for name, values in data.items():
+        flat = values.reshape(len(values), -1)
+        rows[name] = values[nearest_corner]
+        if mixes(values):
+            rows[name] = _like(np.einsum("kc,kcd->kd", weights, flat[corners].astype(np.float64)), values)
+    return rows
 
 
 def with_normals(made: Parts, moved: IntArray) -> Parts:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fairing._new_mesh import FilletResult
 from fairing._types import FloatArray, IntArray
-from fairing.objects.data import is_normal, mixes, nearest, spread
+from fairing.objects.data import is_normal, mixed, mixes, nearest, spread
 from fairing.objects.parts import PLACE, Data, Parts, Polygons
 
 
@@ -52,7 +53,8 @@ class Sides:
                 if a != b and not copies[a].keys() & copies[b].keys():
                     side.update(dict.fromkeys(copies[a].values(), b))
                     copies[b] |= copies.pop(a)
-        return cls(np.array([side[v] for v in own[:, 0].tolist()]), copies, own)
+        of_rim = [max((side[v] for v in triangle), key=lambda each: len(copies[each])) for triangle in own.tolist()]
+        return cls(np.array(of_rim), copies, own)
 
 
 def filled(parts: Parts, new: FloatArray, triangles: IntArray, faces: Polygons) -> Parts:
@@ -96,12 +98,14 @@ def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], plac
         name: np.empty((len(places), *values.shape[1:]), values.dtype) for name, values in parts.vertex_data.items()
     }
     for name, values in parts.vertex_data.items():
+        if name == PLACE:
+            found[name] = _new_places(values, places)
+            continue
         differs = any((values[v] != values[p]).any() for each in sides.copies.values() for p, v in each.items())
-        for side in np.unique(of) if differs else [None]:
-            mine = slice(None) if side is None else of == side
-            copies = (
-                everywhere if side is None else {p: v for p, v in sides.copies[int(side)].items() if p in everywhere}
-            )
+        for side in np.unique(of).tolist() if differs else [-1]:
+            mine = of == side if differs else slice(None)
+            own = {p: v for p, v in sides.copies.get(side, {}).items() if p in everywhere}
+            copies = own if differs and own else everywhere
             pins, rows = np.array(list(copies)), values[list(copies.values())]
             if not mixes(rows):
                 found[name][mine] = rows[nearest(points[places[mine]], points[pins])]
@@ -110,3 +114,84 @@ def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], plac
             trend = (points[around], values[around]) if differs else None
             found[name][mine] = spread(surface, (pins, rows), held, trend)[places[mine]]
     return found
+
+
+def _new_places(values: IntArray, vertices: IntArray) -> IntArray:
+    """The numbers in a file of new vertices, which are those of old ones where they are copies of these."""
+    old = vertices < len(values)
+    beyond = values.max(initial=-1) + 1 + vertices - len(values)
+    return np.where(old, values[np.where(old, vertices, 0)], beyond).astype(values.dtype)
+
+
+def rounded(parts: Parts, result: FilletResult) -> tuple[Parts, int]:
+    """Parts with a fillet in place of what is gone, without vertices that only this had, and how many old ones stay.
+
+    A vertex that new faces on two sides of a seam share is parted, as the old ones are.
+    """
+    count = len(parts.points)
+    faces, under = Polygons.of(result.triangles), result.parent
+    if result.quads is not None:
+        faces = Polygons.joined([Polygons.of(result.quads.triangles), Polygons.of(result.quads.quads)])
+        under = np.concatenate([under[result.quads.rest], under[result.quads.pairs[:, 0]]])
+    corners, again, added = _on_their_sides(parts, result, faces, under)
+    whole = np.ones(len(parts.faces.sizes), dtype=bool)
+    whole[parts.faces.face_of[result.gone]] = False
+    halves = np.setdiff1d(np.flatnonzero(~whole[parts.faces.face_of]), result.gone)
+    faces = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.own[halves]), Polygons(corners, faces.sizes)])
+    old = np.concatenate([np.flatnonzero(whole), parts.faces.face_of[halves], parts.faces.face_of[under]])
+    of_faces = {name: values[old] for name, values in parts.face_data.items()}
+    points = np.concatenate([parts.points, result.vertices, result.vertices[again - count]])
+    used = np.isin(np.arange(len(points)), faces.corners)
+    used[:count] |= ~np.isin(np.arange(count), parts.faces.corners)
+    of_vertices = {name: np.concatenate([values, added[name]])[used] for name, values in parts.vertex_data.items()}
+    faces = Polygons((np.cumsum(used) - 1)[faces.corners].astype(np.int32), faces.sizes)
+    return Parts(points[used], faces, of_vertices, of_faces), int(used[:count].sum())
+
+
+def _on_their_sides(
+    parts: Parts, result: FilletResult, faces: Polygons, under: IntArray
+) -> tuple[IntArray, IntArray, Data]:
+    """The corners of a fillet's faces, new vertices that stand there once more, and the data of all new ones.
+
+    ``under``: the old triangle of each face.
+    """
+    count, (triangles, weights) = len(parts.points), result.origin
+    rows = mixed(parts.vertex_data, parts.own[triangles], weights)
+    near = np.unique(np.concatenate([result.gone, under, triangles]))
+    sides = Sides.around(parts, near)
+    below = np.repeat(under, faces.sizes)
+    side = sides.of_rim[np.searchsorted(near, below)]
+    own = np.concatenate([np.full(count, -1), sides.of_rim[np.searchsorted(near, triangles)]])
+    corners = faces.corners.copy()
+    for k in np.flatnonzero(own[corners] != side).tolist() if len(sides.copies) > 1 else []:
+        corners[k] = sides.copies[side[k]].get(corners[k], corners[k])
+    other = np.flatnonzero((corners >= count) & (own[corners] != side))
+    at = np.einsum("kc,kcd->kd", weights, parts.points[parts.own[triangles]])[corners[other] - count]
+    there = mixed(parts.vertex_data, parts.own[below[other]], _barycentric(at, parts.points[parts.own[below[other]]]))
+    differs = np.zeros(len(other), dtype=bool)
+    for name, values in there.items():
+        if values.dtype.kind in "uif" and not is_normal(name, values) and name != PLACE:
+            gap = np.abs(values.astype(float) - rows[name][corners[other] - count])
+            differs |= (gap > 1e-3 * np.ptp(rows[name].astype(float))).any(axis=tuple(range(1, gap.ndim)))
+    other, first = other[differs], np.flatnonzero(differs)
+    _, one, number = np.unique(
+        np.column_stack([corners[other], side[other]]), axis=0, return_index=True, return_inverse=True
+    )
+    again = corners[other[one]]
+    corners[other] = count + len(result.vertices) + number.ravel()
+    data = {name: np.concatenate([values, there[name][first[one]]]) for name, values in rows.items()}
+    if PLACE in data:
+        new = np.arange(count, count + len(result.vertices))
+        data[PLACE] = _new_places(parts.vertex_data[PLACE], np.concatenate([new, again]))
+    return corners, again, data
+
+
+def _barycentric(at: FloatArray, triangles: FloatArray) -> FloatArray:
+    """(k, 3) weights of the corners (k, 3, 3) at the feet of places (k, 3) in their planes."""
+    a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    normal = np.cross(a, b)
+    size = np.maximum((normal**2).sum(axis=1), 1e-300)
+    away = at - triangles[:, 0]
+    second = (np.cross(away, b) * normal).sum(axis=1) / size
+    third = (np.cross(a, away) * normal).sum(axis=1) / size
+    return np.column_stack([1 - second - third, second, third])
