@@ -1,20 +1,20 @@
-"""Texts in other languages, for `bpy.app.translations`.
+"""Texts in other languages.
 
-A language is a file languages/CODE.json: English texts with their translations. To add one, copy de.json, translate its
-right-hand sides, and give Blender's names of it to _LOCALES; tests/blender/test_languages.py says what is missing.
-Labels, tooltips and menu entries are looked up by Blender itself. Sentences put together at run time are English until
-they are shown: `translated` recognizes them by their templates, which have fields in braces.
+Labels, tooltips and menu entries are looked up by Blender itself (`bpy.app.translations`): languages/CODE.json has
+English ones with their translations. Sentences have keys: words/CODE.json. To add a language, copy both files of
+another one, translate their right-hand sides, and give Blender's names of it to _LOCALES;
+tests/blender/test_languages.py says what is missing.
 """
 
 from __future__ import annotations
 
 import json
-from functools import cache, lru_cache
+from functools import cache
 from pathlib import Path
 
 import bpy
 
-from .templates import Templates
+from .core.words import Message, sentences_of, worded
 
 _FOLDER = Path(__file__).parent / "languages"
 # Blender's names of a language: older versions know some by country only.
@@ -37,21 +37,16 @@ def table() -> dict[str, dict[tuple[str, str], str]]:
 
 
 def translated(text: str) -> str:
-    """Return a text, or a sentence put together at run time, in the language of the interface."""
-    found: str = bpy.app.translations.pgettext_iface(text)
-    if found != text or not bpy.context.preferences.view.use_translate_interface:
+    """Return a label, or a message, in the language of the interface."""
+    if not isinstance(text, Message):
+        found: str = bpy.app.translations.pgettext_iface(text)
         return found
-    return _sentence(bpy.app.translations.locale.partition("_")[0], text)
+    if not bpy.context.preferences.view.use_translate_interface:
+        return text
+    return worded(text, _sentences(bpy.app.translations.locale.partition("_")[0]))
 
 
-@lru_cache(maxsize=1024)  # panels ask for the same sentences at every redraw; figures make new ones
-def _sentence(code: str, text: str) -> str:
-    return _templates(code).translated(text)
-
-
-@cache
-def _templates(code: str) -> Templates:
-    return Templates(languages().get(code, {}))
+_sentences = cache(sentences_of)
 
 
 def register() -> None:

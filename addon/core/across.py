@@ -11,7 +11,7 @@ import fairing
 
 from .arrays import Floats, Ints, Mask
 from .region import MeshArrays, nothing
-from .words import counted
+from .words import joined, said
 
 
 def _no_edges() -> Ints:
@@ -75,9 +75,8 @@ class Across:
 def reported(all_of_them: Sequence[Across]) -> str:
     """Say what surfaces follow; nothing where they follow nothing."""
     hard, drawn, bands = (sum(getattr(each, name) for each in all_of_them) for name in ("hard", "as_drawn", "bands"))
-    parts = [counted(hard, "runs on", "run on")] * bool(hard) + [f"{drawn} drawn"] * bool(drawn)
-    parts += [counted(bands, "bevel runs on", "bevels run on")] * bool(bands)
-    return ", ".join(parts)
+    counts = (("runs_on", hard), ("drawn", drawn), ("bevels_run_on", bands))
+    return joined([said(key, n=count) for key, count in counts if count])
 
 
 @dataclass(frozen=True)

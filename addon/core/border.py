@@ -11,9 +11,9 @@ import fairing
 
 from .arrays import Ints, Mask
 from .region import MeshArrays, face_sizes
-from .words import counted
+from .words import said
 
-NO_BORDER = "No border is selected: select edges or vertices of the holes' boundaries, as many as you like of each"
+NO_BORDER = said("no_border")
 
 
 class BorderRefusal(ValueError):
@@ -76,7 +76,7 @@ def notes_on(left: Sequence[Left]) -> tuple[str, ...]:
     """Return a sentence for each reason for which holes stay open."""
     reasons = dict.fromkeys(each.reason for each in left)
     counts = [(reason, sum(each.reason == reason for each in left)) for reason in reasons]
-    return tuple(f"{counted(count, 'hole stays', 'holes stay')} open: {reason}" for reason, count in counts)
+    return tuple(said("holes_stay", n=count, reason=reason) for reason, count in counts)
 
 
 def _border_edges(mesh: MeshArrays) -> Ints:
@@ -100,15 +100,14 @@ def _meant(loops: list[Ints], seeds: Mask, shared: Mask) -> list[Ints]:
 
 def _torn(chain: Ints) -> Left:
     ends = np.unique(chain[[0, -1]])
-    text = f"Faces at the border are wound against each other at vertex {ends[0]}: recalculate the normals"
-    return Left(np.unique(chain), text, ends)
+    return Left(np.unique(chain), said("border_wound", first=ends[0]), ends)
 
 
 def _check(mesh: MeshArrays, loop: Ints) -> None:
     points = mesh.positions[loop]
     broken = loop[~np.isfinite(points).all(axis=1)]
     if len(broken):
-        raise BorderRefusal(f"Vertex {broken[0]} of the border has a coordinate that is NaN or infinite", broken)
+        raise BorderRefusal(said("border_nan", first=broken[0]), broken)
     same = loop[(points == np.roll(points, -1, axis=0)).all(axis=1)]
     if len(same):
-        raise BorderRefusal(f"The border has an edge without length at vertex {same[0]}: merge by distance", same)
+        raise BorderRefusal(said("border_no_length", first=same[0]), same)

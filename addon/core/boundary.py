@@ -12,7 +12,7 @@ from .arrays import Floats, Ints, Mask
 from .outline import face_normals, turned_over
 from .region import MeshArrays, Patch
 from .vectors import sum_at, unit
-from .words import counted
+from .words import said
 
 MOST_MARKED = 0.25  # of the edges around: importers mark nearly all of them, which sets none apart
 
@@ -129,21 +129,9 @@ def _notes(mesh: MeshArrays, fixed: Ints, found: Mask, from_inside: Mask) -> tup
     inward = int(np.count_nonzero(from_inside))
     notes = []
     if inward and inward == np.count_nonzero(found):
-        notes.append("The surface takes the slope of the selected faces along the whole boundary")
+        notes.append(said("slope_from_selection"))
     elif inward:
-        notes.append(
-            counted(
-                inward,
-                "boundary vertex lies on a hard edge: the surface takes the slope of the selected faces there",
-                "boundary vertices lie on hard edges: the surface takes the slope of the selected faces there",
-            )
-        )
+        notes.append(said("slope_at_hard_edge", n=inward))
     if alone:
-        notes.append(
-            counted(
-                alone,
-                "border vertex has no faces outside: its normal comes from the patch",
-                "border vertices have no faces outside: their normals come from the patch",
-            )
-        )
+        notes.append(said("normal_from_patch", n=alone))
     return tuple(notes)

@@ -8,11 +8,7 @@ from .arrays import Ints
 from .engine import Problem, bad_outline
 from .evidence import NOTHING, Evidence, Found, corners_of
 from .options import FairOptions
-from .words import counted
-
-_ROUGH_BORDER = ": a fair border may not exist where it is rough beside the selection; turn Fair Open Borders off"
-# It uses up its steps on most real meshes.
-_MULTIGRID = ": Method: Multigrid did not get there. Method: Global finds it more often, and at once"
+from .words import said
 
 
 def failing(evidence: Evidence, options: FairOptions) -> Found:
@@ -28,27 +24,27 @@ def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
     result, patch = evidence.result, evidence.problem.patch
     if result.converged or result.termination == "folded":
         return NOTHING
-    reason = evidence.failures[0] if evidence.failures else "No fair surface was found"
-    reason += _ending(evidence, options)
+    reason = evidence.failures[0] if evidence.failures else said("no_fair_surface")
+    reason = _ended(reason, evidence, options)
     return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
 
 
-def _ending(evidence: Evidence, options: FairOptions) -> str:
-    """Return how the search ended, where the engine does not say why, and what there is instead."""
+def _ended(reason: str, evidence: Evidence, options: FairOptions) -> str:
+    """Add how the search ended, where the engine does not say why, and what there is instead."""
     if options.fairs_border:
-        return _ROUGH_BORDER
+        return said("rough_border", reason=reason)
     if options.method == "PAPER":
-        return _MULTIGRID
+        return said("multigrid_missed", reason=reason)
     if any(evidence.reported("NOT_CONVERGED", "load_share", "area", "from_behind")):
-        return ""
+        return reason
     count = evidence.result.iterations
-    text = ": the search came to a halt" if count else ": no initial surface was found"
+    text = said("halted" if count else "no_initial_surface", reason=reason)
     if evidence.result.termination != "stalled":
-        text = f": it was not there after the {counted(count, 'step', 'steps')} that Iterations allows"
+        text = said("steps_ran_out", reason=reason, n=count)
     after = evidence.after
     if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
         return text
-    return f"{text}. What it came to has no folds and no kinks"
+    return said("usable_so_far", reason=text)
 
 
 def _troubled(problem: Problem) -> Ints:
@@ -68,17 +64,17 @@ def _folded(evidence: Evidence, options: FairOptions) -> Found:
         return _named_folds(evidence)
     if not len(after):
         return NOTHING
-    text = counted(len(after), "face of the result is folded over", "faces of the result are folded over")
+    text = said("folded_faces", n=len(after))
     corners, patch = corners_of(evidence.problem, after), evidence.problem.patch
     pins = np.intersect1d(corners, patch.vertices[np.setdiff1d(patch.fixed, patch.outline)])
     if len(pins):
-        text += f", at {counted(len(pins), 'pinned vertex', 'pinned vertices')}"
+        text = said("at_pins", reason=text, n=len(pins))
     return text, corners
 
 
 def _named_folds(evidence: Evidence) -> Found:
     """Return the engine's sentence on folds that show as crossings only."""
-    reason = evidence.failures[0] if evidence.failures else "The surface can't be reached without folds"
+    reason = evidence.failures[0] if evidence.failures else said("only_with_folds")
     return reason, evidence.named("FOLDED")
 
 
@@ -91,9 +87,4 @@ def _crossing(evidence: Evidence, options: FairOptions) -> Found:
         return NOTHING
     if not len(new):
         return NOTHING
-    text = counted(
-        len(new),
-        "face of the result passes through others, which it did not before",
-        "faces of the result pass through others, which they did not before",
-    )
-    return text, corners_of(evidence.problem, new)
+    return said("new_crossings", n=len(new)), corners_of(evidence.problem, new)

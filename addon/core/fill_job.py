@@ -25,9 +25,8 @@ from .quality import join_at
 from .region import MeshArrays, to_local
 from .sentences import in_mesh_words, sentences
 from .verdict import UNUSABLE, Verdict
+from .words import said
 
-_TOO_MANY = "Bridge joins all {} selected boundary loops in one surface: select only those that belong together"
-_TWO = "Bridge needs two boundary loops that face each other: switch it off to close each of them by itself"
 _SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
 _SINGLE = 4  # edges of those that one face closes
 _TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE", "NO_QUAD_ROWS")
@@ -186,12 +185,12 @@ def _advised(verdict: Verdict, options: FillOptions, loops: int) -> Verdict:
     """Return the verdict with what to do about it where too many boundary loops were joined."""
     if verdict.grade != UNUSABLE or not options.bridge or loops < 3:
         return verdict
-    return replace(verdict, reason=f"{verdict.reason}. {joining_advice(loops)}")
+    return replace(verdict, reason=said("and_advice", reason=verdict.reason, advice=joining_advice(loops)))
 
 
 def joining_advice(loops: int) -> str:
     """Return what to do where so many boundary loops were not joined."""
-    return _TOO_MANY.format(loops) if loops > 2 else _TWO
+    return said("bridge_many", n=loops) if loops > 2 else said("bridge_two")
 
 
 @contextmanager
@@ -203,4 +202,4 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
         tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
         if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
-        raise BorderRefusal(f"No surface joins these boundary loops. {joining_advice(loops)}", outline) from error
+        raise BorderRefusal(said("not_joined", advice=joining_advice(loops)), outline) from error

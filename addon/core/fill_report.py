@@ -11,7 +11,7 @@ from .fill_pieces import Filled, FillOptions, Piece
 from .report import MISSED, Check, Report, distortion_text, kink_checks, shape_checks
 from .symmetry import NOT_SYMMETRIC
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, NotUsable, Verdict
-from .words import counted
+from .words import said
 
 Named = Sequence[tuple[str, Filled]]
 
@@ -31,16 +31,8 @@ class Added:
     @property
     def notes(self) -> tuple[str, ...]:
         """A sentence for each thing that is worth a look."""
-        notes = []
-        if self.seams:
-            text = counted(self.seams, "new edge is a seam", "new edges are seams")
-            notes.append(f"{text} of UVs: each island at the boundary goes on by itself")
-        if self.covering:
-            text = counted(self.covering, "new triangle lies", "new triangles lie")
-            notes.append(f"{text} over other faces in the texture: Fair Texture gives them a place of their own")
-        if self.mixed:
-            text = counted(self.mixed, "vertex of the boundary lies", "vertices of the boundary lie")
-            notes.append(f"{text} where colours of two faces differ: new faces begin with the mean there")
+        counts = (("uv_seams", self.seams), ("uv_covering", self.covering), ("colours_differ", self.mixed))
+        notes: list[str] = [said(key, n=count) for key, count in counts if count]
         if not self.is_symmetric:
             notes.append(NOT_SYMMETRIC)
         return tuple(notes)
@@ -99,7 +91,7 @@ def make_fill_report(
         verdict=_named_worst(named),
         written=is_written(named, options),
         join=(worst_join.typical, worst_join.worst),
-        deed="filled in",
+        deed="done_filled",
     )
 
 
@@ -115,7 +107,7 @@ def _named_worst(named: Named) -> Verdict:
     verdict = _whole(filled)
     if len(named) == 1 or not verdict.reason:
         return verdict
-    return Verdict(verdict.grade, f"{name}: {verdict.reason}", verdict.spots)
+    return Verdict(verdict.grade, said("named", name=name, text=verdict.reason), verdict.spots)
 
 
 def _whole(filled: Filled) -> Verdict:
@@ -128,8 +120,7 @@ def _whole(filled: Filled) -> Verdict:
 
 def _on_left(filled: Filled) -> str:
     count = len(filled.left)
-    text = f"{count} of {count + len(filled.pieces)} holes {'stays' if count == 1 else 'stay'} open"
-    return f"{text}, and {'is' if count == 1 else 'are'} selected. {filled.left[0].reason}"
+    return said("holes_left", n=count, all=count + len(filled.pieces), reason=filled.left[0].reason)
 
 
 def _checks(pieces: list[Piece], added: Sequence[Added], distortion: float) -> tuple[Check, ...]:

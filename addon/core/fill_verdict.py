@@ -15,7 +15,7 @@ from .quality import Join
 from .region import MeshArrays, nothing
 from .vectors import unit
 from .verdict import GOOD, LOOK, UNUSABLE, Verdict
-from .words import counted
+from .words import said
 
 ONWARD = 40.0  # degrees from an edge's direction within which a surface takes it up: as far as edges run on
 
@@ -34,31 +34,29 @@ class Surface:
 def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> Verdict:
     """Return the verdict on a surface; world: the mesh, outline: (r,) vertices, around: (o, 3) triangles near them."""
     points, triangles, result = surface.points, surface.triangles, surface.result
-    over = _outlines(len(result.loops), counted(len(outline), "edge", "edges"))
+    over = said("over_loop" if len(result.loops) == 1 else "over_loops", n=len(outline), loops=len(result.loops))
     if not result.converged and result.termination != "folded":
-        return Verdict(UNUSABLE, f"No fair surface was found for {over}", np.unique(outline))
+        return Verdict(UNUSABLE, said("none_over", over=over), np.unique(outline))
     held = np.union1d(np.arange(len(outline)), surface.across)
     folds = fairing.flipped_triangles(points, triangles, fixed=held)
     if len(folds) or result.termination == "folded":
-        text = f"The surface over {over} is folded over"
-        return Verdict(UNUSABLE, text, np.unique(outline))
+        return Verdict(UNUSABLE, said("folded_over", over=over), np.unique(outline))
     crossing = _crossing(world, outline, points, triangles)
     if crossing:
-        text = counted(crossing, "new face passes through others", "new faces pass through others")
-        return Verdict(UNUSABLE, text, np.unique(outline))
+        return Verdict(UNUSABLE, said("new_face_crossings", n=crossing), np.unique(outline))
     if len(surface.join.seen) and result.equation != "minimal":  # which meets its boundary with a crease
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
     joined = np.unique(surface.across)
     ends = np.setdiff1d(hard_ends(world, outline, around, surface), outline[joined[joined < len(outline)]])
     if len(ends):
-        text = counted(len(ends), "vertex", "vertices")
-        return Verdict(LOOK, f"Hard edges end at the hole, at {text}: the surface over it has none", ends)
+        return Verdict(LOOK, said("edges_end_at_hole", n=len(ends)), ends)
     if result.equation in STAND_INS:
         return Verdict(LOOK, STAND_INS[result.equation], np.unique(outline))
     uneven = girth_reason(result)
     if uneven:
-        hint = "" if result.equation == "least_variation" else ": choose the shape Least Variation"
-        return Verdict(LOOK, uneven + hint, np.unique(outline))
+        if result.equation != "least_variation":
+            uneven = said("choose_least_variation", reason=uneven)
+        return Verdict(LOOK, uneven, np.unique(outline))
     depth = _depth(world, outline, around, surface)
     if depth > fairing.LIMITS["sunken"] and result.equation != "minimal":
         return Verdict(LOOK, sunken_reason(depth), np.unique(outline))
@@ -75,10 +73,6 @@ def _depth(world: MeshArrays, outline: Ints, around: Ints, surface: Surface) -> 
     normals = np.zeros_like(surface.points)
     normals[: len(outline)] = found[np.searchsorted(np.unique(rim), rim)]
     return fairing.sunken(surface.points, surface.triangles, normals, fixed=np.arange(len(outline)))[0]
-
-
-def _outlines(count: int, edges: str) -> str:
-    return f"a boundary of {edges}" if count == 1 else f"{count} boundary loops of {edges} in all"
 
 
 def hard_ends(world: MeshArrays, outline: Ints, around: Ints, surface: Surface | None = None) -> Ints:

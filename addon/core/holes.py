@@ -16,7 +16,7 @@ from .reflected import Whole, with_image
 from .region import MeshArrays, nothing
 from .sentences import in_numbers_of
 from .symmetry import vertices_with_image
-from .words import counted
+from .words import said
 
 
 @dataclass(frozen=True)
@@ -47,19 +47,14 @@ class Borders:
     def _on_outer(self) -> tuple[str, ...]:
         if not self.left_open:
             return ()
-        text = counted(len(self.left_open), "border runs", "borders run")
-        edges = counted(sum(map(len, self.left_open)), "edge", "edges")
-        stay = "stays open" if len(self.left_open) == 1 else "stay open"
+        edges = said("edges", n=sum(map(len, self.left_open)))
         first = min(int(loop.min()) for loop in self.left_open)
-        return (
-            f"{text} around the outside of a sheet of faces and {stay} ({edges}, one at vertex {first}): "
-            "to fill one all the same, select it alone",
-        )
+        return (said("outer_stay", n=len(self.left_open), edges=edges, first=first),)
 
     def _on_longer(self) -> tuple[str, ...]:
         if not self.longer:
             return ()
-        return (counted(self.longer, "longer border stays open", "longer borders stay open"),)
+        return (said("longer_stay", n=self.longer),)
 
 
 def borders_at(mesh: MeshArrays, seeds: Mask) -> Borders:
@@ -108,22 +103,11 @@ def holes_among(matrix: Floats, borders: Borders, islands: bool = False) -> Bord
         outer[list(islands_inside(world, loops, outer))] = False
     if outer.all():
         refuse_all(borders.left)
-        raise BorderRefusal(_all_outside(len(loops)), np.concatenate(loops))
+        reason = said("all_outside", n=len(loops)) if len(loops) > 1 else said("one_outside")
+        raise BorderRefusal(reason, np.concatenate(loops))
     pairs = list(zip(loops, outer.tolist(), strict=True))
     left_open = tuple(loop for loop, out in pairs if out)
     return replace(borders, loops=[loop for loop, out in pairs if not out], left_open=left_open)
-
-
-def _all_outside(count: int) -> str:
-    if count == 1:
-        return (
-            "The border runs around the outside of a sheet of faces, there is no hole: to fill it all the same, "
-            "select it alone"
-        )
-    return (
-        f"All {count} borders run around the outside of a sheet of faces, there is no hole: to fill one all the same, "
-        "select it alone"
-    )
 
 
 def short_among(matrix: Floats, borders: Borders, options: FillOptions) -> Borders:
@@ -143,11 +127,8 @@ def short_among(matrix: Floats, borders: Borders, options: FillOptions) -> Borde
     ]
     if not kept:
         refuse_all(borders.left)
-        text = "All borders are longer than that"
-        if borders.loops:
-            edges, length = min(map(len, borders.loops)), min(sizes)
-            text = f"{text}: the one with the fewest has {edges} edges, the shortest is {length:.4g} long"
-        raise BorderRefusal(text, borders.vertices)
+        fewest = min(map(len, borders.loops))
+        raise BorderRefusal(said("all_longer_than", edges=fewest, length=min(sizes)), borders.vertices)
     return replace(borders, loops=kept, longer=len(borders.loops) - len(kept))
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from .arrays import Floats, Mask
 from .outline import edges_inside
 from .region import MeshArrays, free_vertices
+from .words import said
 
 WIRES = "edges without faces"  # in MeshArrays.lines
 SAME = 1e-6  # of values that are meant to be one
@@ -83,8 +84,5 @@ def inner_curves(mesh: MeshArrays) -> Mask:
 def _refusal(mesh: MeshArrays, lines: Mask, inside: Mask) -> str:
     counts = {name: np.count_nonzero(mask & inside) for name, mask in mesh.lines.items()}
     most = max(counts, key=lambda name: counts[name])
-    return (
-        f"{np.count_nonzero(lines)} of {np.count_nonzero(inside)} edges inside the selection are seams of UVs, "
-        f"colours or materials, or marked ({counts[most]} by {_WORDS.get(most, most)}), and would stay: there is "
-        "nothing to mesh anew. Clear these, or turn Remesh off"
-    )
+    lines_in, all_in = (int(np.count_nonzero(mask)) for mask in (lines, inside))
+    return said("all_lines", lines=lines_in, all=all_in, most=int(counts[most]), name=_WORDS.get(most, most))

@@ -11,6 +11,7 @@ import fairing
 from .arrays import Floats
 from .engine import Progress
 from .live_region import LiveRegion
+from .words import said
 
 LEISURE = 3.0  # seconds of the processor for each of the three ways to an answer: other work is no reason to give up
 
@@ -51,7 +52,7 @@ def first(region: LiveRegion, positions: Floats, matrix: Floats, progress: Progr
             continue
         if answer is not None:
             return Found(answer, ask == region.stand_in)
-    raise fairing.SolverError("No fair surface was found for the region")
+    raise fairing.SolverError(said("no_surface_for_region"))
 
 
 def _in_time(ask: Ask, positions: Floats, matrix: Floats, progress: Progress) -> Floats | None:

@@ -13,15 +13,14 @@ from .engine import Result
 from .evidence import NOTHING, Evidence, Found
 from .options import FairOptions
 from .quality import Join
-from .words import counted
+from .words import said
 
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
-_KNOT = "Seams and marks inside, which stay, are squeezed to a knot at {}"
 # What stands in for a surface that there is none of, by the engine's name for it.
 STAND_INS = {
-    "loft": "No fair surface fits these boundary loops: the loft that joins them is a stand-in, so look at its shape",
-    "bilaplacian": "No fair surface was found: a smooth one is kept instead, so look at its shape",
-    "smoothed": "No fair surface fits these boundary loops: the old shape was smoothed, so look at it",
+    "loft": said("loft_stands_in"),
+    "bilaplacian": said("bilaplacian_stands_in"),
+    "smoothed": said("smoothed_stands_in"),
 }
 
 
@@ -37,15 +36,13 @@ def visible(evidence: Evidence, options: FairOptions) -> Found:
 def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.pierced):
         return NOTHING
-    text = counted(len(evidence.pierced), "vertex", "vertices")
-    return f"The surface passes through faces outside the selection at {text}: select or move these", evidence.pierced
+    return said("passes_outside", n=len(evidence.pierced)), evidence.pierced
 
 
 def _seamed(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.seams):
         return NOTHING
-    text = counted(len(evidence.seams), "vertex", "vertices")
-    return f"A seam of doubled vertices holds the surface at {text}: undo, and use Merge by Distance", evidence.seams
+    return said("held_by_seam", n=len(evidence.seams)), evidence.seams
 
 
 def _kinked(evidence: Evidence, options: FairOptions) -> Found:
@@ -57,32 +54,27 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
     kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
     if not len(kinks):
         return NOTHING
-    text = counted(len(kinks), "vertex", "vertices")
-    return f"The surface does not continue the slope of its surroundings at {text} of the boundary", kinks
+    return said("slope_not_continued", n=len(kinks)), kinks
 
 
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
-    text = counted(len(join.seen), "vertex", "vertices")
-    if join.worst_seen >= fairing.LIMITS["turned_back"]:
-        return f"The surface turns back from the slope around it at {text} of the boundary, by {join.worst_seen:.0f}°"
-    return f"A kink shows at {text} of the boundary, of {join.worst_seen:.0f}° at worst"
+    turned_back = join.worst_seen >= fairing.LIMITS["turned_back"]
+    return said("turns_back" if turned_back else "kink", n=len(join.seen), degrees=join.worst_seen)
 
 
 def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
     tips = evidence.named("PINS_NOT_SPREAD", "tips")
     if not len(tips):
         return NOTHING
-    return f"The surface forms a spike at {counted(len(tips), 'pinned vertex', 'pinned vertices')}", tips
+    return said("spike", n=len(tips)), tips
 
 
 def _rounded(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.rounded):
         return NOTHING
-    text = counted(len(evidence.rounded), "vertex", "vertices")
-    if options.outline == "MENDED":
-        return f"Smooth Boundary has rounded a hard edge outside at {text}: turn it off", evidence.rounded
-    return f"A hard edge outside was rounded off at {text}: Falloff, or the weights, end short of it", evidence.rounded
+    key = "smooth_boundary_rounded" if options.outline == "MENDED" else "falloff_rounded"
+    return said(key, n=len(evidence.rounded)), evidence.rounded
 
 
 def _eaten(evidence: Evidence, options: FairOptions) -> Found:
@@ -90,13 +82,9 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
         return NOTHING
     marked, running = evidence.eaten.marked, evidence.eaten.running_on
     if len(marked):
-        text = counted(len(marked), "vertex", "vertices")
-        reason = f"Edges marked sharp were rounded off at {text}: undo, and Pin Edges: Sharp keeps them"
-        return _with_kinks(evidence, reason, marked)
+        return _with_kinks(evidence, said("sharp_rounded", n=len(marked)), marked)
     if len(running):
-        text = counted(len(running), "vertex", "vertices")
-        reason = f"A hard edge runs on outside, but was rounded off at {text}: mark it sharp and pin it to keep it"
-        return _with_kinks(evidence, reason, running)
+        return _with_kinks(evidence, said("edge_rounded", n=len(running)), running)
     return NOTHING
 
 
@@ -109,10 +97,8 @@ def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
     if not len(seen):
         return reason, spots
     if evidence.join.worst_seen >= fairing.LIMITS["steep_kink"]:
-        edge = counted(len(spots), "vertex", "vertices")
-        return f"{kink_reason(evidence.join)}, and hard edges were rounded off at {edge}", _both(seen, spots)
-    kink = f"a kink of {evidence.join.worst_seen:.0f}° shows at the boundary"
-    return f"{reason}, or grow the selection: {kink}", _both(spots, seen)
+        return said("and_rounded", reason=kink_reason(evidence.join), n=len(spots)), _both(seen, spots)
+    return said("or_grow", reason=reason, degrees=evidence.join.worst_seen), _both(spots, seen)
 
 
 def _both(spots: Ints, others: Ints) -> Ints:
@@ -123,15 +109,13 @@ def _both(spots: Ints, others: Ints) -> Ints:
 def _swollen(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
-    text = counted(len(evidence.swollen), "vertex", "vertices")
-    return f"The surface swells to a knob around {text}: another boundary may avoid it", evidence.swollen
+    return said("knob", n=len(evidence.swollen)), evidence.swollen
 
 
 def _flanked(evidence: Evidence, options: FairOptions) -> Found:
     if evidence.flank is None or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
-    kind = "bump" if evidence.flank.is_bump else "dent"
-    reason = f"The boundary is on the slope of a {kind}, so that the {kind} stays: grow the selection over it"
+    reason = said("on_bump" if evidence.flank.is_bump else "on_dent")
     return reason, evidence.problem.patch.vertices[evidence.flank.outline]
 
 
@@ -158,8 +142,8 @@ def girth_reason(result: Result) -> str:
     """Return the sentence for a tube that is too thin or too thick; empty where it is neither."""
     least, largest = result.girth or (1.0, 1.0)
     if _is_thin(result):
-        return f"The tube narrows to {least:.0%} of its ends"
-    return f"The tube swells to {largest:.0%} of its ends" if largest > fairing.LIMITS["balloon"] else ""
+        return said("thin_tube", share=least)
+    return said("thick_tube", share=largest) if largest > fairing.LIMITS["balloon"] else ""
 
 
 def _is_thin(result: Result) -> bool:
@@ -185,15 +169,14 @@ def _points(evidence: Evidence) -> Floats:
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
     """Report the old skin where it was asked for and not given."""
     if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
-        return "The detail asked for could not be put back: the result is smooth", _outline(evidence)
+        return said("no_detail"), _outline(evidence)
     return NOTHING
 
 
 def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.squeezed):
         return NOTHING
-    text = counted(len(evidence.squeezed), "vertex", "vertices")
-    return f"{_KNOT.format(text)}: to be rid of them, delete the faces and use Fair Fill", evidence.squeezed
+    return said("knot", n=len(evidence.squeezed)), evidence.squeezed
 
 
 def _sunken(evidence: Evidence, options: FairOptions) -> Found:
@@ -208,19 +191,19 @@ def _sunken(evidence: Evidence, options: FairOptions) -> Found:
 
 def sunken_reason(depth: float) -> str:
     """Return the sentence for a surface that sinks by a share of its width below the lines that run on across it."""
-    return f"The surface sinks by {depth:.0%} of its width: a ridge, a bevel or a girth is lost"
+    return said("sinks", depth=depth)
 
 
 def _smoother(evidence: Evidence, options: FairOptions) -> Found:
     if not evidence.lost.is_smoother or options.detail > 0.0 or options.factor < 1.0:
         return NOTHING
-    return "The surface is smoother than around: its skin is gone", _outline(evidence)
+    return said("too_smooth"), _outline(evidence)
 
 
 def _rougher(evidence: Evidence, options: FairOptions) -> Found:
     if not evidence.lost.is_rougher or not judges_join(options):
         return NOTHING
-    return "The surface is crumpled: it bends as nothing does around it", _most_bent(evidence)
+    return said("crumpled"), _most_bent(evidence)
 
 
 def _outline(evidence: Evidence) -> Ints:
@@ -232,13 +215,13 @@ def _outline(evidence: Evidence) -> Ints:
 def _moved_border(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.lost.border):
         return NOTHING
-    return "The open border has moved far into the surface, or off it", evidence.lost.border
+    return said("border_moved"), evidence.lost.border
 
 
 def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
     if not len(evidence.lost.key):
         return NOTHING
-    return "A shape key that is shown keeps a shape of its own here: fair that key, too", evidence.lost.key
+    return said("key_kept"), evidence.lost.key
 
 
 # The first that finds something gives the reason.

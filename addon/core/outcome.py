@@ -26,6 +26,7 @@ from .solve import Solved
 from .symmetry import mirror_map, symmetrised, with_band
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, Verdict, because_of, judge
+from .words import said
 
 
 class Moves(Protocol):
@@ -229,7 +230,7 @@ def _mirrored(mesh: MeshArrays, problem: Problem, fair: Floats, moving: Ints) ->
     if image is not None and problem.weights is not None:
         image = with_band(image, mesh.positions[problem.vertices], moving)
     if image is None:
-        return fair, ("X mirror is on, but the selection is not symmetric: it was faired as it is",)
+        return fair, (said("patch_not_symmetric"),)
     whole = fair.copy()
     whole[: len(image)] = symmetrised(fair[: len(image)], image)
     return whole, ()

@@ -9,7 +9,7 @@ import numpy as np
 from .arrays import Floats, Ints, Mask
 from .region import MeshArrays, fins, vertices_of
 from .vectors import area_vectors, sum_at, unit
-from .words import counted
+from .words import said
 
 SHARP = 60.0  # degrees between two faces at the boundary that are reported
 COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are reported
@@ -98,15 +98,12 @@ def _sharp_note(mesh: MeshArrays, sides: Sides, inward: Ints | None) -> str:
     widest = turns(mesh, sides)[outward].max(initial=0.0)
     if widest < SHARP:
         return ""
-    return f"The boundary runs along an edge of up to {widest:.0f}°: the surface will be tangent to the faces outside"
+    return said("along_edge", degrees=widest)
 
 
 def _winding_note(sides: Sides) -> str:
     count = int(np.count_nonzero(sides.alike))
-    if not count:
-        return ""
-    edges = counted(count, "boundary edge", "boundary edges")
-    return f"The faces on both sides of {edges} are wound against each other: recalculate normals"
+    return said("wound_against", n=count) if count else ""
 
 
 def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
@@ -118,7 +115,7 @@ def _folded_note(mesh: MeshArrays, outline: Mask) -> str:
     widest = turns(mesh, sides)[outside].max(initial=0.0)
     if widest < FOLDED:
         return ""
-    return f"Faces around the boundary are folded over by up to {widest:.0f}°: their normals may mislead"
+    return said("folded_around", degrees=widest)
 
 
 def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
@@ -128,13 +125,7 @@ def _lone_face_note(mesh: MeshArrays, outline: Mask) -> str:
     beside[mesh.corner_faces[outer]] = True
     beside[mesh.corner_faces[outer & ~outline[mesh.corner_edges]]] = False
     alone = int(np.count_nonzero(beside))
-    if not alone:
-        return ""
-    return counted(
-        alone,
-        "single face is left out of the selection: the surface is tangent to it",
-        "single faces are left out of the selection: the surface is tangent to each of them",
-    )
+    return said("lone_faces", n=alone) if alone else ""
 
 
 def _seam_note(mesh: MeshArrays) -> str:
@@ -146,25 +137,12 @@ def _seam_note(mesh: MeshArrays) -> str:
     border[mesh.edges[single]] = True
     places = mesh.positions[border & vertices_of(mesh, mesh.in_patch)]
     doubled = len(places) - len(np.unique(places, axis=0))
-    if not doubled:
-        return ""
-    held = counted(
-        doubled,
-        "vertex of an open seam lies on another and stays where it is",
-        "vertices of an open seam lie on others and stay where they are",
-    )
-    return f"{held}: use Merge by Distance first"
+    return said("open_seam", n=doubled) if doubled else ""
 
 
 def _fin_note(mesh: MeshArrays) -> str:
     count = int(np.count_nonzero(fins(mesh)))
-    if not count:
-        return ""
-    return counted(
-        count,
-        "face stands on an edge with more than two faces and was left out",
-        "faces stand on edges with more than two faces and were left out",
-    )
+    return said("fins", n=count) if count else ""
 
 
 def precision_note(mesh: MeshArrays) -> str:
@@ -176,10 +154,7 @@ def precision_note(mesh: MeshArrays) -> str:
     edge = float(np.median(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1))) if len(ends) else 0.0
     if spacing <= COARSE * edge:
         return ""
-    return (
-        f"PRECISION: so far from the object's origin Blender's coordinates are {spacing:.2g} apart, edges {edge:.2g} "
-        "long: move the origin nearer"
-    )
+    return said("coarse", spacing=spacing, edge=edge)
 
 
 def turned_over(mesh: MeshArrays) -> Mask:

@@ -18,8 +18,9 @@ from .quality import Join, Quality
 from .region import MeshArrays, Reflection, free_vertices, reversed_corners, vertices_of
 from .sentences import in_numbers_of
 from .verdict import Verdict
+from .words import said
 
-_IN_PLANE = "A face lies in the Mirror modifier's plane: delete it, or apply the modifier"
+_IN_PLANE = said("face_in_plane")
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from .arrays import Floats, Ints, Mask
 from .findings import Finding, Origin
 from .sentences import refusal
 from .triangulation import split_quads, zigzag
+from .words import said
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ class MeshArrays:
         """
         linear = matrix[:3, :3]
         if not np.isfinite(matrix).all() or np.linalg.cond(linear) > 1e7:
-            raise ValueError("The object's scale is zero or not finite: apply or mend it first")
+            raise ValueError(said("flat_object"))
         mirrored = np.linalg.det(linear) < 0.0
         normals = self.corner_normals
         return replace(
@@ -263,5 +264,5 @@ def to_local(positions: Floats, matrix: Floats) -> Floats:
     """Take world positions (k, 3) back; raises SolverError rather than pass on a NaN."""
     local: Floats = np.linalg.solve(matrix[:3, :3], (positions - matrix[:3, 3]).T).T
     if not np.isfinite(local).all():
-        raise fairing.SolverError("The solution is not finite; the mesh was left as it was")
+        raise fairing.SolverError(said("not_finite"))
     return local

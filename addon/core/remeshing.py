@@ -28,6 +28,7 @@ from .solve import pose, reported_by
 from .subdivided import Subdivided, with_subdivided_patch
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
+from .words import said
 
 MOST_SQUEEZED = 0.25  # of the old length of an edge that stays: below, it counts as squeezed,
 LEAST_SQUEEZED = 4  # where so many are
@@ -278,10 +279,7 @@ def _largest_curvatures(result: fairing.RemeshResult) -> tuple[float, float]:
 
 def _limits(mesh: MeshArrays) -> tuple[str, ...]:
     """Return what was asked for and a new mesh does not do."""
-    said = {
-        "A new mesh holds open borders: Fair Open Borders has no effect": mesh.fair_border,
-    }
-    return tuple(text for text, applies in said.items() if applies)
+    return (said("borders_held"),) if mesh.fair_border else ()
 
 
 def _wound_back(part: NewPart) -> NewPart:

@@ -16,7 +16,7 @@ from .options import FairOptions
 from .outcome import Fairing
 from .quality import Join, Quality
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, Verdict
-from .words import counted
+from .words import joined, said
 
 MET, MISSED, TOLD = "MET", "MISSED", "TOLD"
 MOST_DISTORTED = 10.0  # of texture distortion; beyond, more of it means nothing
@@ -52,7 +52,7 @@ class Report:
     verdict: Verdict  # of the object with the worst; its spots are that object's
     written: bool
     join: tuple[float, float]  # degrees: typical, worst
-    deed: str = "faired"  # what was done to so many vertices
+    deed: str = "done_faired"  # the sentence on what was done
 
 
 def make_report(named: list[Named], options: FairOptions, seconds: float, notes: tuple[str, ...] = ()) -> Report:
@@ -100,12 +100,12 @@ def _worst_verdict(named: list[Named]) -> Verdict:
     verdict = outcome.verdict
     if len(named) == 1 or not verdict.reason:
         return verdict
-    return replace(verdict, reason=f"{name}: {verdict.reason}")
+    return replace(verdict, reason=said("named", name=name, text=verdict.reason))
 
 
 def _warnings(named: list[Named]) -> tuple[str, ...]:
-    several = len(named) > 1
-    return tuple(f"{name}: {text}" if several else text for name, outcome in named for text in outcome.warnings)
+    texts = [(name, text) for name, outcome in named for text in outcome.warnings]
+    return tuple(said("named", name=name, text=text) if len(named) > 1 else text for name, text in texts)
 
 
 def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
@@ -117,11 +117,9 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
     shares = [
         warning.figures["load_share"] for r in results for warning in r.warnings if "load_share" in warning.figures
     ]
-    most = f"The largest that was found is {min(shares) * options.bulge:.2g}" if shares else "Try less"
-    return (
-        f"There may be no surface with a bulge of {options.bulge:g} on this boundary: half a sphere has none "
-        f"above 0.06, a flat disc none above 1.15. {most}",
-    )
+    if not shares:
+        return (said("bulge_tried", bulge=options.bulge),)
+    return (said("bulge_found", bulge=options.bulge, most=min(shares) * options.bulge),)
 
 
 def shape_checks(results: Sequence[Result], equation: str) -> tuple[Check, ...]:
@@ -188,17 +186,11 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
 
 
 def _endings(outcomes: list[Fairing]) -> str:
-    words = {
-        "converged": "yes",
-        "iteration_limit": "out of iterations",
-        "stalled": "no further progress",
-        "folded": "found, but with folds",
-    }
     endings = dict.fromkeys(outcome.result.termination for outcome in outcomes)
-    ended = ", ".join(words[ending] for ending in endings)
+    ended = joined([said(f"ended_{ending}") for ending in endings])
     # Then the vertices lie on a surface that was computed on the engine's own mesh.
     by_proxy = any(outcome.result.converged and not outcome.result.polished for outcome in outcomes)
-    return f"{ended}, on a proxy" if by_proxy else ended
+    return said("on_proxy", ended=ended) if by_proxy else ended
 
 
 def _residual_text(result: Result) -> str:
@@ -223,9 +215,9 @@ def angle_text(degrees: float) -> str:
 
 def summary(report: Report) -> str:
     """Return the one line that the status bar shows."""
-    grade = GRADE_NAMES[report.verdict.grade]
+    verdict = report.verdict
+    grade = said(verdict.grade)
     if not report.written:
-        return f"{grade}: {report.verdict.reason}. Nothing was changed"
-    reason = f". {report.verdict.reason}" if report.verdict.reason else ""
-    vertices = counted(report.free_vertices, "vertex", "vertices")
-    return f"{grade}: {report.deed} {vertices} in {report.seconds:.2f} s{reason}"
+        return said("nothing_changed", grade=grade, reason=verdict.reason)
+    text = said(report.deed, grade=grade, n=report.free_vertices, seconds=report.seconds)
+    return said("and_advice", reason=text, advice=verdict.reason) if verdict.reason else text

@@ -26,10 +26,11 @@ from .region import MeshArrays, nothing, to_local
 from .rounded_part import rounded_part
 from .sentences import in_mesh_words, sentences
 from .verdict import GOOD, LOOK, UNUSABLE, Verdict
+from .words import said
 
 LEAST_WEIGHT = 0.01  # of a vertex group: a fillet needs a width
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
-NO_SEAM = "Select the edges to be rounded, or faces with hard edges between them"
+NO_SEAM = said("no_seam")
 
 
 @dataclass(frozen=True)
@@ -189,7 +190,7 @@ def _verdict(result: fairing.FilletResult, origin: Origin) -> Verdict:
     bad = [warning for warning in result.warnings if warning.code in FOLDS]
     if bad or not result.converged:
         spots = np.unique(np.concatenate([np.empty(0, np.int64), *(found(each, origin).vertices for each in bad)]))
-        return Verdict(UNUSABLE, "The fillet folds or crosses itself: a smaller width may do", spots)
+        return Verdict(UNUSABLE, said("fillet_folds"), spots)
     if result.provenance != "equation":
         return Verdict(LOOK, sentences(result.warnings, origin)[0] if result.warnings else "")
     return Verdict(GOOD)

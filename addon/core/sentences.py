@@ -16,7 +16,7 @@ import fairing
 
 from .arrays import Ints
 from .findings import Finding, Origin, found
-from .words import DOUBLED, WORDS, Words
+from .words import Message, case_of, names_islands, said
 
 # Of several islands: the figures of which the largest stands for all. Others are added.
 _LARGEST = ("degrees", "load_share", "spacing", "edge", "distance", "largest_coordinate")
@@ -31,7 +31,8 @@ class MeshRefusal(fairing.MeshError):
 
 def doubled(vertices: Sequence[int]) -> MeshRefusal:
     """Return the exception for a new face with the corners of one that stays."""
-    return MeshRefusal(fairing.Diagnostic("NONMANIFOLD_EDGE", DOUBLED, np.asarray(vertices, np.int32), "vertex"))
+    text, named = said("NONMANIFOLD_EDGE.doubles"), np.asarray(vertices, np.int32)
+    return MeshRefusal(fairing.Diagnostic("NONMANIFOLD_EDGE", text, named, "vertex"))
 
 
 def refusal(finding: Finding) -> MeshRefusal:
@@ -64,30 +65,25 @@ def in_numbers_of(named: Callable[[Ints], Ints]) -> Iterator[None]:
         raise
 
 
-def sentences(warnings: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[str, ...]:
+def sentences(warnings: tuple[fairing.Diagnostic, ...], origin: Origin) -> tuple[Message, ...]:
     """Return one sentence for each kind of warning, however many islands have it, in the order of their first."""
-    alike: dict[Words, list[Finding]] = {}
+    alike: dict[str, list[Finding]] = {}
     for warning in warnings:
         finding = found(warning, origin)
         if finding.code == "NOT_CONVERGED" and "folds" in finding.figures:
             continue  # FOLDED names the faces
-        alike.setdefault(_case(finding), []).append(finding)
+        alike.setdefault(case_of(finding.code, finding.figures), []).append(finding)
     return tuple(_sentence(findings) for findings in alike.values())
 
 
-def _case(finding: Finding) -> Words:
-    return next(words for words in WORDS[finding.code] if not words.when or words.when in finding.figures)
-
-
-def _sentence(findings: Sequence[Finding]) -> str:
+def _sentence(findings: Sequence[Finding]) -> Message:
     """Return the sentence for findings of one case, each of an island of its own."""
-    words, islands, whole = _case(findings[0]), len(findings), _pooled(findings)
-    names_islands = "{islands}" in words.many
-    template = words.many if words.many and (islands if names_islands else whole.count) != 1 else words.one
+    islands, whole = len(findings), _pooled(findings)
     ends = whole.named[:2].tolist()
     fields = {"n": whole.count, "islands": islands, "first": ends[0] if ends else "", "ends": "–".join(map(str, ends))}
-    text = template.format(**{**whole.figures, **fields})  # figures may have such names
-    return text if islands == 1 or names_islands else f"{text} ({islands} islands)"
+    key = case_of(whole.code, whole.figures)
+    text = said(key, **{**whole.figures, **fields})  # figures may have such names
+    return text if islands == 1 or names_islands(key) else said("of_islands", text=text, islands=islands)
 
 
 def _pooled(findings: Sequence[Finding]) -> Finding:

@@ -25,6 +25,7 @@ from .outline import outline_notes, precision_note
 from .region import MeshArrays, Patch, make_patch, nothing
 from .sentences import sentences
 from .winding import winding_note, with_one_winding
+from .words import said
 
 NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
 HINTS = ("SHARP_BOUNDARY",)  # codes that explain a bad result, and nothing where it is good
@@ -126,14 +127,9 @@ def _odd_in_words(mesh: MeshArrays, patch: Patch, options: FairOptions) -> tuple
     """Return notes on positions that are too coarse, and on groups of boundary vertices that have none."""
     notes = [precision_note(mesh)]
     if mesh.free_slopes is not None and not len(patch.free_slopes):
-        notes.append(
-            f"The position group {options.position_group!r} has no vertex on the selection's boundary: it frees nothing"
-        )
+        notes.append(said("position_group_empty", name=options.position_group))
     if patch.continued is not None and not patch.continued.any():
-        notes.append(
-            f"The curvature group {options.curvature_group!r} has no vertex on the selection's boundary: "
-            "the surface is tangent all along it"
-        )
+        notes.append(said("curvature_group_empty", name=options.curvature_group))
     return tuple(note for note in notes if note)
 
 

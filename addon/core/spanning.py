@@ -23,10 +23,11 @@ from .option_table import fields_of, read_named
 from .reflected import Whole, with_image
 from .region import MeshArrays, nothing, to_local
 from .sentences import in_mesh_words, sentences
+from .words import said
 
-NO_WIRE = "No edge without a face is selected: select closed curves of edges, or a network of them"
-WIRES_ALONE = "Edges without faces are selected: Fair From Curves makes a surface over these"
-NOT_SPANNED = "No surface through these curves was found: add curves across large cells, or give the curves more edges"
+NO_WIRE = said("no_wire")
+WIRES_ALONE = said("wires_alone")
+NOT_SPANNED = said("not_spanned")
 _PLATE = "bilaplacian"  # what stands in where there is no surface of least variation
 _FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
 

@@ -15,12 +15,13 @@ import numpy as np
 from .arrays import Floats, Ints, Mask
 from .pairs import edge_keys
 from .region import MeshArrays, Patch, Reflection
+from .words import said
 
 NEAR = 2e-5  # as far as Blender's own X mirror looks, in the mesh's own units
 FLIP = np.array([-1.0, 1.0, 1.0])
 ACROSS_X = Reflection(np.diag([*FLIP, 1.0]), 2.0 * NEAR)
 
-NOT_SYMMETRIC = "X mirror is on, but the new faces are not symmetric, as what is around them is not"
+NOT_SYMMETRIC = said("not_symmetric")
 
 Loop = Sequence[int]
 Edge = tuple[int, int]

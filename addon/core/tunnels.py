@@ -8,17 +8,14 @@ import fairing
 
 from .arrays import Ints
 from .region import Patch
-from .words import counted
+from .words import said
 
 
 def tunnel_hint(patch: Patch) -> tuple[str, ...]:
     """Return a sentence on the tunnels of the patch, which may be why its surface is no good; none without them."""
     pieces = fairing.components(patch.triangles, fixed=patch.fixed)
     count = sum(tunnels(patch.triangles[pieces == piece]) for piece in range(int(pieces.max(initial=-1)) + 1))
-    if not count:
-        return ()
-    held = counted(count, "tunnel or handle", "tunnels or handles")
-    return (f"The selection holds {held}, which stay: to be rid of them, delete the faces and use Fair Fill",)
+    return (said("tunnels", n=count),) if count else ()
 
 
 def tunnels(triangles: Ints) -> int:

@@ -10,7 +10,7 @@ import numpy as np
 from .arrays import Ints, Mask
 from .outline import two_sided_edges
 from .region import MeshArrays, reversed_corners
-from .words import WORDS
+from .words import said
 
 
 def with_one_winding(mesh: MeshArrays) -> tuple[MeshArrays, int]:
@@ -22,8 +22,7 @@ def with_one_winding(mesh: MeshArrays) -> tuple[MeshArrays, int]:
 
 def winding_note(turned: int) -> tuple[str, ...]:
     """Return the sentence on faces that were turned."""
-    (words,) = WORDS["INCONSISTENT_WINDING"]
-    return ((words.one if turned == 1 else words.many).format(n=turned),) if turned else ()
+    return (said("INCONSISTENT_WINDING", n=turned),) if turned else ()
 
 
 def _against_most(mesh: MeshArrays) -> Mask:

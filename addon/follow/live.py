@@ -25,6 +25,7 @@ from ..core.arrays import Floats
 from ..core.engine import REFUSALS
 from ..core.live_search import Found
 from ..core.options import FairOptions
+from ..core.words import said
 from ..host.handlers import call_later, call_off, listen, unlisten
 from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
@@ -36,9 +37,9 @@ MOST_SKIPPED = 15  # changes in a row that do with the first surface, without as
 PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
 FRAME = 1.0 / 60.0  # seconds between two steps of a fade
-STAND_IN = "No fair surface leads here: Least Variation stands in for it"
-SEARCHING = "Looking for a fair surface: a smooth one is shown meanwhile"
-KEPT = "No fair surface leads here: a smooth one is kept, and turns fair when it is dragged back"
+STAND_IN = said("live_stand_in")
+SEARCHING = said("live_searching")
+KEPT = said("live_kept")
 NO_REGION = "No live region: select faces, then Live Region"
 
 
@@ -261,7 +262,7 @@ def _told(act: Callable[[bpy.types.Object], bool], obj: bpy.types.Object) -> boo
     try:
         return act(obj)
     except REFUSALS as cause:
-        live.message = f"{obj.name}: {cause}"
+        live.message = said("named", name=obj.name, text=str(cause))
         return False
 
 

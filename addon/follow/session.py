@@ -13,6 +13,7 @@ from ..core.blend import Blend
 from ..core.live_region import LiveRegion
 from ..core.options import FairOptions
 from ..core.region import free_vertices
+from ..core.words import said
 from ..mesh import live_mesh, mesh_io
 from .search import Search
 
@@ -86,10 +87,10 @@ def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | N
     """Read the object's mesh with its selection, or the region that is marked, as the patch."""
     mesh_io.writable_key(obj)
     if options.boundary_normals == "CUSTOM":
-        raise ValueError("Custom normals along the boundary can't be followed: choose Surroundings or Average")
+        raise ValueError(said("live_custom_normals"))
     mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
     if not free_vertices(mesh).any():
-        raise ValueError("No vertex inside the region is free to move")
+        raise ValueError(said("live_no_free"))
     return LiveRegion(mesh, matrix_of(obj), options)
 
 
@@ -97,11 +98,7 @@ def check_key(obj: bpy.types.Object) -> None:
     """Raise ValueError while another shape key is active than the one that the region was made in, or it is locked."""
     active, own = mesh_io.writable_key(obj), live_mesh.region_key(obj.data)
     if active != own:
-        own = f"the shape key {own!r}" if own else "the Basis"
-        raise ValueError(
-            f"Live rests while another shape key is active: its region belongs to {own}. "
-            "Go back there, or make the region anew here"
-        )
+        raise ValueError(said("live_other_key", key=own) if own else said("live_other_basis"))
 
 
 def session_of(obj: bpy.types.Object, region: LiveRegion) -> Session:

@@ -6,9 +6,11 @@ from typing import Any
 
 import bpy
 
+from ..core.words import said
+
 SELECT_FACES = "Select faces of a mesh in edit mode"
-NO_FACE = "No face is selected: select the faces to be faired, or a closed loop of edges around them"
-NO_FREE = "No vertex is free to move: a vertex is when all its faces are selected and visible, and it is not pinned"
+NO_FACE = said("no_face")
+NO_FREE = said("no_free")
 
 
 def require(operator: Any, met: bool, otherwise: str) -> bool:

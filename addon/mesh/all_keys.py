@@ -11,6 +11,7 @@ import numpy as np
 
 from ..core.arrays import Floats
 from ..core.moved_keys import MovedKey
+from ..core.words import said
 from .mesh_io import follows
 
 
@@ -29,7 +30,7 @@ def read_keys(obj: bpy.types.Object) -> dict[str, Floats]:
         if key == keys.reference_key:
             continue
         if key.lock_shape:
-            raise ValueError(f"The shape key {key.name!r} is locked")
+            raise ValueError(said("key_locked", name=key.name))
         places = _layer(bm, key)
         found[key.name] = places + offsets if _will_follow(keys, key) else places
     return found

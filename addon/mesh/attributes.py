@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints, Mask
+from ..core.words import said
 
 SCULPT_MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
 
@@ -41,7 +42,7 @@ def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
     """
     present = mesh.attributes.get(name)
     if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
-        raise ValueError(f"The mesh has another attribute named {name!r}: rename or remove it")
+        raise ValueError(said("other_attribute", name=name))
     if mesh.is_editmode:
         _write_edit_attribute(mesh, name, values)
         return

@@ -10,6 +10,7 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats, Ints
+from ..core.words import said
 from .painted import positions
 
 # Blender smooths what a level below the finest is given on its way up to that one. Of a hill of .3 on a unit sphere
@@ -50,7 +51,7 @@ def at_level(obj: bpy.types.Object, level: int) -> Iterator[bpy.types.Object]:
         copy.modifiers.clear()
         copy.data = mesh
         if len(mesh.polygons) != len(obj.data.loops) * 4 ** (level - 1):
-            raise ValueError("Simplify limits the multiresolution levels: turn it off in the scene's render properties")
+            raise ValueError(said("simplified"))
         yield copy
     finally:
         bpy.data.objects.remove(copy)
@@ -97,7 +98,7 @@ def write(obj: bpy.types.Object, level: int, vertices: Ints, moved: Floats) -> N
 def _reshape(obj: bpy.types.Object, source: bpy.types.Object, modifier: str) -> None:
     with _selected(obj, source):
         if bpy.ops.object.multires_reshape(modifier=modifier) != {"FINISHED"}:
-            raise ValueError("Blender can't write to this multiresolution level")
+            raise ValueError(said("level_not_written"))
 
 
 @contextmanager

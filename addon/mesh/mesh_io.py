@@ -18,6 +18,7 @@ from ..core.quality import is_spoilt
 from ..core.region import MeshArrays, free_vertices
 from ..core.selection import enclosed_faces
 from ..core.symmetry import with_image
+from ..core.words import said
 from .columns import column, elements_of, flags, indices, stored
 from .free_normals import put_at, renew_at, renew_mesh
 from .marked_lines import lines
@@ -103,7 +104,7 @@ def writable_key(obj: bpy.types.Object) -> str:
     """
     key = obj.active_shape_key
     if key is not None and key.lock_shape:
-        raise ValueError(f"The active shape key {key.name!r} is locked")
+        raise ValueError(said("active_key_locked", name=key.name))
     return "" if key is None or key == obj.data.shape_keys.reference_key else key.name
 
 
@@ -112,7 +113,7 @@ def check_new_faces(obj: bpy.types.Object | None) -> None:
     if obj is not None:
         has_unreached(obj.data)
     if obj is not None and any(modifier.type == "MULTIRES" for modifier in obj.modifiers):
-        raise ValueError("A Multiresolution modifier can't be kept: apply or remove it first")
+        raise ValueError(said("multires"))
 
 
 def edit_face_count(mesh: bpy.types.Mesh) -> int:
@@ -235,10 +236,7 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
         arrays = replace(arrays, held_by_angle=arrays.held_by_angle & ~np.isin(np.arange(len(pinned)), pins))
     if not len(touched) or free_vertices(arrays)[pins].any():
         return replace(arrays, pinned=pinned)
-    note = (
-        f"The pin group {options.pin_group!r} has no vertex inside the selection with a weight above 0: it pins nothing"
-    )
-    return replace(arrays, pinned=pinned, notes=(note,))
+    return replace(arrays, pinned=pinned, notes=(said("pin_group_empty", name=options.pin_group),))
 
 
 def _is_textured(mesh: bpy.types.Mesh, corners: Mask) -> bool:

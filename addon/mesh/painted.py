@@ -12,6 +12,7 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core.arrays import Floats, Ints
+from ..core.words import said
 from .attributes import FACE_SET, SCULPT_MASK, faces_within, values, write_attribute
 from .live_mesh import LAYER
 
@@ -98,7 +99,7 @@ def only_visible_face_set(mesh: bpy.types.Mesh) -> int:
 def group_faces(obj: bpy.types.Object, name: str) -> Ints:
     """Return the faces with all vertices in a vertex group; raises ValueError where there is none of that name."""
     if name not in obj.vertex_groups:
-        raise ValueError(f"There is no vertex group named {name!r}")
+        raise ValueError(said("no_group", name=name))
     index = obj.vertex_groups[name].index
     member = [any(e.group == index and e.weight > 0.0 for e in v.groups) for v in obj.data.vertices]
     return faces_within(obj.data, np.array(member, dtype=bool))

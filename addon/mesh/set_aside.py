@@ -17,6 +17,7 @@ import numpy as np
 
 from ..core.arrays import Floats, Ints
 from ..core.blended import blended, columns
+from ..core.words import said
 
 _REACHED = {
     "FLOAT": "float",
@@ -150,7 +151,7 @@ def has_unreached(mesh: bpy.types.Mesh) -> bool:
     found = [each for each in mesh.attributes if _is_out(each)]
     for each in found:
         if _value_property(each).type not in _DTYPES:
-            raise ValueError(f"The attribute {each.name!r} of type {each.data_type} can't be kept: remove it first")
+            raise ValueError(said("attribute_lost", name=each.name, type=each.data_type))
     return bool(found)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from ..core.arrays import Floats, Ints, Mask
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
+from ..core.words import said
 from .attributes import FACE_SET, SCULPT_MASK, faces_within, values
 
 
@@ -21,7 +22,7 @@ def group_index(obj: bpy.types.Object | None, name: str, option: str) -> int | N
     if not name:
         return None
     if obj is None or name not in obj.vertex_groups:
-        raise ValueError(f"{option}: there is no vertex group named {name!r}")
+        raise ValueError(said("option_no_group", option=option, name=name))
     return int(obj.vertex_groups[name].index)
 
 

@@ -9,6 +9,7 @@ import bpy
 
 from ..core import runner
 from ..core.engine import Progress
+from ..core.words import said
 from ..host.handlers import hear_events
 from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
 from ..preferences import background_from
@@ -17,7 +18,7 @@ from . import job
 from .asked import Asked, Work, refuse
 from .preview import Preview
 
-CANCELLED = "Fairing was cancelled; nothing has changed"
+CANCELLED = said("cancelled")
 TICK = 0.05  # seconds between two looks at the thread
 MOMENT = 0.3  # seconds that Blender may stand still for an answer
 
@@ -202,7 +203,7 @@ class Watched:
         assert self._run is not None
         self._stop_watching()
         if not self._asked.is_as_read(context):
-            self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
+            self.report({"ERROR"}, translated(said("dropped")))
             return {"CANCELLED"}
         return self._asked.settle(context, self._run.result, self.report)
 

@@ -14,6 +14,7 @@ from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty
 from ..core.arrays import Floats, Ints
 from ..core.brush import paint
 from ..core.options import FairOptions
+from ..core.words import said
 from ..host.context import active_object
 from ..host.dragging import pixel_size
 from ..host.picking import place_at
@@ -63,9 +64,9 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
             check_shown(obj)
             self._check_level(levels.shown_level(obj), FairOptions())
             if obj.use_dynamic_topology_sculpting:
-                raise ValueError("The brush can't paint with dynamic topology: turn it off, or mask and Fair Masked")
+                raise ValueError(said("brush_dynamic"))
         except ValueError as cause:
-            self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))
+            self.report({"ERROR"}, translated(said("named", name=obj.name, text=str(cause))))
             return {"CANCELLED"}
         self.dabs.clear()
         self._positions = painted.positions(obj.data)
@@ -110,7 +111,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
     def _check_level(self, level: int, options: FairOptions) -> None:
         FairsOutside._check_level(self, level, options)
         if level:
-            raise ValueError("The brush can't paint on multiresolution levels: go to level 0, or fair a face set")
+            raise ValueError(said("brush_levels"))
 
     def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:
         """Read the mesh with what was painted as its mask, which each vertex goes by."""
@@ -124,7 +125,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
     def _faces(self, obj: bpy.types.Object) -> Ints:
         faces = painted.masked_faces(obj.data)
         if not len(faces):
-            raise ValueError("No face is painted over by half or more: paint over more, or take a larger radius")
+            raise ValueError(said("brush_nothing"))
         return faces
 
     @staticmethod

@@ -11,6 +11,7 @@ import numpy as np
 from ..core.arrays import Floats, Ints
 from ..core.outcome import Moves
 from ..core.remeshing import Remeshed
+from ..core.words import said
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
 from ..mesh.free_normals import free_normals
@@ -119,7 +120,7 @@ def toggle(context: bpy.types.Context) -> bool:
     shown = []
     for pair in _last.pairs:
         if pair.object_name not in objects:
-            raise Changed(f"{pair.object_name} is not in edit mode")
+            raise Changed(said("not_in_edit_mode", name=pair.object_name))
         shown.append(_is_after(objects[pair.object_name].data, pair))
     show_after = not all(shown)
     for pair in _last.pairs:
@@ -135,7 +136,7 @@ def _is_after(mesh: bpy.types.Mesh, pair: Pair) -> bool:
             return True
         if np.array_equal(now[pair.vertices], pair.before):
             return False
-    raise Changed(f"{pair.object_name} has been edited since")
+    raise Changed(said("edited_since", name=pair.object_name))
 
 
 class MESH_OT_fair_compare(bpy.types.Operator):

@@ -10,6 +10,7 @@ import fairing
 from ..core.findings import Origin
 from ..core.options import FairOptions
 from ..core.sentences import in_mesh_words
+from ..core.words import said
 from ..host.context import active_object
 from ..host.polling import require
 from ..mesh import mesh_io
@@ -48,6 +49,6 @@ class MESH_OT_fair_curvature(bpy.types.Operator):
                 values = fairing.mean_curvature(world.positions, world.triangles)
             write_attribute(obj.data, NAME, values)
         except ValueError as cause:
-            self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))
+            self.report({"ERROR"}, translated(said("named", name=obj.name, text=str(cause))))
             return {"CANCELLED"}
         return {"FINISHED"}

@@ -7,6 +7,7 @@ import bpy
 from ..core.denoising import Denoised, DenoiseOptions, denoise_arrays
 from ..core.engine import Progress
 from ..core.options import FairOptions
+from ..core.words import said
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..translations import translated
 from . import compare, job, last_run
@@ -47,9 +48,7 @@ class Asked(AskedInEditMode):
         job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one)
         count = sum(len(outcome.vertices) for outcome in outcomes)
         largest = max(outcome.largest for outcome in outcomes)
-        one = f"{count} vertex moved, by {largest:.3g} at most"
-        text = one if count == 1 else f"{count} vertices moved, by {largest:.3g} at most"
-        say({"INFO"}, translated(text))
+        say({"INFO"}, translated(said("moved_by", n=count, largest=largest)))
         return {"FINISHED"}
 
 

@@ -14,7 +14,7 @@ from ..core.region import MeshArrays
 from ..core.remeshing import remesh_arrays
 from ..core.solve import Kept, solve
 from ..core.verdict import UNUSABLE
-from ..core.words import EDGES_HELD, EDGES_LET_GO, SPREAD_UNIFORMLY
+from ..core.words import said
 
 
 def fair_arrays(
@@ -33,9 +33,9 @@ def fair_arrays(
     if mesh.held_by_angle is None:
         return found
     if found.verdict.grade != UNUSABLE:
-        return replace(found, warnings=(EDGES_HELD, *found.warnings))
+        return replace(found, warnings=(said("edges_held"), *found.warnings))
     found = _faired(released(mesh), matrix, options, progress, kept)
-    return replace(found, warnings=(EDGES_LET_GO, *found.warnings))
+    return replace(found, warnings=(said("edges_let_go"), *found.warnings))
 
 
 def _faired(
@@ -68,4 +68,6 @@ def _uniformly(
     """Fair with uniform weights; None where that isn't usable either."""
     uniform = replace(options, inner_fairness="UNIFORM")
     found = outcome(mesh, matrix, uniform, solve(mesh, matrix, uniform, progress, kept), progress)
-    return None if found.verdict.grade == UNUSABLE else replace(found, warnings=(SPREAD_UNIFORMLY, *found.warnings))
+    if found.verdict.grade == UNUSABLE:
+        return None
+    return replace(found, warnings=(said("FLIPPED_TRIANGLES"), *found.warnings))

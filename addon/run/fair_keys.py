@@ -12,6 +12,7 @@ from ..core.outcome import Fairing
 from ..core.region import MeshArrays
 from ..core.solve import Kept
 from ..core.verdict import GRADES, UNUSABLE
+from ..core.words import said
 from .fair_arrays import fair_arrays
 
 
@@ -31,7 +32,7 @@ def fair_all_keys(
         try:
             own = fair_arrays(replace(mesh, positions=positions, keys={}), matrix, options, part)
         except REFUSALS as cause:
-            found = replace(found, warnings=(*found.warnings, f"The shape key {name} follows the Basis: {cause}"))
+            found = replace(found, warnings=(*found.warnings, said("key_follows", name=name, reason=str(cause))))
             continue
         found = _with_key(found, name, own, options)
     return found
@@ -40,8 +41,8 @@ def fair_all_keys(
 def _with_key(found: Fairing, name: str, own: Fairing, options: FairOptions) -> Fairing:
     verdict = own.verdict
     if verdict.grade == UNUSABLE and options.accept != "ALL":
-        text = f"The shape key {name} follows the Basis: {verdict.reason}"
+        text = said("key_follows", name=name, reason=verdict.reason)
         return replace(found, warnings=(*found.warnings, text))
     if GRADES.index(verdict.grade) > GRADES.index(found.verdict.grade):
-        found = replace(found, verdict=replace(verdict, reason=f"Shape key {name}: {verdict.reason}"))
+        found = replace(found, verdict=replace(verdict, reason=said("of_key", name=name, reason=verdict.reason)))
     return replace(found, keys=(*found.keys, MovedKey(name, own.vertices, own.positions)))

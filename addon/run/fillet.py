@@ -21,6 +21,7 @@ from ..core.rounding import NO_SEAM, FilletOptions, Rounded, round_arrays, seams
 from ..core.symmetry import NOT_SYMMETRIC, edges_with_image
 from ..core.typed import Typed
 from ..core.verdict import UNUSABLE, NotUsable
+from ..core.words import said
 from ..host.context import edited_objects
 from ..host.dragging import pixel_size, say
 from ..host.polling import require_edit_mode, require_idle
@@ -38,7 +39,7 @@ from .report_properties import clear, store_refusal
 PROFILE_STEP = 0.1  # of the wheel
 PRECISE = 0.1  # of the mouse's way while Shift is held
 PATIENCE = 2.0  # seconds for a preview: what is hard to find is sought once, when it is accepted
-SLOW = "This width takes longer: click to have it"
+SLOW = said("takes_longer")
 
 
 class _Handle:
@@ -149,7 +150,7 @@ class Asked(AskedInEditMode):
             say({"WARNING"}, translated(warning))
         count = sum(each.new_vertices for each in written)
         seconds = time.perf_counter() - self.begin
-        say({"INFO"}, translated(f"{count} new vertices in {seconds:.2f} s"))
+        say({"INFO"}, translated(said("new_vertices", n=count, seconds=seconds)))
         return {"FINISHED"}
 
 
@@ -266,14 +267,14 @@ class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
     def _say(self, context: bpy.types.Context) -> None:
         width = self._typed.text or f"{self.width:.4g}"
         new = sum(len(each.result.vertices) for each in self._shown[1]) if self._shown else 0
-        text = f"Width {width}   Profile {self.profile:+.2f}   {new} vertices   {self._reason}"
-        keys = translated("   [Click] Accept   [Wheel] Profile   [0-9] Width   [Shift] Precise   [Esc] Cancel")
+        text = said("fillet_header", width=width, profile=self.profile, n=new, reason=self._reason)
+        keys = translated(said("fillet_keys"))
         say(context, translated(text) + keys)
 
     def _accept(self, context: bpy.types.Context) -> set[str]:
         self.cancel(context)
         if not self._asked.is_as_read(context):
-            self.report({"ERROR"}, translated("The mesh changed meanwhile; the result was dropped"))
+            self.report({"ERROR"}, translated(said("dropped")))
             return {"CANCELLED"}
         shown, options = self._shown, self._options()
         self._asked = replace(self._asked, options=options)

@@ -12,6 +12,7 @@ from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import GRADE_NAMES, Report, make_report, summary
 from ..core.symmetry import NOT_SYMMETRIC
+from ..core.words import said
 from ..host.status import redraw_sidebars
 from ..translations import translated
 from . import compare, job, labels, last_run
@@ -87,6 +88,6 @@ def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set
     shown = context.window_manager.fairing_report
     shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
     outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
-    say({"INFO"}, translated(f"That is no better and was not written ({outcome})"))
+    say({"INFO"}, translated(said("no_better", outcome=outcome)))
     redraw_sidebars(context)
     return {"CANCELLED"}

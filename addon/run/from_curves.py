@@ -12,6 +12,7 @@ from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.spanning import NO_WIRE, CurvesOptions, Spanned, span_arrays
 from ..core.symmetry import edges_with_image
+from ..core.words import said
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import mesh_io, spanned
@@ -83,11 +84,11 @@ class Asked(AskedInEditMode):
         clear(context.window_manager.fairing_report)
         added = write_each(context, zip(self.names, outcomes, strict=True), spanned.add_to_edit_mesh)
         faces = sum(each.faces for each in added)
-        said = [each for outcome in outcomes for each in outcome.warnings]
-        for warning in dict.fromkeys([*said, *(note for each in added for note in each.notes)]):
+        warnings = [each for outcome in outcomes for each in outcome.warnings]
+        for warning in dict.fromkeys([*warnings, *(note for each in added for note in each.notes)]):
             say({"WARNING"}, translated(warning))
         cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
-        say({"INFO"}, translated(f"{faces} new faces in {cells} cells; {left} openings stay"))
+        say({"INFO"}, translated(said("from_curves", faces=faces, cells=cells, left=left)))
         return {"FINISHED"}
 
 

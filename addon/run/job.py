@@ -23,6 +23,7 @@ from ..core.reflected import Whole, whole_of
 from ..core.region import MeshArrays, free_vertices, to_local
 from ..core.remeshing import Remeshed
 from ..core.solve import Kept, Solved
+from ..core.words import said
 from ..host.context import edited_objects
 from ..mesh import all_keys, mesh_io, remeshed, selecting
 from .fair_keys import fair_all_keys
@@ -41,7 +42,7 @@ class Refused(Exception):
 
     def __init__(self, name: str, cause: Exception) -> None:
         self.reason = reason_of(cause)
-        super().__init__(f"{name}: {self.reason}")
+        super().__init__(said("named", name=name, text=self.reason))
         self.object_name = name
         self.cause = cause
 

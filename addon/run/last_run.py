@@ -11,6 +11,7 @@ from ..core.arrays import Floats, Ints
 from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import Report, standing
+from ..core.words import said
 from ..mesh import selecting
 from ..mesh.remeshed import Written
 from .job import Task, objects_in_mode
@@ -126,9 +127,9 @@ def _found(context: bpy.types.Context, regions: tuple[Region, ...]) -> list[tupl
     for region in regions:
         obj = objects.get(region.object_name)
         if obj is None:
-            raise Changed(f"{region.object_name} is not in edit mode")
+            raise Changed(said("not_in_edit_mode", name=region.object_name))
         if selecting.face_count(obj.data) != region.face_count:
-            raise Changed(f"{region.object_name} has other faces by now: select the region anew")
+            raise Changed(said("other_faces", name=region.object_name))
         found.append((region, obj.data))
     return found
 

@@ -9,6 +9,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..core.arrays import Ints
 from ..core.options import FairOptions
+from ..core.words import said
 from ..host.context import active_object
 from ..host.picking import Picks, face_under_mouse
 from ..mesh import painted
@@ -25,10 +26,10 @@ _SOURCES = (
 )
 # What is wrong where a source has no face.
 _NOTHING = {
-    "MASK": "Nothing is masked by half or more: paint a mask over whole faces",
-    "FACE_SET": "Several face sets are in sight: click one with Face Sets, Fair Face Set",
-    "VERTEX_GROUP": "No face has all its vertices in the vertex group",
-    "LIVE": "There is no live region: make one in edit mode",
+    "MASK": said("nothing_masked"),
+    "FACE_SET": said("several_face_sets"),
+    "VERTEX_GROUP": said("nothing_in_group"),
+    "LIVE": said("no_live_region"),
 }
 
 
@@ -91,10 +92,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
     def _check_level(self, level: int, options: FairOptions) -> None:
         FairsOutside._check_level(self, level, options)
         if level and self.source == "MASK":
-            raise ValueError(
-                "Blender shows extensions no mask of a multiresolution level: "
-                "choose Face Sets, Face Set from Masked, and fair that"
-            )
+            raise ValueError(said("no_level_mask"))
 
     def _faces(self, obj: bpy.types.Object) -> Ints:
         faces = self._named(obj)
@@ -115,4 +113,4 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
 
 def _nothing(source: str, face_set: int) -> str:
     """Say why no face was found."""
-    return f"No face is in the face set {face_set}: choose another" if face_set else _NOTHING[source]
+    return said("empty_face_set", face_set=face_set) if face_set else _NOTHING[source]

@@ -8,6 +8,7 @@ import time
 import bpy
 
 from ..core.options import FairOptions
+from ..core.words import said
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..translations import translated
 from . import job, last_run
@@ -48,9 +49,5 @@ class MESH_OT_fair_region(FairProperties, Redone, bpy.types.Operator):
             last_run.forget()
             self.report({"INFO"}, translated(reason))
             return None
-        notes = tuple(
-            f"{task.object_name} was left as it is: no vertex inside its selection is free to move"
-            for task in selected
-            if not task.free_count
-        )
+        notes = tuple(said("left_no_free", name=task.object_name) for task in selected if not task.free_count)
         return Asked(tasks, options, notes, begin, way)

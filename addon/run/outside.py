@@ -19,6 +19,7 @@ from ..core.outcome import Fairing
 from ..core.places import renumbered
 from ..core.region import MeshArrays, free_vertices
 from ..core.report import make_report, summary
+from ..core.words import said
 from ..host.context import active_object
 from ..host.polling import require, require_idle
 from ..mesh import levels, mesh_io, painted
@@ -35,7 +36,7 @@ from .redo import Redone
 from .report_properties import store
 
 # Where dynamic topology has put the vertices cannot be told.
-MIXED = "Vertices lie on each other, which dynamic topology mixes up: merge them by distance, or turn it off"
+MIXED = said("dynamic_mixes")
 MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
 
 
@@ -196,7 +197,7 @@ class FairsOutside(FairProperties, Redone):
             self._check_level(level, options)
             dynamic = obj.use_dynamic_topology_sculpting
             if dynamic and options.mesh == "NEW":
-                raise ValueError("Dynamic topology makes faces of its own: turn Remesh off")
+                raise ValueError(said("dynamic_faces"))
             with in_object_mode(obj):
                 return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic), begin)
         except REFUSALS as cause:
@@ -205,7 +206,7 @@ class FairsOutside(FairProperties, Redone):
     def _check_level(self, level: int, options: FairOptions) -> None:
         """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""
         if level and options.mesh == "NEW":
-            raise ValueError("Remesh can't give a multiresolution level other faces: turn it off")
+            raise ValueError(said("level_keeps_faces"))
 
     def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:
         faces = levels.faces_at(obj.data, self._faces(obj), level)
@@ -219,4 +220,4 @@ def check_shown(obj: bpy.types.Object) -> None:
     """Raise ValueError where what is seen is not the mesh's own shape."""
     key: Any = obj.active_shape_key
     if key is not None and key != obj.data.shape_keys.reference_key:
-        raise ValueError(f"The shape key {key.name!r} is active: fair it in edit mode, or choose the Basis")
+        raise ValueError(said("key_is_active", name=key.name))

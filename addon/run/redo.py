@@ -20,20 +20,20 @@ from bpy.props import BoolProperty
 import fairing
 
 from ..core import runner
+from ..core.words import said
 from ..host.handlers import call_later, call_off, hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from ..preferences import background_from
 from .asked import Asked, Say
 from .background import TICK, Watched, has_events, under_way
-from .report_properties import clear, store_awaited
+from .report_properties import clear, kept, message, store_awaited
 
 PROMPT = 0.06  # seconds for reading and an answer; with writing and undo a change stays below 0.1
 SOON = 0.01  # seconds until the threads in the way are looked at again
 BLINK = 0.02  # seconds that a change waits for the search before it to stop
-AWAITED = "Looking for the fair surface: another one is shown meanwhile"
-KEPT = "Another surface was kept: something changed before the fair one was found"
-GIVEN_UP = "Another surface was kept: the search for the fair one was cancelled"
-NOT_TAKEN = "{reason}. The surface before was kept"
+AWAITED = said("awaited")
+KEPT = said("kept_before")
+GIVEN_UP = said("given_up")
 
 
 class Following:
@@ -256,7 +256,7 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
         else:
             change.swap(context)
     if not following.settled and not report.written and change.is_as_shown(context):
-        report.reason, report.written = NOT_TAKEN.format(reason=report.reason), True
+        report.reason, report.written = kept(said("not_taken", reason=message(report.reason))), True
         report.free_vertices = report.free_vertices or max(1, round(change.size))
     redraw_sidebars(context)
 

@@ -52,6 +52,20 @@ class FairProgress(bpy.types.PropertyGroup):
     stage: StringProperty()
 
 
+_said: dict[str, str] = {}  # messages by their letters, which are all that Blender keeps
+
+
+def kept(said: str) -> str:
+    """Keep a message while its letters are in a report."""
+    _said[said] = said
+    return said
+
+
+def message(text: str) -> str:
+    """Return the message of a report that reads so: other languages word it anew."""
+    return _said.get(text, text)
+
+
 def clear(shown: Any) -> None:
     """Let a FairReport show no run."""
     for known in shown.bl_rna.properties:
@@ -62,14 +76,14 @@ def clear(shown: Any) -> None:
 def store_refusal(shown: Any, object_name: str, reason: str) -> None:
     """Let a FairReport show a run that was refused, and nothing of the one before."""
     clear(shown)
-    shown.objects, shown.verdict, shown.reason = object_name, UNUSABLE, reason
+    shown.objects, shown.verdict, shown.reason = object_name, UNUSABLE, kept(reason)
 
 
 def store_awaited(shown: Any, objects: Sequence[str], size: float, reason: str) -> None:
     """Let a FairReport show that the result before is there, and why no other one."""
     clear(shown)
     shown.objects, shown.free_vertices, shown.written = ", ".join(objects), max(1, round(size)), True
-    shown.verdict, shown.reason = LOOK, reason
+    shown.verdict, shown.reason = LOOK, kept(reason)
 
 
 def store(shown: Any, report: Report) -> None:
@@ -77,12 +91,12 @@ def store(shown: Any, report: Report) -> None:
     shown.objects = ", ".join(report.objects)
     for name in ("free_vertices", "seconds", "residual", "boundary_angle", "distortion", "converged"):
         setattr(shown, name, getattr(report, name))
-    shown.verdict, shown.reason = report.verdict.grade, report.verdict.reason
+    shown.verdict, shown.reason = report.verdict.grade, kept(report.verdict.reason)
     shown.remedies = ",".join(report.verdict.remedies)
     shown.written, shown.undone = report.written, False
     shown.join_typical, shown.join_worst = report.join
-    shown.warnings = "\n".join(report.warnings)
+    shown.warnings = "\n".join(map(kept, report.warnings))
     shown.checks.clear()
     for check in report.checks:
         line = shown.checks.add()
-        line.name, line.value, line.state, line.detail = check.name, check.value, check.state, check.detail
+        line.name, line.value, line.state, line.detail = check.name, kept(check.value), check.state, check.detail

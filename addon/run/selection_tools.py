@@ -11,7 +11,7 @@ from ..core.engine import REFUSALS, bad_outline, fitted_boundary
 from ..core.options import FairOptions
 from ..core.region import MeshArrays, to_local
 from ..core.selection import grown_until_smooth, left_out_faces, problem_of
-from ..core.words import counted
+from ..core.words import said
 from ..host.context import edited_objects
 from ..host.polling import SELECT_FACES, require_edit_mode
 from ..mesh import mesh_io, selecting
@@ -39,7 +39,7 @@ class _Tool:
                 if task.mesh.in_patch.any():
                     total += work(obj, task)
             except REFUSALS as cause:
-                self.report({"ERROR"}, translated(f"{obj.name}: {cause}"))  # type: ignore[attr-defined]
+                self.report({"ERROR"}, translated(said("named", name=obj.name, text=str(cause))))  # type: ignore[attr-defined]
                 return None
         return total
 
@@ -74,7 +74,7 @@ class MESH_OT_fair_select_bad(_Tool, bpy.types.Operator):
             context.tool_settings.mesh_select_mode = (True, False, False)
             for obj, vertices in found:
                 selecting.select_vertices(obj.data, vertices)
-        return self._answer(count, counted(count or 0, "bad vertex", "bad vertices"), "The boundary has none")
+        return self._answer(count, said("bad_vertices", n=count or 0), said("none_bad"))
 
 
 def _select_faces(context: bpy.types.Context, obj: bpy.types.Object, mesh: MeshArrays, faces: Mask) -> int:
@@ -96,7 +96,7 @@ class MESH_OT_fair_grow(_Tool, bpy.types.Operator):
             context,
             lambda obj, task: _select_faces(context, obj, task.mesh, grown_until_smooth(task.mesh, task.matrix)),
         )
-        return self._answer(count, counted(count or 0, "face more", "faces more"), "There is nothing to grow over")
+        return self._answer(count, said("faces_more", n=count or 0), said("nothing_to_grow"))
 
 
 class MESH_OT_fair_add_left_out(_Tool, bpy.types.Operator):
@@ -111,7 +111,7 @@ class MESH_OT_fair_add_left_out(_Tool, bpy.types.Operator):
             context,
             lambda obj, task: _select_faces(context, obj, task.mesh, task.mesh.in_patch | left_out_faces(task.mesh)),
         )
-        return self._answer(count, counted(count or 0, "face more", "faces more"), "No face was left out")
+        return self._answer(count, said("faces_more", n=count or 0), said("none_left_out"))
 
 
 def _smooth(obj: bpy.types.Object, task: job.Task) -> int:
@@ -130,8 +130,8 @@ class MESH_OT_fair_smooth_outline(_Tool, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Move vertices of the boundary; nothing inside the selection moves."""
         count = self._each(context, _smooth)
-        text = counted(count or 0, "vertex moved", "vertices moved")
-        return self._answer(count, text, "The boundary is smooth already")
+        text = said("vertices_moved", n=count or 0)
+        return self._answer(count, text, said("smooth_already"))
 
 
 TOOLS: tuple[Any, ...] = (

@@ -8,7 +8,6 @@ import numpy as np
 import fairing
 
 from ..core.texturing import Textured, TextureOptions, textured
-from ..core.words import counted
 from ..host.context import edited_objects
 from ..host.polling import SELECT_FACES, require_edit_mode, require_idle
 from ..mesh import textured as textured_mesh
@@ -61,10 +60,10 @@ class MESH_OT_fair_texture(TextureProperties, bpy.types.Operator):
         copies = textured_mesh.write(obj, before, after)
         left, moved = (len(np.unique(before.faces[rows])) for rows in (after.left, after.moved))
         if left:
-            text = counted(left, "face was left: no textured one is near", "faces were left: no textured ones are near")
+            text = f"{left} faces were left: no textured ones are near"
             self.report({"WARNING"}, translated(text))
         if moved:
-            text = counted(moved, "face has a new place on the image", "faces have new places on the image")
+            text = f"{moved} faces have new places on the image"
             self.report({"INFO"}, translated(text))
         for copy in copies:
             self.report({"INFO"}, translated(f"New colours on the copy {copy.name!r}, which is packed into the file"))

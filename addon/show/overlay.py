@@ -19,6 +19,7 @@ from ..core.combs import Comb, comb
 from ..core.options import FairOptions
 from ..core.overlay_data import Surface, make_surface, sense
 from ..core.region import MeshArrays
+from ..core.words import said
 from ..host.context import active_object, edited_objects
 from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
 from ..host.status import redraw_views
@@ -61,7 +62,7 @@ class Overlay:
             surface = make_surface(mesh, matrix, whole, _deviation(obj.name, mesh, matrix) if wanted else None)
             return surface if obj.data.is_editmode else replace(surface, boundary=np.empty((0, 2, 3)))
         except ValueError as cause:  # no surface: a message instead of a wrong picture
-            self.message = f"{obj.name}: {cause}"
+            self.message = said("named", name=obj.name, text=str(cause))
             return None
 
     def draw(self, context: bpy.types.Context) -> None:

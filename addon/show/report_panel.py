@@ -10,6 +10,7 @@ from ..core.report import GRADE_NAMES
 from ..follow.watch import watch
 from ..host.text import draw_text
 from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_spots, best_first
+from ..run.report_properties import message
 from ..translations import translated
 from .sidebar import SidebarPanel, pair
 
@@ -39,7 +40,7 @@ class VIEW3D_PT_fairing_report(SidebarPanel, bpy.types.Panel):
         row.label(text=GRADE_NAMES[report.verdict], icon=_GRADE_ICONS[report.verdict])
         sentence = report.reason or next(iter(_notes(context, report)), "")
         if sentence:
-            draw_text(self.layout, sentence, "BLANK1")
+            draw_text(self.layout, message(sentence), "BLANK1")
         if report.verdict == "GOOD":
             return
         if not report.written:
@@ -63,7 +64,7 @@ class VIEW3D_PT_fairing_details(SidebarPanel, bpy.types.Panel):
             column.operator(MESH_OT_fair_spots.bl_idname, icon="VIEWZOOM")
             _draw_way(column, best_first(report.remedies)[1:])
         for note in _notes(context, report)[0 if report.reason else 1 :]:
-            draw_text(self.layout, note, "INFO")
+            draw_text(self.layout, message(note), "INFO")
         _draw_figures(self.layout.column(align=True), report)
 
 
@@ -81,9 +82,10 @@ def _draw_figures(column: Any, report: Any) -> None:
     for check in sorted(report.checks, key=lambda each: each.detail):
         row = column.row()
         row.alert = check.state == "MISSED"
-        if len(check.value) > _LONGEST:
-            draw_text(row, f"{translated(check.name)}: {check.value}", _ICONS[check.state])
+        value = translated(message(check.value))
+        if len(value) > _LONGEST:
+            draw_text(row, f"{translated(check.name)}: {value}", _ICONS[check.state])
         else:
-            pair(row, check.name, check.value, _ICONS[check.state])
+            pair(row, check.name, value, _ICONS[check.state])
     pair(column, "Free Vertices", str(report.free_vertices), "BLANK1")
     pair(column, "Seconds", f"{report.seconds:.2f}", "BLANK1")

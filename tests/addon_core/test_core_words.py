@@ -1,9 +1,13 @@
-"""The engine's errors and warnings as sentences: in the mesh's numbers, one for each kind."""
+"""Messages: a key and fields, worded in English and in other languages; those of the engine's errors and warnings."""
 
 from __future__ import annotations
 
+import ast
 import re
+from collections.abc import Iterator
+from pathlib import Path
 from string import Formatter
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,9 +16,11 @@ import fairing
 from core.findings import Origin, found
 from core.region import make_patch
 from core.sentences import in_mesh_words, refusal, sentences
-from core.words import WORDS, Words, counted
+from core.words import ENGLISH, Message, Sentence, case_of, joined, said, sentences_of, worded
 from polygon_mesh import grid
 
+ADDON = Path(__file__).parents[2] / "addon"
+LANGUAGES = ("de", "fr")
 # Six vertices and four triangles of the engine, which are two quads of a mesh: its vertices 10 … 60, its faces 7 and 9.
 ORIGIN = Origin(
     vertices=np.array([10, 20, 30, 40, 50, 60]),
@@ -31,46 +37,129 @@ def reported(*warnings: fairing.Diagnostic) -> tuple[str, ...]:
     return sentences(warnings, ORIGIN)
 
 
+def forms(sentence: Sentence) -> list[str]:
+    return [sentence] if isinstance(sentence, str) else sentence
+
+
+def code_of(key: str) -> str:
+    return key.partition(".")[0]
+
+
+def fields(text: str) -> list[str]:
+    return sorted(field for _, field, _, _ in Formatter().parse(text) if field)
+
+
+def texts_in_the_code() -> Iterator[tuple[str, bool]]:
+    """Yield every text in the add-on's modules, and whether it is a key that is said there."""
+    for path in ADDON.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value, False
+            elif isinstance(node, ast.Call) and getattr(node.func, "id", "") == "said":
+                key = node.args[0]
+                for each in (key.body, key.orelse) if isinstance(key, ast.IfExp) else (key,):
+                    if isinstance(each, ast.Constant):
+                        yield str(each.value), True
+
+
+def test_every_key_that_is_said_has_a_sentence_and_each_sentence_is_said() -> None:
+    texts = set(texts_in_the_code())
+    assert {text for text, is_key in texts if is_key} - ENGLISH.keys() == set()
+    endings = {f"ended_{ending}" for ending in ("converged", "iteration_limit", "stalled", "folded")}
+    own = {key for key in ENGLISH if code_of(key) not in fairing.CODES}
+    assert own - {text for text, _ in texts} - endings == set()
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_language_has_every_sentence_with_its_fields(language: str) -> None:
+    there = sentences_of(language)
+    assert there.keys() == ENGLISH.keys()
+    for key, sentence in ENGLISH.items():
+        assert type(there[key]) is type(sentence), key
+        for english, other in zip(forms(sentence), forms(there[key]), strict=True):
+            assert other.strip()
+            assert fields(english) == fields(other), key
+
+
+@pytest.mark.parametrize(
+    ("message", "english", "german"),
+    [
+        (lambda: said("no_fair_surface"), "No fair surface was found", "Keine glatte Fläche gefunden"),
+        (lambda: said("kink", n=2, degrees=31.2), "A kink shows at 2 vertices of the boundary, of 31° at worst",
+         "Ein Knick zeigt sich am Rand, an 2 Vertices, höchstens 31°"),
+        (lambda: said("kink", n=1, degrees=31.2), "A kink shows at 1 vertex of the boundary, of 31° at worst",
+         "Ein Knick zeigt sich am Rand, an 1 Vertex, höchstens 31°"),
+        (lambda: said("named", name="Cube", text=said("thin_tube", share=0.61)),
+         "Cube: The tube narrows to 61% of its ends", "Cube: Die Röhre verengt sich auf 61% ihrer Enden"),
+        (lambda: joined([said("runs_on", n=1), said("drawn", n=2)]),
+         "1 runs on, 2 drawn", "1 läuft weiter, 2 gezeichnet"),
+        (lambda: said("halted", reason=said("no_fair_surface")),
+         "No fair surface was found: the search came to a halt",
+         "Keine glatte Fläche gefunden: Die Suche kam zum Stillstand"),
+        (lambda: said("holes_left", n=1, all=13, reason="?"), "1 of 13 holes stays open, and is selected. ?",
+         "1 von 13 Löchern bleibt offen und ist ausgewählt. ?"),
+    ],
+)  # fmt: skip
+def test_a_message_is_worded_in_english_and_anew(message: Any, english: str, german: str) -> None:
+    assert message() == english
+    assert worded(message(), sentences_of("de")) == german
+
+
+def test_where_a_language_has_no_sentence_english_is_shown() -> None:
+    inner = said("kink", n=2, degrees=31.0)
+    assert worded(said("named", name="Cube", text=inner), {"named": "<{name}> {text}"}) == f"<Cube> {inner}"
+
+
+def test_an_exception_keeps_its_message() -> None:
+    assert isinstance(str(ValueError(said("no_fair_surface"))), Message)
+
+
 def test_every_code_has_words() -> None:
-    assert set(WORDS) == set(fairing.CODES)
+    assert {key.partition(".")[0] for key in ENGLISH if key.partition(".")[0].isupper()} - {
+        "GOOD",
+        "LOOK",
+        "UNUSABLE",
+    } == set(fairing.CODES)
 
 
 @pytest.mark.parametrize("code", fairing.CODES)
 def test_the_last_case_of_a_code_holds_without_any_figure_but_those_it_names(code: str) -> None:
     """So that a case of the engine's that is new here still reads as a sentence."""
-    assert [bool(words.when) for words in WORDS[code]] == [True] * (len(WORDS[code]) - 1) + [False]
-    figures = dict.fromkeys(_fields(WORDS[code][-1]) - {"n", "first", "ends", "islands"}, 1.0)
+    assert case_of(code, {}) == code
+    named = {field for form in forms(ENGLISH[code]) for field in fields(form)}
+    figures = dict.fromkeys(named - {"n", "first", "ends", "islands"}, 1.0)
     (text,) = reported(diagnostic(code, [0, 1], **figures))
     assert text[0].isupper() or text[0].isdigit()
     assert code not in text and "{" not in text and "triangle" not in text
 
 
-def _fields(words: Words) -> set[str]:
-    return {field for text in (words.one, words.many) for _, field, _, _ in Formatter().parse(text) if field}
+@pytest.mark.parametrize(
+    ("given", "text"),
+    [
+        (diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0),
+         "2 faces of the result are turned over"),
+        (diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
+         "The surface was found, but 1 face can't be placed on it without folds"),
+        (diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0),
+         "No harmonic surface fits the boundary: Least Variation was used"),
+        (diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0),
+         "No fair surface fits these boundary loops: a loft joins them, with a kink at 2 vertices"),
+        (diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0),
+         "No fair surface fits these boundary loops: a loft joins them"),
+        (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0),
+         "Smooth Boundary was left out: with 2 boundary vertices moved, the result is worse"),
+        (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0), "2 vertices of a noisy boundary keep their place"),
+        # Ends of hard edges are counted as `ends`, which in sentences are those of an edge.
+        (diagnostic("EDGES_LEFT_ALONE", [1, 3], ends=2.0, ambiguous=1.0),
+         "2 hard edges end at the hole, at vertex 20 and others, and may be joined in several ways: draw edges (select "
+         "two vertices, F) where they are to run"),
+    ],
+)  # fmt: skip
+def test_triangles_are_counted_by_their_faces_and_cases_told_by_their_figures(given: Any, text: str) -> None:
+    assert reported(given) == (text,)
 
 
-def test_triangles_are_counted_by_their_faces_and_edges_by_the_meshs_vertices() -> None:
-    assert reported(diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0)) == (
-        "2 faces of the result are turned over",
-    )
-    assert reported(diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0)) == (
-        "The surface was found, but 1 face can't be placed on it without folds",
-    )
-    assert reported(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0)) == (
-        "No harmonic surface fits the boundary: Least Variation was used",
-    )
-    assert reported(diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0)) == (
-        "No fair surface fits these boundary loops: a loft joins them, with a kink at 2 vertices",
-    )
-    assert reported(diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0, loft=1.0)) == (
-        "No fair surface fits these boundary loops: a loft joins them",
-    )
-    assert reported(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0)) == (
-        "Smooth Boundary was left out: with 2 boundary vertices moved, the result is worse",
-    )
-    assert reported(diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0)) == (
-        "2 vertices of a noisy boundary keep their place",
-    )
+def test_edges_have_the_meshs_vertices() -> None:
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
     assert "the edge 50–20" in str(edge)
     assert edge.elements.tolist() == [10, 20, 30, 50]
@@ -83,6 +172,7 @@ def test_an_error_speaks_of_the_mesh_and_keeps_its_code() -> None:
         raise fairing.MeshError(twisted)
     assert refused.value.code == "NOT_ORIENTABLE"
     assert "NOT_ORIENTABLE" not in str(refused.value)
+    assert isinstance(str(refused.value), Message)
     assert refused.value.elements.tolist() == [20, 30, 60]
 
 
@@ -105,19 +195,6 @@ def test_a_patch_knows_the_faces_of_its_triangles(even: bool) -> None:
         assert set(triangle) < set(corners[face])
 
 
-def test_counted() -> None:
-    assert [counted(n, "face", "faces") for n in (0, 1, 2)] == ["0 faces", "1 face", "2 faces"]
-
-
 def test_no_sentence_speaks_of_the_engine() -> None:
-    texts = " ".join(text for cases in WORDS.values() for words in cases for text in (words.one, words.many))
+    texts = " ".join(form for key, sentence in ENGLISH.items() if code_of(key).isupper() for form in forms(sentence))
     assert not re.search(r"triang|compon|fixed_normals|fixed,|load\b", texts)
-
-
-def test_a_figure_may_have_the_name_of_a_field() -> None:
-    """Ends of hard edges are counted as `ends`, which in sentences are those of an edge."""
-    figures = {"ends": 2.0, "ambiguous": 1.0}
-    warning = fairing.Diagnostic("EDGES_LEFT_ALONE", "", np.array([3, 5], np.int32), "vertex", figures)
-    none = np.empty((0, 3), dtype=np.int64)
-    (text,) = sentences((warning,), Origin(np.arange(10, 20), none, none[:, 0]))
-    assert text.startswith("2 hard edges end at the hole, at vertex 13 and others")
