@@ -78,6 +78,32 @@ def test_broken_files_are_rows_of_the_report(tmp_path: Path) -> None:
     assert all(report["reason"] for report in reports[:-1])
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_damaged_files_are_read_or_told(seed: int, tmp_path: Path) -> None:
+    """Bytes that are cut off, changed or doubled: a mesh that can be worked with, or ValueError, soon."""
+    rng = np.random.default_rng(seed)
+    for name in rng.permutation([*GOOD])[:60].tolist():
+        raw = bytearray(GOOD[name])
+        at, other = rng.integers(len(raw), size=2).tolist()
+        inserted = [
+            bytes(rng.integers(256, size=3).tolist()),
+            b"99999999999",
+            b"nan",
+            b"-1",
+            b"\n",
+            bytes(raw[other:][:20]),
+        ]
+        raw[at : at + int(rng.integers(3))] = inserted[int(rng.integers(6))]
+        (tmp_path / name).write_bytes(raw[:at] if rng.random() < 0.1 else raw)
+        try:
+            mesh, write = files.read(tmp_path / name)
+        except ValueError as error:
+            assert str(tmp_path) in str(error)
+            continue
+        assert len(mesh.triangles) == len(mesh.sound) > 0
+        write(tmp_path / f"again_{name}", mesh)
+
+
 @pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
 def test_properties_of_a_ply_file_stay(form: str, tmp_path: Path) -> None:
     """Bytes are blended and stay bytes; types, order and comments stay, and elements that are not known."""

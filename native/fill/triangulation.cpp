@@ -40,6 +40,7 @@ void cut_exactly(const Indices& polygon, const TriangleCost& cost, std::vector<E
         for (int i = 0; i + width < n; ++i) {
             const int k = i + width;
             double least = std::numeric_limits<double>::infinity();
+            chords.apex(i, k) = i + 1;  // where a corner is not finite, no cost is less
             for (int j = i + 1; j < k; ++j) {
                 const double sum = chords.cost(i, j) + chords.cost(j, k);
                 if (sum >= least) continue;

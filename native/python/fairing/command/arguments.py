@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from fairing._core import __version__
+from fairing.command.cluster import Place, is_address
 from fairing.command.work import SUFFIX
 
 _AFTER = """
@@ -30,21 +31,28 @@ def parsed(words: Sequence[str] | None) -> Namespace:
         parser.error("--output is for one file: use --into with several")
     if given.jobs < 1:
         parser.error("--jobs: 1 or more is needed")
+    if any(is_address(each) for each in given.files) and not given.dask:
+        parser.error("an address is read by the workers of --dask alone")
     return given
 
 
-def target_of(source: Path, given: Namespace) -> Path | None:
+def target_of(source: Place, given: Namespace) -> Place | None:
     """Where the result for a file goes; None for `measure`."""
     if given.command == "measure":
         return None
     if given.output is not None:
-        return Path(given.output)
-    name = f"{source.stem}{SUFFIX[given.command]}{given.format or source.suffix}"
-    return (Path(given.into) if given.into is not None else source.parent) / name
+        return _place(given.output)
+    at = PurePosixPath(str(source)) if is_address(source) else Path(source)
+    folder = str(given.into if given.into is not None else str(source)[: -len(at.name)] or ".")
+    return _place(f"{folder.rstrip('/')}/{at.stem}{SUFFIX[given.command]}{given.format or at.suffix}")
+
+
+def _place(word: str) -> Place:
+    return word if is_address(word) else Path(word)
 
 
 def _common(parser: ArgumentParser, writes: bool = True) -> None:
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a mesh")
+    parser.add_argument("files", nargs="+", type=_place, metavar="FILE", help="a mesh")
     if writes:
         where = parser.add_mutually_exclusive_group()
         where.add_argument("-o", "--output", metavar="FILE", help="where the result of a single file goes")
@@ -53,6 +61,7 @@ def _common(parser: ArgumentParser, writes: bool = True) -> None:
         parser.add_argument("--accept-all", action="store_true", help="write results that can't be used, too")
         parser.add_argument("--threads", type=int, metavar="N", help="for one mesh; with --jobs: 1")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="files at once")
+    parser.add_argument("--dask", metavar="ADDRESS", help="the scheduler of a cluster that does the work (distributed)")
     parser.add_argument("--json", metavar="FILE", help="a report on each file; - for the standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress bar, only what is not good")
     parser.add_argument("-v", "--verbose", action="store_true", help="the engine's log")

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
+from fairing.command import cluster
 from fairing.command.arguments import parsed, target_of
 from fairing.command.verdict import GOOD, LOOK, UNUSABLE
 from fairing.command.work import Report, done_with
@@ -39,7 +40,7 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def _done(given: Namespace) -> Iterator[Report]:
     """The reports, as files are done."""
-    if given.jobs > 1:
+    if given.dask or given.jobs > 1:
         yield from _several_at_once(given)
     else:
         for number, source in enumerate(given.files):
@@ -49,18 +50,25 @@ def _done(given: Namespace) -> Iterator[Report]:
 
 
 def _several_at_once(given: Namespace) -> Iterator[Report]:
-    """The same in processes that go from file to file."""
+    """The same in processes that go from file to file, here or on a cluster."""
     if getattr(given, "threads", 1) is None:
         given.threads = 1
-    each = Namespace(**{**vars(given), "files": ()})  # goes to a process with every file: without the list of all
+    each = Namespace(**{**vars(given), "files": ()})  # goes along with every file: without the list of all
+    jobs = [(source, target_of(source, given)) for source in given.files]
+    found = cluster.reports(jobs, each) if given.dask else _in_processes(jobs, each)
+    for number, report in enumerate(found):
+        bar = _Bar(number, len(jobs), f"{number + 1} of {len(jobs)}", _shows(given))
+        bar(1.0, "")
+        bar.end()
+        yield report
+
+
+def _in_processes(jobs: list[cluster.Job], given: Namespace) -> Iterator[Report]:
     # Spawned: a forked engine would miss its threads.
     with ProcessPoolExecutor(given.jobs, multiprocessing.get_context("spawn"), _leave_interrupts) as pool:
-        tasks = [pool.submit(done_with, source, target_of(source, given), each, None) for source in given.files]
+        tasks = [pool.submit(done_with, source, target, given, None) for source, target in jobs]
         try:
-            for number, task in enumerate(as_completed(tasks)):
-                bar = _Bar(number, len(tasks), f"{number + 1} of {len(tasks)}", _shows(given))
-                bar(1.0, "")
-                bar.end()
+            for task in as_completed(tasks):
                 yield task.result()
         finally:  # of an interrupt: files that are being worked on get done, no other begins
             pool.shutdown(cancel_futures=True)

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from fairing.command import obj, off, ply, scenes, stl
 from fairing.objects.hosts import opened
 from fairing.objects.parts import Parts
@@ -27,7 +29,10 @@ def read(source: Path) -> tuple[Parts, Write]:
         raise ValueError(f"{source}: there is no such file")
     if kind in _OWN:
         try:
-            parts, header = _OWN[kind].read(source)
+            with np.errstate(all="ignore"):
+                parts, header = _OWN[kind].read(source)
+            if not len(parts.faces.sizes):
+                raise ValueError("it has no faces")
         except (ValueError, IndexError, KeyError, TypeError, OverflowError) as error:
             said = error if isinstance(error, ValueError) else "it is damaged, or ends too early"
             raise ValueError(f"{source}: can't be read: {said}") from error

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from fairing import _arguments
 from fairing.command.corners import by_points, by_vertices
 from fairing.objects.parts import PLACE, Data, Parts, Polygons
 
@@ -44,8 +45,8 @@ def read(source: Path) -> tuple[Parts, str]:
         data["colors"] = _colours(colours)
     if st:
         data["uv"] = table[:, -2:].astype(np.float64)
-    corners = [int(word) for row in faces for word in row[1 : int(row[0]) + 1]]
-    polygons = Polygons(np.array(corners, np.int32), np.array([int(row[0]) for row in faces], np.int32))
+    corners = np.array([word for row in faces for word in row[1 : int(row[0]) + 1]]).astype(np.int64)
+    polygons = Polygons(_arguments.integers("faces", corners, None), np.array([int(row[0]) for row in faces], np.int32))
     tails = {len(row) - int(row[0]) - 1 for row in faces}
     of_faces: Data = {}
     if tails in ({3}, {4}):
@@ -59,10 +60,11 @@ def _in_lines(lines: list[Words], counts: list[int], width: int) -> tuple[list[W
     odd = len(lines) < end or any(len(row) <= int(row[0]) for row in lines[vertices:end])
     if odd or any(len(row) < 3 for row in lines[:vertices]):
         words = list(itertools.chain(*lines))
+        vertices = min(vertices, len(words))
         lines = [words[k * width : (k + 1) * width] for k in range(vertices)]
         at = vertices * width
         while at < len(words):
-            lines.append(words[at : at + int(words[at]) + 1])
+            lines.append(words[at : at + max(int(words[at]), 0) + 1])
             at += len(lines[-1])
     if len(lines) < end:
         raise ValueError(f"it announces {vertices} vertices and {counts[1]} faces and ends before")

@@ -92,6 +92,8 @@ class Parts:
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _arguments.floats("vertices", self.points))
         _arguments.indices_within("faces", self.faces.corners, len(self.points))
+        if (self.faces.sizes < 3).any() or self.faces.sizes.sum() != len(self.faces.corners):
+            raise ValueError("faces: one has less than three corners, or less than it says")
         for what, data, count in (
             ("vertex", self.vertex_data, len(self.points)), ("face", self.face_data, len(self.faces.sizes)),
         ):  # fmt: skip
