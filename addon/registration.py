@@ -6,13 +6,8 @@ from typing import Any
 import bpy
 
 from . import file_owned, translations
-from .follow import copies, live, undone, watch
-from .follow.live_operators import (
-    FairLive,
-    MESH_OT_fair_live_far_side,
-    MESH_OT_fair_live_forget,
-    MESH_OT_fair_live_select,
-)
+from .follow import live, undone, watch
+from .follow.live_operators import FairLive, MESH_OT_fair_live_forget, MESH_OT_fair_live_select
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
@@ -27,13 +22,10 @@ from .run.fillet import MESH_OT_fair_fillet
 from .run.from_curves import MESH_OT_fair_from_curves
 from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
-from .run.peek import MESH_OT_fair_peek
-from .run.pick_skin import MESH_OT_fair_pick_skin
 from .run.redo import MESH_OT_fair_follow
 from .run.report_properties import FairCheck, FairProgress, FairReport
 from .run.selection_tools import TOOLS
 from .run.strokes import MESH_OT_fair_stroke
-from .run.texture import MESH_OT_fair_texture
 from .show import brush_preview, fillet_preview, gizmos, keymap, marks, menus, overlay, tab, tools, ui
 from .show.chosen_options import MESH_OT_fair_reset
 from .show.overlay_settings import FairOverlay
@@ -49,24 +41,18 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_masked,
     FairDab,
     MESH_OT_fair_brush,
-    copies.OBJECT_OT_fair_copy,
-    copies.OBJECT_OT_fair_copies_update,
     MESH_OT_fair_fill,
     MESH_OT_fair_fillet,
     MESH_OT_fair_denoise,
-    MESH_OT_fair_texture,
     MESH_OT_fair_from_curves,
     MESH_OT_fair_live_region,
     MESH_OT_fair_live_select,
-    MESH_OT_fair_live_far_side,
     MESH_OT_fair_live_forget,
     compare.MESH_OT_fair_compare,
     MESH_OT_fair_spots,
     MESH_OT_fair_reselect,
     MESH_OT_fair_cancel,
     MESH_OT_fair_follow,
-    MESH_OT_fair_peek,
-    MESH_OT_fair_pick_skin,
     MESH_OT_fair_reset,
     *presets.CLASSES,
     *menus.MENUS,
@@ -101,7 +87,6 @@ def register() -> None:
     fillet_preview.register()
     brush_preview.register()
     live.register()
-    copies.register()
     marks.register()
     tab.register()
     keymap.register()
@@ -126,7 +111,6 @@ def unregister() -> None:
     keymap.unregister()
     tab.unregister()
     marks.unregister()
-    copies.unregister()
     live.unregister()
     brush_preview.unregister()
     fillet_preview.unregister()

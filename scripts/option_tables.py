@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "addon"))
 
 from core.fair_options import FAIR  # noqa: E402
-from core.fill_options import CURVES, DENOISE, FILL, FILLET, TEXTURE  # noqa: E402
+from core.fill_options import CURVES, DENOISE, FILL, FILLET  # noqa: E402
 from core.option_shared import FOLDED, GROUPS  # noqa: E402
 from core.option_table import Option, Table  # noqa: E402
 from core.presets import PRESETS, preset  # noqa: E402
@@ -40,7 +40,6 @@ def page() -> str:
         ("mesh.fair_fill", "Fair Fill", FILL),
         ("mesh.fair_fillet", "Fair Fillet", FILLET),
         ("mesh.fair_denoise", "Fair Denoise", DENOISE),
-        ("mesh.fair_texture", "Fair Texture", TEXTURE),
         ("mesh.fair_from_curves", "Fair From Curves", CURVES),
     ):
         again = [f"*{option.label}*" for option in table if _row(option) in told]

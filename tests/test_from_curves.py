@@ -7,9 +7,10 @@ import pytest
 
 import fairing
 import wire_networks as networks
+from fairing._new_mesh import FromCurvesResult
 
 
-def whole(points: networks.Floats, result: fairing.FromCurvesResult) -> networks.Floats:
+def whole(points: networks.Floats, result: FromCurvesResult) -> networks.Floats:
     return np.concatenate([points, result.vertices])
 
 

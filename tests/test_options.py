@@ -107,7 +107,7 @@ def test_defaults_are_those_that_callers_rely_on() -> None:
         "outline": "given", "neighbours": None, "reference": None, "detail": 0.0, "detail_size": 0.0, "feather": 0.0,
         "weights": None, "creases": None, "smooth_curves": None, "open_border": "held", "pin_radius": 0.1,
         "method": "global", "levels": 0, "tolerance": 1e-6, "max_iterations": 200, "normals": "fitted",
-        "start": "outline", "paper": None, "detail_from": None, "inner_fairness": None,
+        "start": "outline", "paper": None, "inner_fairness": None,
     }  # fmt: skip
     found = {name: value for group in vars(fairing.Options()).values() for name, value in vars(group).items()}
     assert found == expected

@@ -7,12 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 import fairing
 import holes
 import shapes
-from fairing import _core
 from holes import FloatArray, IntArray
 
 TURN = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
@@ -34,63 +32,6 @@ def check_disc(faces: list[list[int]], loop: list[int]) -> Counter[int]:
     edges = (len(sides) + len(border)) // 2
     assert len(around) - edges + len(faces) == 1
     return around
-
-
-def drawn_corners(count: int, rng: Any) -> NDArray[np.int64]:
-    """How many quads each vertex of a boundary gets: up to six convex corners, four edges apart or more."""
-    faces = np.full(count, 2)
-    for at in rng.permutation(count)[: rng.integers(0, 20)]:
-        if (np.roll(faces, 3 - at)[:7] == 2).all() and (faces == 1).sum() < 6:
-            faces[at] = 1
-    return faces
-
-
-def test_patterns_are_sound_for_every_boundary() -> None:
-    """All counts of edges, corners at random: quads alone, one triangle for odd counts, the corners as asked for."""
-    rng, extra, without = np.random.default_rng(3), Counter[int](), 0
-    for count in list(range(8, 61)) * 6:
-        faces = drawn_corners(count, rng)
-        turn = 2 * np.pi * np.arange(count) / count
-        places = np.column_stack([np.cos(turn), np.sin(turn)])
-        found = _core.quad_patterns(faces.astype(np.int32), places, count**2 / (4 * np.pi), 4)
-        without += not found
-        for quads, triangles, vertices, _, poles, least in found:
-            assert len(triangles) == count % 2
-            assert least == abs(4 - int((2 - faces).sum()))
-            around = check_disc(quads.tolist() + triangles.tolist(), list(range(count)))
-            assert [around[vertex] for vertex in range(count)] == faces.tolist()
-            assert sorted(around) == list(range(vertices))
-            uneven = sum(around[vertex] != 4 for vertex in range(count, vertices))
-            assert uneven <= poles + 3 * len(triangles)
-            extra[poles - least] += 1
-    assert set(extra) <= {0, 2, 4}
-    assert extra[4] < 0.05 * extra.total()
-    assert without < 8  # of 318
-
-
-def test_a_shape_of_the_grid_comes_back_as_the_grid() -> None:
-    """Without a pole, whatever the shape's corners are."""
-    cells = {(x, y) for x in range(9) for y in range(7)} - {(x, y) for x in (0, 1, 7, 8) for y in (0, 1, 6)} - {(8, 2)}
-    sides = {
-        side
-        for x, y in cells
-        for side in (
-            ((x, y), (x + 1, y)),
-            ((x + 1, y), (x + 1, y + 1)),
-            ((x + 1, y + 1), (x, y + 1)),
-            ((x, y + 1), (x, y)),
-        )
-    }
-    step = {a: b for a, b in sides if (b, a) not in sides}
-    loop = [min(step)]
-    while step[loop[-1]] != loop[0]:
-        loop.append(step[loop[-1]])
-    corners = [(x + 0.5, y + 0.5) for x, y in cells]
-    faces = [sum(abs(x - a) < 1 and abs(y - b) < 1 for a, b in corners) for x, y in loop]
-    ((quads, triangles, _, _, poles, least),) = _core.quad_patterns(
-        np.array(faces, np.int32), np.array(loop, float), float(len(cells)), 4
-    )
-    assert (len(quads), len(triangles), poles, least) == (len(cells), 0, 0, 0)
 
 
 def grid(place: Any, columns: int, rows: int, hole: set[tuple[int, int]], closed: bool = False) -> tuple[Any, ...]:

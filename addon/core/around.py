@@ -85,14 +85,6 @@ def wound_alike(mesh: MeshArrays, outside: Ints) -> Ints:
     return outside[:, ::-1] if 2 * np.count_nonzero(alike) > len(alike) else outside
 
 
-def sample_triangles(mesh: MeshArrays) -> Ints:
-    """Return the (s, 3) triangles whose skin is copied, in the mesh's numbers."""
-    if mesh.sample is None:
-        return np.empty((0, 3), dtype=np.int64)
-    chosen: Ints = mesh.triangles[mesh.sample[mesh.triangle_faces]]
-    return chosen
-
-
 def numbered(patch: Patch, *triangles: Ints) -> tuple[Ints, ...]:
     """Return (q,) mesh vertices, the patch's first, then those of the triangles alone; and these in their numbers."""
     others = np.setdiff1d(np.concatenate(triangles), patch.vertices)

@@ -40,7 +40,6 @@ class Problem:
     outside: Ints  # (o, 3) triangles around the patch, in numbers of `vertices`
     curvatures: Floats | None = None  # (k,) H outside, NaN where it is not known; None: not to be continued
     weights: Floats | None = None  # (q,) each vertex's own factor; None: 1 inside, 0 outside
-    sample: Ints = field(default_factory=lambda: np.empty((0, 3), dtype=np.int64))  # (s, 3) whose skin is copied
     curve: Ints = field(default_factory=nothing)  # patch indices of fixed vertices that move before all else
     curve_points: Floats = field(default_factory=lambda: np.empty((0, 3)))  # where they go
     inward: Ints = field(default_factory=nothing)  # mesh vertices of the boundary with the slope of the selected faces
@@ -101,7 +100,6 @@ def solve(
         neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
         outline=options.outline.lower(),
         weights=problem.weights,
-        detail_from=problem.sample if options.copies_detail else None,
         **_held_inside(patch, options),
         **options.engine_arguments(),
     )

@@ -221,26 +221,6 @@ FAIR: Table = (
         values=KEYS,
     ),
     Option(
-        "detail_from",
-        "Detail From",
-        "The skin of the faces inside this vertex group is copied onto the new shape, for a selection that has none of "
-        "its own, like a filled hole. Empty: the selection's own",
-        "",
-        PARTS,
-        kind="VERTEX_GROUP",
-        shown=lambda o: o.detail > 0.0,
-    ),
-    Option(
-        "detail_face_set",
-        "Detail Face Set",
-        "The same with the skin of a face set, which the eyedropper takes from the 3D view; 0: none",
-        0,
-        PARTS,
-        bounds=(0, 2**31 - 1),
-        kind="FACE_SET",
-        shown=lambda o: not o.remesh or o.detail > 0.0,
-    ),
-    Option(
         "pin_group",
         "Pin Group",
         "The surface passes through the vertices of this vertex group; closed loops of them divide it",

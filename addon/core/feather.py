@@ -21,7 +21,6 @@ def refuse_options(options: FairOptions) -> None:
     without = "Falloff 0" if options.feather > 0.0 else "no Vertex Group and no Mask"
     for wrong, text in (
         (options.outline != "GIVEN", "Smooth Boundary moves vertices of the band: turn it off"),
-        (options.copies_detail, "Detail From copies a skin that the band does not blend: leave it empty"),
         (
             options.joins_curvature,
             "Continuity: Curvature, or a Curvature Group, holds the boundary, which the band moves: choose Tangent and "

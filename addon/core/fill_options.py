@@ -152,28 +152,6 @@ DENOISE: Table = (
     ),
 )
 
-TEXTURE: Table = (
-    Option(
-        "detail",
-        "Detail",
-        "How much of the fine part of the texture is copied onto the new faces: pores, grain, noise",
-        0.0,
-        SURFACE,
-        bounds=(0.0, 1.0),
-        digits=2,
-        kind="FACTOR",
-    ),
-    Option(
-        "detail_from",
-        "Detail From",
-        "The vertex group with the faces whose fine texture is copied. Empty: those around the selection",
-        "",
-        SURFACE,
-        kind="VERTEX_GROUP",
-        shown=lambda o: o.detail > 0.0,
-    ),
-)
-
 CURVES: Table = (
     Option(
         "fill_openings",

@@ -71,7 +71,6 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         creases=None if mesh.creases is None else mesh.creases[used_edges],
         smooth_curves=None if mesh.smooth_curves is None else mesh.smooth_curves[used_edges],
         corner_normals=None if normals is None else normals[corners],
-        sample=None,
         parts=None,
         sharp=None,
         hard=None if mesh.hard is None else mesh.hard[used_edges],

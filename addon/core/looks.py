@@ -168,7 +168,7 @@ def _points(evidence: Evidence) -> Floats:
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
     """Report the old skin where it was asked for and not given."""
-    if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin", "sample_skin")):
+    if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin")):
         return said("no_detail"), _outline(evidence)
     return NOTHING
 

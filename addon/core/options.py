@@ -69,8 +69,6 @@ class FairOptions:
     inner_fairness: str = "AUTOMATIC"  # CONFORMAL for a patch with a texture, UNIFORM for others
     detail: float = 0.0  # how much of the old patch's detail is put back, 0 … 1
     detail_size: float = 0.0  # what is shorter counts as detail: a part of the patch's size; 0: twelve edges
-    detail_from: str = ""  # name of a vertex group: the skin of the faces inside it is copied instead
-    detail_face_set: int = 0  # number of a face set: likewise
     feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     factor_group: str = ""  # name of a vertex group whose weights scale the way of each vertex, outside too
     factor_mask: str = "IGNORED"  # USED: the sculpt mask scales it
@@ -115,8 +113,6 @@ class FairOptions:
             raise ValueError(f"feather: expected 0 or a positive number, got {self.feather!r}")
         if not 0.0 < self.tension < float("inf"):
             raise ValueError(f"tension: expected a positive number, got {self.tension!r}")
-        if self.detail_face_set < 0:
-            raise ValueError(f"detail_face_set: expected 0 or a number of a face set, got {self.detail_face_set!r}")
         if not self.spacing >= LEAST_SPACING:
             raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
         refuse_negative(self, "max_vertices")
@@ -234,11 +230,6 @@ class FairOptions:
         return bool(self.factor_group) or self.factor_mask == "USED"
 
     @property
-    def copies_detail(self) -> bool:
-        """Whether the skin is that of other faces."""
-        return self.detail > 0.0 and (bool(self.detail_from) or self.detail_face_set > 0)
-
-    @property
     def moves_band(self) -> bool:
         """Whether vertices outside the selection take part."""
         return self.feather > 0.0 or self.goes_by_weight
@@ -261,8 +252,6 @@ class FairOptions:
             "max_vertices": self.mesh == "NEW",
             "limit_total": self.mesh == "NEW",
             "detail_size": self.detail > 0.0,
-            "detail_from": self.detail > 0.0,
-            "detail_face_set": self.detail > 0.0,
             "pin_curve": self.pins_sharp and self.method == "GLOBAL",
             "pin_radius": bool(self.pin_group),
             "pin_slope": self.pin_edges != "NONE",

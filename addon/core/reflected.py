@@ -189,7 +189,6 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
         triangle_faces=np.concatenate([mesh.triangle_faces, mesh.triangle_faces + faces]),
         in_patch=np.tile(mesh.in_patch, 2),
         hidden=None if mesh.hidden is None else np.tile(mesh.hidden, 2),
-        sample=None if mesh.sample is None else np.tile(mesh.sample, 2),
         pinned=np.concatenate([mesh.pinned, mesh.pinned[off]]),
         free_slopes=_twice(mesh.free_slopes, off),
         continued=_twice(mesh.continued, off),

@@ -65,7 +65,6 @@ class MeshArrays:
     notes: tuple[str, ...] = ()  # what turned out odd when it was read
     # (e,) edges that a new mesh keeps, by the attribute that says so; none where that is not asked for
     lines: Mapping[str, Mask] = field(default_factory=dict)
-    sample: Mask | None = None  # (f,) visible faces whose skin is copied; None: not asked for
     reflections: tuple[Reflection, ...] = ()  # that make it whole; see reflected.py
     shown_offsets: Floats | None = (
         None  # (n, 3) from the Basis to the keys that are shown; None: it is shown, or no Basis

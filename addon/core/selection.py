@@ -11,7 +11,7 @@ import fairing
 from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats, Ints, Mask
 from .engine import Problem, bad_outline
-from .outline import edges_of, outline_edges, two_sided_edges
+from .outline import edges_of, two_sided_edges
 from .region import MeshArrays, free_vertices, make_patch, nothing
 
 LEFT_OUT = 4  # faces at most of a hole in a selection that is taken for an oversight
@@ -111,19 +111,6 @@ def _beside_patch(mesh: MeshArrays, steps: int) -> Mask:
         reached &= rest | mesh.in_patch
     beside: Mask = reached & rest
     return beside
-
-
-def far_sides(mesh: MeshArrays) -> list[Ints]:
-    """Return the faces of each piece that is left without the patch and hangs together with it, the smallest first.
-
-    Of a region that cuts an end off, the first one is the end.
-    """
-    rest = visible(mesh) & ~mesh.in_patch
-    label = pieces(mesh, rest)
-    rim = two_sided_edges(mesh, outline_edges(mesh)).faces
-    touching = np.unique(label[rim])
-    sides = [np.flatnonzero(label == piece) for piece in touching if piece >= 0]
-    return sorted(sides, key=len)
 
 
 def _open_faces(mesh: MeshArrays) -> Mask:

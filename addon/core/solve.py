@@ -11,7 +11,7 @@ import numpy as np
 import fairing
 
 from . import engine
-from .around import numbered, outside_triangles, sample_triangles, wide_outside, wound_alike
+from .around import numbered, outside_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import boundary
 from .engine import Progress
@@ -110,14 +110,13 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
         known = boundary(world, patch, options.boundary_normals, outside)
         inward = known.inward(patch)
-        parts = wound_alike(world, outside), wound_alike(world, sample_triangles(world))
-        vertices, around, sample = numbered(patch, *parts)
+        vertices, around = numbered(patch, wound_alike(world, outside))
         weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
         odd = outline_notes(world, inward) + _odd_in_words(mesh, patch, options)
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(
-        patch, world.positions[vertices], known.normals, vertices, around, curvatures, weights, sample,
+        patch, world.positions[vertices], known.normals, vertices, around, curvatures, weights,
         np.searchsorted(patch.vertices, curve), places, inward,
     )  # fmt: skip
     return problem, known.notes + winding_note(turned) + odd + mesh.notes

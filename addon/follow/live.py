@@ -40,7 +40,6 @@ FRAME = 1.0 / 60.0  # seconds between two steps of a fade
 STAND_IN = said("live_stand_in")
 SEARCHING = said("live_searching")
 KEPT = said("live_kept")
-NO_REGION = "No live region: select faces, then Live Region"
 
 
 class Live:

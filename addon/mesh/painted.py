@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
 from ..core.arrays import Floats, Ints
 from ..core.words import said
@@ -72,17 +69,6 @@ def face_set_at(mesh: bpy.types.Mesh, face: int) -> int:
     """Return the number of the face set that a face is in; 0 without face sets."""
     sets = values(mesh, FACE_SET, np.int32)
     return 0 if sets is None else int(sets[face])
-
-
-def edited_face_set_at(mesh: bpy.types.Mesh, origin: Any, direction: Any) -> int:
-    """Return the number of the face set that a ray meets first on a mesh in edit mode; 0 where there is none."""
-    bm = bmesh.from_edit_mesh(mesh)
-    layer = bm.faces.layers.int.get(FACE_SET)
-    face = BVHTree.FromBMesh(bm).ray_cast(origin, direction)[2]
-    if layer is None or face is None:
-        return 0
-    bm.faces.ensure_lookup_table()
-    return int(bm.faces[face][layer])
 
 
 def only_visible_face_set(mesh: bpy.types.Mesh) -> int:

@@ -58,11 +58,6 @@ def select_faces(mesh: bpy.types.Mesh, faces: Ints) -> None:
     bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
-def selected_faces(mesh: bpy.types.Mesh) -> Ints:
-    """Return the selected faces, ascending."""
-    return np.array([face.index for face in bmesh.from_edit_mesh(mesh).faces if face.select], dtype=np.int64)
-
-
 def selected_edges(mesh: bpy.types.Mesh) -> Mask:
     """Return the (e,) mask of the selected edges of a mesh in edit mode."""
     return np.array([edge.select for edge in bmesh.from_edit_mesh(mesh).edges], dtype=bool)

@@ -11,7 +11,7 @@ from ..core.arrays import Floats, Ints, Mask
 from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.words import said
-from .attributes import FACE_SET, SCULPT_MASK, faces_within, values
+from .attributes import SCULPT_MASK, values
 
 
 def group_index(obj: bpy.types.Object | None, name: str, option: str) -> int | None:
@@ -62,7 +62,6 @@ def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | No
     return replace(
         arrays,
         parts=parts_of_the_way(mesh, obj, options),
-        sample=sample_faces(mesh, obj, options),
         free_slopes=_in_group(mesh, obj, options, "position_group"),
         continued=_in_group(mesh, obj, options, "curvature_group"),
         tension=_tension(mesh, obj, options),
@@ -107,41 +106,6 @@ def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options
             raise ValueError("Nothing is masked: paint a mask in sculpt mode, or turn Use Mask off")
         parts *= np.clip(mask, 0.0, 1.0)
     return parts
-
-
-def sample_faces(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Mask | None:
-    """Return the (f,) mask of the visible faces whose skin is copied; None where none is to be.
-
-    obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group, or no such faces.
-    """
-    if not options.copies_detail:
-        return None
-    chosen = faces_of_group(mesh, obj, options.detail_from)
-    sets = values(mesh, FACE_SET, np.int32)
-    if options.detail_face_set and sets is not None:
-        chosen |= sets == options.detail_face_set
-    hidden = np.empty(len(mesh.polygons), dtype=bool)
-    mesh.polygons.foreach_get("hide", hidden)
-    chosen &= ~hidden
-    if not chosen.any():
-        raise ValueError(_no_sample(options))
-    return chosen
-
-
-def faces_of_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, name: str) -> Mask:
-    """Return the (f,) mask of the faces inside the vertex group of *Detail From*; raises ValueError without it."""
-    group = group_index(obj, name, "detail_from")
-    chosen = np.zeros(len(mesh.polygons), dtype=bool)
-    if group is not None:
-        chosen[faces_within(mesh, _group_weights(mesh, group) > 0.0)] = True
-    return chosen
-
-
-def _no_sample(options: FairOptions) -> str:
-    """Say what is missing where no face has a skin to copy."""
-    if options.detail_from:
-        return "Detail From has no visible face: put all vertices of some faces into the group"
-    return f"Detail Face Set: no visible face is in the face set {options.detail_face_set}: choose another number"
 
 
 def _group_weights(mesh: bpy.types.Mesh, group: int) -> Floats:

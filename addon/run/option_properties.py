@@ -8,7 +8,7 @@ from typing import Any
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from ..core.fair_options import FAIR
-from ..core.fill_options import CURVES, DENOISE, FILL, FILLET, TEXTURE
+from ..core.fill_options import CURVES, DENOISE, FILL, FILLET
 from ..core.option_table import Before, Option, Table, from_names_before, names_before, warn_of_names_before
 
 _HIDDEN = {"HIDDEN", "SKIP_SAVE"}
@@ -95,13 +95,6 @@ class DenoiseProperties(_Chosen):
 
     table = DENOISE
     __annotations__ = properties_of(DENOISE)
-
-
-class TextureProperties(_Chosen):
-    """The options of `mesh.fair_texture`."""
-
-    table = TEXTURE
-    __annotations__ = properties_of(TEXTURE)
 
 
 class CurvesProperties(_Chosen):

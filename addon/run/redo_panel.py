@@ -57,17 +57,8 @@ def _draw_group(layout: Any, title: str, shown: list[Option], options: Any, obj:
 def _draw_option(column: Any, option: Option, options: Any, obj: Any) -> None:
     if option.kind == "VERTEX_GROUP" and obj is not None:
         column.prop_search(options, option.name, obj, "vertex_groups")
-    elif option.kind == "FACE_SET":
-        _draw_face_set(column, option, options)
     else:
         column.prop(options, option.name, slider=option.kind == "FACTOR" or option.slider == (-1.0, 1.0))
-
-
-def _draw_face_set(column: Any, option: Option, options: Any) -> None:
-    """A face set is picked in the 3D view: its number says nothing."""
-    column.operator("mesh.fair_pick_skin", text=option.label, icon="EYEDROPPER")
-    if getattr(options, option.name):
-        column.label(text="A face set is picked", icon="FACE_MAPS")
 
 
 def register() -> None:

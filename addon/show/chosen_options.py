@@ -1,7 +1,7 @@
 # mypy: disable-error-code="valid-type"
 """What the last runs had instead of the defaults: shown beside the button, with a cross that resets it.
 
-A click on the button means the defaults; Live and Fair Copy go by the last run.
+A click on the button means the defaults; Live goes by the last run.
 No postponed annotations here: Blender reads them as property definitions.
 """
 
@@ -49,7 +49,7 @@ def draw(layout: Any, context: bpy.types.Context) -> None:
 
 
 class MESH_OT_fair_reset(bpy.types.Operator):
-    """Go back to the default; Live Region and Fair Copy take it, too"""
+    """Go back to the default; Live Region takes it, too"""
 
     bl_idname = "mesh.fair_reset"
     bl_label = "Reset Option"

@@ -1,7 +1,4 @@
-"""Entries of the keymap without a key, which Preferences, Keymap binds.
-
-Recommended: Alt Shift F for the pie menu, Alt Shift B to see the shape before as long as it is held.
-"""
+"""Entries of the keymap without a key, which Preferences, Keymap binds. Recommended: Alt Shift F for the pie menu."""
 
 from __future__ import annotations
 
@@ -9,7 +6,6 @@ from typing import Any
 
 import bpy
 
-from ..run.peek import MESH_OT_fair_peek
 from .menus import VIEW3D_MT_fair_pie
 
 _MODES = (("Mesh", "EMPTY"), ("Sculpt", "EMPTY"), ("Object Mode", "EMPTY"))
@@ -26,8 +22,6 @@ def register() -> None:
         entry = keymap.keymap_items.new("wm.call_menu_pie", "NONE", "PRESS")
         entry.properties.name = VIEW3D_MT_fair_pie.__name__
         _entries.append((keymap, entry))
-        if mode == "Mesh":
-            _entries.append((keymap, keymap.keymap_items.new(MESH_OT_fair_peek.bl_idname, "NONE", "PRESS")))
 
 
 def unregister() -> None:

@@ -6,7 +6,6 @@ from typing import Any
 
 import bpy
 
-from ..follow.copies import OBJECT_OT_fair_copy
 from ..follow.taking import MESH_OT_fair_live_region
 from ..run.compare import MESH_OT_fair_compare
 from ..run.denoise import MESH_OT_fair_denoise
@@ -15,7 +14,6 @@ from ..run.fillet import MESH_OT_fair_fillet
 from ..run.from_curves import MESH_OT_fair_from_curves
 from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
-from ..run.texture import MESH_OT_fair_texture
 
 
 def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
@@ -23,7 +21,6 @@ def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_region.bl_idname)
     menu.layout.operator(MESH_OT_fair_fill.bl_idname)
-    menu.layout.operator(MESH_OT_fair_texture.bl_idname)
 
 
 def draw_edge_menu(menu: Any, _context: bpy.types.Context) -> None:
@@ -65,7 +62,6 @@ def draw_object_menu(menu: Any, context: bpy.types.Context) -> None:
         menu.layout.separator()
         menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Vertex Group").source = "VERTEX_GROUP"
         menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Face Set").source = "FACE_SET"
-        menu.layout.operator(OBJECT_OT_fair_copy.bl_idname)
 
 
 def draw_mask_menu(menu: Any, _context: bpy.types.Context) -> None:

@@ -4,10 +4,8 @@ from typing import Any
 
 import bpy
 
-from ..follow.copies import OBJECT_OT_fair_copies_update, OBJECT_OT_fair_copy
 from ..follow.live import live
 from ..follow.live_operators import (
-    MESH_OT_fair_live_far_side,
     MESH_OT_fair_live_forget,
     MESH_OT_fair_live_select,
 )
@@ -69,7 +67,6 @@ class VIEW3D_PT_fairing_live(SidebarPanel, bpy.types.Panel):
         row.operator(MESH_OT_fair_live_region.bl_idname)
         row.operator(MESH_OT_fair_live_select.bl_idname, text="", icon="RESTRICT_SELECT_OFF")
         row.operator(MESH_OT_fair_live_forget.bl_idname, text="", icon="X")
-        self.layout.operator(MESH_OT_fair_live_far_side.bl_idname)
         column = self.layout.column(align=True)
         for name, session in live.sessions.items():
             column.label(text=name, icon="MESH_DATA", translate=False)
@@ -109,10 +106,6 @@ def _draw_masked(column: Any, context: bpy.types.Context) -> None:
         sources = {"VERTEX_GROUP": "Fair Vertex Group", "LIVE": "Fair Live Region"}
     for source, text in sources.items():
         column.operator(MESH_OT_fair_masked.bl_idname, text=text, icon="MOD_SMOOTH").source = source
-    if context.mode == "OBJECT":
-        column.operator(OBJECT_OT_fair_copy.bl_idname, icon="DUPLICATE")
-        if OBJECT_OT_fair_copies_update.poll(context):
-            column.operator(OBJECT_OT_fair_copies_update.bl_idname, icon="FILE_REFRESH")
 
 
 def _draw_overlay(layout: Any, settings: Any) -> None:

@@ -13,7 +13,6 @@ from scipy.sparse.csgraph import dijkstra
 import fairing
 import joints
 import problems
-import real_meshes
 import scan_regions
 import solids_at_random
 import tubes
@@ -240,16 +239,8 @@ def _pinned(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | N
     )
 
 
-def _sampled(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any] | None:
-    """Its own detail, or that of another place of the mesh."""
-    if rng.random() < 0.5:
-        return _within(patch, 0.1, rng, detail=1.0)
-    name = patch.name.split(":")[0]
-    start = int(rng.integers(len(real_meshes.mesh(name).vertices)))
-    sample = real_meshes.make_patch("sample", name, start, patch.radius)
-    if sample is None or sample.free < 60:
-        return None
-    return _within(patch, 0.1, rng, detail=1.0, detail_from=sample.vertices_in_mesh[sample.triangles])
+def _detailed(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
+    return _within(patch, 0.1, rng, detail=1.0)
 
 
 def _weighted(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
@@ -344,7 +335,7 @@ def _again(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
 KINDS: dict[str, Callable[[RealPatch, np.random.Generator], Callable[[], Any] | None]] = {
     "fill": _filled,
     "pins": _pinned,
-    "detail": _sampled,
+    "detail": _detailed,
     "jagged": _jagged,
     "remesh": _remeshed,
     "feather": _feathered,

@@ -91,11 +91,9 @@ def main() -> None:
             case = cases.sphere(count, 0.25, 21, along_normal=along_normal)
             print(row(case, "normal" if along_normal else "isotropic"), flush=True)
     if arguments.pictures:
-        import elsewhere  # these need Pillow
-        import sheets
+        import sheets  # these need Pillow
 
         sheets.write(arguments.pictures)
-        elsewhere.write(arguments.pictures)
 
 
 if __name__ == "__main__":

@@ -15,9 +15,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 import fairing
 import wire_networks as networks
+from fairing._new_mesh import FromCurvesResult
 
 
-def worst_kink(points: networks.Floats, result: fairing.FromCurvesResult) -> float:
+def worst_kink(points: networks.Floats, result: FromCurvesResult) -> float:
     """The largest angle at a wire between two cells that exceeds what is usual beside it (fairing.visible_join)."""
     all_points = np.concatenate([points, result.vertices])
     sides = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in result.cells])

@@ -34,7 +34,6 @@ struct ComponentData {
     const Triangles& outside;         // around the patches
     bool given_normals;               // by the caller
     const std::vector<char>& faired;  // border vertices that become fair
-    const Triangles& sample;          // whose detail is put on the surface; empty: the old patch's own
 };
 
 // Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.

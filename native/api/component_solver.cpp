@@ -200,12 +200,12 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
     if (!skin_.found()) return answer;
     const Stopwatch watch;
     Points& points = answer.solution.points;
-    if (skin_.keeps_places()) points = relaid(answer.problem, points, skin_.base(), progress.here());
+    points = relaid(answer.problem, points, skin_.base(), progress.here());
     answer.solution.crossings.reset();
     answer.solution.flipped.reset();
     Points base = answer.unit.from_unit(points);
     base.rightCols(outline.points.cols()) = outline.points;
-    answer.dressed = skin_.put_back(data, base, progress.here());
+    answer.dressed = skin_.put_back(data, base);
     if (!answer.dressed->detail.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
     answer.dressed->detail *= options_.asked.detail.share;
     warn_of_folded_detail(patch_, answer.dressed->turned_over, answer.warnings);

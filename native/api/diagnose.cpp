@@ -175,15 +175,13 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
     return false;
 }
 
-void warn_of_missing_detail(SkinOf source, Diagnostics& warnings) {
-    const bool own = source == SkinOf::old_patch;
-    const std::string where = own ? "the old patch" : "the sample";
+void warn_of_missing_detail(Diagnostics& warnings) {
     warnings.push_back(
         {Code::reference_unusable,
-         "triangles of " + where + " have no area, so that no detail can be read off it; it was left out",
+         "triangles of the old patch have no area, so that no detail can be read off it; it was left out",
          {},
          {},
-         {{own ? "old_skin" : "sample_skin", 1.0}}});
+         {{"old_skin", 1.0}}});
 }
 
 void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings) {

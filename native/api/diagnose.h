@@ -15,10 +15,9 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
 // Whether the triangles at some free vertex all lack area (3 × local vertices).
 bool has_collapsed_fan(const Patch& patch, const Points& points);
 
-// Diagnostics of detail: REFERENCE_UNUSABLE, with the figure `old_skin` or `sample_skin`, and FLIPPED_TRIANGLES where
-// it turns triangles over (local numbers).
-enum class SkinOf { old_patch, sample };
-void warn_of_missing_detail(SkinOf source, Diagnostics& warnings);
+// Diagnostics of detail: REFERENCE_UNUSABLE, with the figure `old_skin`, and FLIPPED_TRIANGLES where it turns triangles
+// over (local numbers).
+void warn_of_missing_detail(Diagnostics& warnings);
 void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings);
 
 // D and the largest move, in units of D, at which the solve stops.

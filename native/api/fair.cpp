@@ -10,7 +10,6 @@
 #include "api/prepared_mesh.h"
 #include "api/shape.h"
 #include "base/errors.h"
-#include "base/kept_memory.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
@@ -233,8 +232,7 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
                              reference.value_or(input.vertices),
                              input.outside,
                              input.fixed_normals.has_value(),
-                             prepared->mesh.roles.faired,
-                             input.sample};
+                             prepared->mesh.roles.faired};
     if (preview) preview(first_surfaces(*prepared, data, progress));
     double done = 0.1;  // of the time in a large call; all patches take eight tenths of it
     double total = 0.0;
@@ -256,7 +254,6 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
 
 FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
                 const ProgressCallback& progress, const Preview& preview) {
-    const KeptMemory memory(keeps_memory(input.most_free()));
     std::unique_ptr<PreparedMesh> prepared;
     return run_call(input, reference, CallOptions(options, false), prepared, progress, preview);
 }

@@ -5,7 +5,6 @@
 
 #include "api/memory.h"
 #include "api/prepared_mesh.h"
-#include "base/kept_memory.h"
 
 namespace fairing {
 
@@ -52,7 +51,6 @@ FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normal
     input_.fixed_normals = std::move(fixed_normals);
     input_.fixed_curvatures = std::move(join.curvatures);
     input_.fixed_tensions = std::move(join.tensions);
-    const KeptMemory memory(keeps_memory(input_.most_free()));
     return run_call(input_, reference, *options_, prepared_, progress, preview);
 }
 

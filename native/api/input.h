@@ -24,13 +24,7 @@ struct MeshInput {
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known, ∞: tangent
     Triangles outside = {};                        // around the patches; they stay
     HeldInside held = {};
-    Triangles sample = {};                       // whose detail is put on the surface; empty: the patch's own is
     std::optional<VectorX> fixed_tensions = {};  // at `fixed`, positive; left out: 1
-
-    // Free vertices there are at most: border vertices may not be named.
-    [[nodiscard]] int most_free() const {
-        return static_cast<int>(vertices.cols()) - (fixed ? static_cast<int>(fixed->size()) : 0);
-    }
 };
 
 // What follows from the connectivity and the fixed vertices alone. Border vertices are fixed, given or not.

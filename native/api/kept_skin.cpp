@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "api/diagnose.h"
 #include "base/direction.h"
@@ -12,7 +11,6 @@
 #include "boundary/sided_fits.h"
 #include "detail/low_pass.h"
 #include "geometry/hard_edges.h"
-#include "mesh/pieces.h"
 
 namespace fairing {
 
@@ -55,34 +53,11 @@ bool is_other_side(const Vector3& given, const std::optional<SlopeFit>& outside)
            std::abs(direction(given).dot(outside->normal)) < least;
 }
 
-// The largest piece of the sample with an inside.
-Patch sample_patch(const ComponentData& data) {
-    const CheckedMesh mesh = check_mesh({data.vertices, data.sample, {}, {}});
-    std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
-    std::erase_if(patches, [](const Patch& patch) { return patch.free_count == patch.vertex_count(); });
-    const auto largest = std::max_element(patches.begin(), patches.end(),
-                                          [](const Patch& a, const Patch& b) { return a.free_count < b.free_count; });
-    if (largest == patches.end()) {
-        throw std::invalid_argument("detail_from: the sample has no vertex inside its border, or no border");
-    }
-    return std::move(*largest);
-}
-
 }  // namespace
 
 void KeptSkin::read(const ComponentData& data, double size, const Progress& progress) {
     const Stopwatch watch;
     just_read_.reset();
-    if (data.sample.cols() > 0) {
-        progress.here().report(0.0, "detail");
-        read_sample(data, size, progress);
-    } else {
-        read_own(data, size, progress);
-    }
-    seconds_ += watch.seconds();
-}
-
-void KeptSkin::read_own(const ComponentData& data, double size, const Progress& progress) {
     const Points reference = gather(data.reference, patch_.to_input);
     if (skin_ && reference == read_off_) return;
     progress.here().report(0.0, "detail");
@@ -95,22 +70,9 @@ void KeptSkin::read_own(const ComponentData& data, double size, const Progress& 
         just_read_ = low_pass_outline(data, data.reference);
         skin_ = Skin::read(patch_, {old, unit_.to_unit(just_read_->points)}, wavelength_, progress.here());
     }
-    if (!skin_) warn_of_missing_detail(SkinOf::old_patch, warnings_);
+    if (!skin_) warn_of_missing_detail(warnings_);
     read_off_ = reference;
-}
-
-// In units of the patch's D throughout: both have one scale.
-void KeptSkin::read_sample(const ComponentData& data, double size, const Progress& progress) {
-    unit_ = normalise(gather(data.vertices, fixed_vertices(patch_)));
-    const Patch sample = sample_patch(data);
-    const Points points = unit_.to_unit(gather(data.vertices, sample.to_input));
-    const Points edge = points.rightCols(points.cols() - sample.free_count);
-    const double own = normalise(edge).diameter;
-    wavelength_ = size > 0.0 ? size : own * detail_wavelength(sample, points / own);
-    std::optional<SkinSample> read;
-    if (!has_collapsed_fan(sample, points)) read = sample_of(sample, points, wavelength_, progress.here());
-    if (read) borrowed_ = BorrowedSkin::of(std::move(*read), wavelength_, progress.here());
-    if (!borrowed_) warn_of_missing_detail(SkinOf::sample, warnings_);
+    seconds_ += watch.seconds();
 }
 
 BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const View<Points>& given) const {
@@ -148,18 +110,12 @@ BaseOutline KeptSkin::outline(const ComponentData& data) {
     return read && data.reference == data.vertices ? *read : low_pass_outline(data, data.vertices);
 }
 
-Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const {
+Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base) const {
     const int free = patch_.free_count;
     const auto fixed = fixed_vertices(patch_);
     const Points at_outline =
         gather(data.vertices, fixed) - new_base.rightCols(static_cast<Eigen::Index>(fixed.size()));
     Dressed result{new_base, Points::Zero(3, new_base.cols()), {}};
-    if (borrowed_) {
-        const auto detail =
-            borrowed_->detail_on(patch_, unit_.to_unit(new_base), at_outline / unit_.diameter, progress.here());
-        if (detail) result.detail.leftCols(free) = unit_.diameter * *detail;
-        return result;
-    }
     result.detail.leftCols(free) = unit_.diameter * skin_->detail_on(new_base, at_outline / unit_.diameter);
     Points shown = new_base + result.detail;
     shown.rightCols(at_outline.cols()) += at_outline;

@@ -7,7 +7,6 @@
 
 #include "api/component.h"
 #include "base/progress.h"
-#include "detail/borrowed_skin.h"
 #include "detail/skin.h"
 
 namespace fairing {
@@ -31,33 +30,26 @@ class KeptSkin {
 public:
     explicit KeptSkin(const Patch& patch) : patch_(patch) {}
 
-    // Reads the skin off data.sample where that has triangles, else off data.reference, unless it was read off the same
-    // one. `size`: of FairOptions. Throws Cancelled, what check_mesh throws, std::invalid_argument for a sample without
-    // an inside.
+    // Reads the skin off data.reference, unless it was read off the same one. `size`: of FairOptions. Throws Cancelled.
     void read(const ComponentData& data, double size, const Progress& progress);
     void forget() { skin_.reset(); }
     // False where no detail can be read off; warnings() has the reason.
-    [[nodiscard]] bool found() const { return skin_ || borrowed_; }
-    // Whether the new surface takes over the places of the vertices, too: base() has them.
-    [[nodiscard]] bool keeps_places() const { return skin_ != nullptr; }
+    [[nodiscard]] bool found() const { return skin_ != nullptr; }
     [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
     // Low-passed where triangles lie outside. The caller's normals are kept where they differ from those of the
     // triangles outside.
     [[nodiscard]] BaseOutline outline(const ComponentData& data);
     [[nodiscard]] const Points& base() const { return skin_->base(); }
     // The detail on a new base (3 × local vertices, in the caller's units).
-    [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base, const Progress& progress) const;
+    [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base) const;
     // Seconds spent on reading since the last call of this.
     [[nodiscard]] double take_seconds() { return std::exchange(seconds_, 0.0); }
 
 private:
-    void read_own(const ComponentData& data, double size, const Progress& progress);
-    void read_sample(const ComponentData& data, double size, const Progress& progress);
     [[nodiscard]] BaseOutline low_pass_outline(const ComponentData& data, const View<Points>& given) const;
 
     const Patch& patch_;
-    std::unique_ptr<Skin> skin_;  // one of both
-    std::unique_ptr<BorrowedSkin> borrowed_;
+    std::unique_ptr<Skin> skin_;
     Points read_off_;                       // 3 × local vertices, the caller's
     std::optional<BaseOutline> just_read_;  // data.reference's boundary, until `outline` is asked for
     Normalisation unit_{};                  // of that

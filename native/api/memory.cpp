@@ -9,7 +9,6 @@ namespace {
 
 // Free vertices.
 constexpr int least_checked = 100000;  // a seventh of a gigabyte
-constexpr int least_kept = 500000;     // a tenth off a million, where 250,000 gain nothing
 
 std::string gigabytes(double bytes) {
     std::ostringstream text;
@@ -26,8 +25,6 @@ double memory_estimate(int free_count) {
     constexpr double bytes = 1380.0;  // for each free vertex
     return bytes * free_count;
 }
-
-bool keeps_memory(int most_free) { return most_free >= least_kept; }
 
 std::optional<double> available_memory() {
     std::ifstream report("/proc/meminfo");

@@ -20,9 +20,6 @@ private:
 // Bytes that a solve of so many free vertices takes at its peak, above the arrays given.
 double memory_estimate(int free_count);
 
-// Whether such a call should keep what it frees until it ends (base/kept_memory.h).
-bool keeps_memory(int most_free);
-
 // Bytes that can still be had, swap space included; nothing where the system doesn't report it (all but Linux).
 std::optional<double> available_memory();
 

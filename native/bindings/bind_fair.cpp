@@ -121,9 +121,8 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                      const std::optional<DoubleArray>& fixed_curvatures,
                      const std::optional<DoubleArray>& fixed_tensions, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                     const std::optional<IntArray>& outside, const std::optional<IntArray>& sample,
-                     const Options& options, const PaperOptions& paper, const py::object& callback,
-                     const py::object& preview) {
+                     const std::optional<IntArray>& outside, const Options& options, const PaperOptions& paper,
+                     const py::object& callback, const py::object& preview) {
     PythonRun run(callback);
     MeshInput input{view_points(vertices),
                     to_triangles(IntArray::ensure(triangles)),
@@ -132,7 +131,6 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                     to_optional(fixed_curvatures, to_vector),
                     outside ? to_triangles(*outside) : Triangles(3, 0),
                     {options.creases, options.smooth_curves, options.fair_border},
-                    sample ? to_triangles(*sample) : Triangles(3, 0),
                     to_optional(fixed_tensions, to_vector)};
     const auto m0 = to_optional(reference, view_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
@@ -253,8 +251,8 @@ void bind_fair(py::module_& module) {
              py::arg("fixed_tensions"), py::arg("reference"), py::arg("progress"), py::arg("preview"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("fixed_tensions"), py::arg("reference"),
-               py::arg("neighbours"), py::arg("weights"), py::arg("outside"), py::arg("sample"), py::arg("options"),
-               py::arg("paper"), py::arg("progress"), py::arg("preview"));
+               py::arg("neighbours"), py::arg("weights"), py::arg("outside"), py::arg("options"), py::arg("paper"),
+               py::arg("progress"), py::arg("preview"));
 }
 
 }  // namespace fairing::bindings

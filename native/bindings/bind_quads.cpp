@@ -1,7 +1,6 @@
 #include "api/quad_mesh.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
-#include "quads/candidates.h"
 
 namespace fairing::bindings {
 
@@ -12,18 +11,6 @@ py::array_t<int> from_faces(const std::vector<std::array<int, Corners>>& faces) 
     py::array_t<int> result({static_cast<py::ssize_t>(faces.size()), static_cast<py::ssize_t>(Corners)});
     for (std::size_t k = 0; k < faces.size(); ++k)
         std::copy_n(faces[k].data(), Corners, result.mutable_data() + Corners * k);
-    return result;
-}
-
-py::list patterns_of(const IntArray& faces, const DoubleArray& places, double cells, int count) {
-    HoleBoundary boundary;
-    boundary.places = Eigen::Map<const Eigen::Matrix2Xd>(places.data(), 2, places.shape(0));
-    boundary.cells = cells;
-    py::list result;
-    for (const CandidatePattern& each : patterns_with_corners(boundary, to_indices(faces), count)) {
-        result.append(py::make_tuple(from_faces(each.pattern.quads), from_faces(each.pattern.triangles),
-                                     each.pattern.vertex_count, each.misfit, each.poles, each.least_poles));
-    }
     return result;
 }
 
@@ -52,7 +39,6 @@ py::dict quad_mesh_of(const DoubleArray& vertices, const IntArray& triangles, co
 }  // namespace
 
 void bind_quads(py::module_& module) {
-    module.def("quad_patterns", &patterns_of, py::arg("faces"), py::arg("places"), py::arg("cells"), py::arg("count"));
     module.def("quad_mesh", &quad_mesh_of, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("progress"));
 }

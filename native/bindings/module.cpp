@@ -18,5 +18,4 @@ PYBIND11_MODULE(_core, module) {
     fairing::bindings::bind_outline(module);
     fairing::bindings::bind_quads(module);
     fairing::bindings::bind_shape(module);
-    fairing::bindings::bind_texture(module);
 }

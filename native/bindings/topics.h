@@ -13,6 +13,5 @@ void bind_measure(pybind11::module_& module);
 void bind_outline(pybind11::module_& module);
 void bind_quads(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);
-void bind_texture(pybind11::module_& module);
 
 }  // namespace fairing::bindings

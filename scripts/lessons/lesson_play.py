@@ -31,7 +31,7 @@ class Move(NamedTuple):
 
 
 class Key(NamedTuple):
-    """A key of Blender's own: Tab or A."""
+    """A key of Blender's own: Tab, A, or B with a box around what lies above the selection."""
 
     name: str
 
@@ -55,14 +55,14 @@ def actions(steps: list[Step]) -> list[Run | Move | Key]:
         elif step.name == "G":
             axis, by = rest.pop(0), rest.pop(0)
             found.append(Move(axis.name, float(by.name)))
-        elif step.name in ("Tab", "A"):
+        elif step.name in ("Tab", "A", "B"):
             found.append(Key(step.name))
         elif (label := step.name.split(" ▸ ")[-1]) in known:
             found.append(Run(known[label], {}, {}))
         elif label in ENTRIES:
             operator, given = ENTRIES[label]
             found.append(Run(operator, {}, given))
-        elif step.name != "Enter":
+        elif step.name not in ("Enter", "Alt Z"):
             raise ValueError(f"{step.name!r} is no key, menu or button")
     return found
 
@@ -92,8 +92,21 @@ def play(steps: list[Step]) -> None:
             move(action)
         elif action.name == "Tab":
             bpy.ops.object.editmode_toggle()
+        elif action.name == "B":
+            box_above()
         else:
             bpy.ops.mesh.select_all(action="SELECT")
+
+
+def box_above() -> None:
+    """Select the faces above those selected, as a box does that is drawn around them with X-ray on."""
+    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
+    top = max(vertex.co.z for vertex in bm.verts if vertex.select)
+    above = [face for face in bm.faces if min(vertex.co.z for vertex in face.verts) >= top]
+    bpy.ops.mesh.select_all(action="DESELECT")
+    for face in above:
+        face.select_set(True)
+    bmesh.update_edit_mesh(bpy.context.edit_object.data)
 
 
 def move(action: Move) -> None:

@@ -90,7 +90,7 @@ def read_macho(content: bytes) -> Module:
         image = MachO(file.name)
         (header,) = image.headers
         symbols = SymbolTable(image).nlists
-    shown = set(macos_module.exported(content, header))
+    shown = macos_module.exported(content, header)
     left = sorted(macos_module.names_left_in(symbols, shown))
     faults = [f"{left[:5]}, {len(left)} in all, are left in"] if left else []
     oldest = oldest_macos(header)

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC2034,SC2154,SC2164
-# The golden set (benchmarks/golden.py) by every compiler here, on Windows' Python under wine, on Debian's for ARM under
-# qemu, and by the module for macOS; sourced by scripts/package after checks.sh.
+# The golden set (benchmarks/golden.py) by every compiler here, on Windows' Python under wine and on Debian's for ARM
+# under qemu; sourced by scripts/package after checks.sh.
 
 golden=$build/golden
 wine=/usr/lib/wine/wine64 # Debian's wrapper wants 32-bit wine too
@@ -27,7 +27,6 @@ check_golden() {
         make_arm_python
         solve_golden linux-arm64 in_arm && found+=("$golden/linux-arm64.npz")
     fi
-    if makes macos-x64; then solve_golden_as_on_macos && found+=("$golden/macos-x64.npz"); fi
     say "Golden set: largest distances over D"
     "$python" benchmarks/golden.py compare "${found[@]}"
 }
@@ -103,17 +102,4 @@ make_arm_python() {
 # usage: in_arm ARGUMENT…: of Python
 in_arm() {
     PYTHONPATH=$build/arm/site qemu-aarch64 -L "$build/arm/root" "$build/arm/root/usr/bin/python3.11" "$@"
-}
-
-# The module for macOS on Intel, with this machine's C library for Apple's.
-solve_golden_as_on_macos() {
-    local folder=$build/darwin wheel
-    rm -rf "$folder"
-    mkdir -p "$folder"
-    readarray -t wheel < <(wheels_of macos-x64 3.11)
-    "$python" -m zipfile --extract "${wheel[0]}" "$folder"
-    gcc -O2 -Wall -Wextra -Werror -shared -fPIC scripts/shipping/darwin.c -lm -o "$folder/darwin.so"
-    PYTHONPATH=$folder:$checking/lib/python3.11/site-packages quietly golden-macos-x64 \
-        "$python" scripts/shipping/darwin.py "$folder/darwin.so" "$folder"/fairing/_core.*.so \
-        benchmarks/golden.py solve "$golden/inputs" "$golden/macos-x64.npz"
 }

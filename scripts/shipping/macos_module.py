@@ -34,12 +34,11 @@ def variable_length(content: bytes, at: int) -> tuple[int, int]:
             return value, at
 
 
-def names_in_trie(trie: bytes, node: int = 0, prefix: bytes = b"") -> Iterator[tuple[str, int]]:
-    """Yield name and address of what stands below a node of the export trie, where the system looks for names."""
+def names_in_trie(trie: bytes, node: int = 0, prefix: bytes = b"") -> Iterator[str]:
+    """Yield the names below a node of the export trie, where the system looks for them."""
     size, at = variable_length(trie, node)
     if size:
-        _, place = variable_length(trie, at)
-        yield prefix.decode(), variable_length(trie, place)[0]
+        yield prefix.decode()
     at += size
     children, at = trie[at], at + 1
     for _ in range(children):
@@ -49,10 +48,10 @@ def names_in_trie(trie: bytes, node: int = 0, prefix: bytes = b"") -> Iterator[t
         yield from names_in_trie(trie, child, prefix + edge)
 
 
-def exported(content: bytes, header: MachOHeader) -> dict[str, int]:
-    """Return the names that other modules can find, with their addresses."""
+def exported(content: bytes, header: MachOHeader) -> set[str]:
+    """Return the names that other modules can find."""
     info = command(header, mach_o.LC_DYLD_INFO_ONLY)
-    return dict(names_in_trie(content[info.export_off : info.export_off + info.export_size]))
+    return set(names_in_trie(content[info.export_off : info.export_off + info.export_size]))
 
 
 def binds_weakly(content: bytes, header: MachOHeader) -> bool:

@@ -22,13 +22,12 @@ import moving
 import options
 import rivals
 import sheet
-import textures
 import tools
 from rows import Row, smooth
 
 WIDTH = 1200  # pixels of a sheet at least
 LEAST = 300  # of one picture
-MODULES = (rivals, hard, options, more, textures)
+MODULES = (rivals, hard, options, more)
 SHEETS: dict[str, list[list[Row]]] = {name: lines for module in MODULES for name, lines in module.SHEETS.items()}
 
 

@@ -11,7 +11,7 @@ from PIL import Image
 import demo_pictures as pictures
 import lesson_sheets
 import sheet
-from lesson_play import Move, move
+from lesson_play import Move, box_above, move
 from rows import smooth
 
 SIZE = 600  # pixels of each of two pictures beside each other
@@ -41,7 +41,7 @@ def live(out: Path) -> Iterator[Path]:
     lesson_sheets.begun(lesson)
     bpy.ops.object.mode_set(mode="EDIT")
     bpy.ops.mesh.fair_live_region()
-    bpy.ops.mesh.fair_live_far_side()
+    box_above()
     at = 0.0
     for k in range(FRAMES + 1):
         aim = 0.5 * np.sin(2.0 * np.pi * k / FRAMES)

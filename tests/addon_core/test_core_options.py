@@ -67,8 +67,6 @@ def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
         ({"bulge": 0.1}, {"equation": "CONSTANT"}),
         ({"levels": 1}, {"method": "PAPER"}),
         ({"detail_size": 0.1}, {"detail": 0.5}),
-        ({"detail_from": "Skin"}, {"detail": 0.5}),
-        ({"detail_face_set": 1}, {"detail": 0.5}),
     ],
 )
 def test_what_nothing_looks_at_is_reported(given: dict[str, Any], beside: dict[str, Any]) -> None:

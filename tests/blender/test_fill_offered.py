@@ -50,7 +50,7 @@ def test_it_is_in_the_menus_where_one_looks_for_it() -> None:
     menus = module("show.menus")
     for name, draw in menus.ENTRIES:
         assert draw in getattr(bpy.types, name).draw._draw_funcs, name
-    assert offered("draw_face_menu") == ["mesh.fair_region", "mesh.fair_fill", "mesh.fair_texture"]
+    assert offered("draw_face_menu") == ["mesh.fair_region", "mesh.fair_fill"]
     assert offered("draw_edge_menu") == ["Fair Bridge", "mesh.fair_fill", "mesh.fair_from_curves", "mesh.fair_fillet"]
     assert offered("draw_vertex_menu") == ["mesh.fair_fill"]
     assert offered("draw_clean_up_menu") == ["Fair Fill Holes", "mesh.fair_denoise"]
@@ -66,7 +66,7 @@ def test_it_is_in_the_menus_where_one_looks_for_it() -> None:
 def test_object_mode_offers_it_for_meshes_only() -> None:
     assert offered("draw_object_menu", SimpleNamespace(active_object=None)) == []
     meshes.grid()
-    assert offered("draw_object_menu") == ["Fair Vertex Group", "Fair Face Set", "object.fair_copy"]
+    assert offered("draw_object_menu") == ["Fair Vertex Group", "Fair Face Set"]
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "OBJECT"])

@@ -37,8 +37,6 @@ DEFAULTS = {
     "tension_group": "",
     "use_mask": False,
     "all_keys": False,
-    "detail_from": "",
-    "detail_face_set": 0,
     "pin_group": "",
     "pin_radius": 0.1,
     "pull_locally": False,

@@ -339,25 +339,6 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     assert slowest < 0.6  # of the processor's time, two cores; 0.3 by the clock where nothing else runs
 
 
-def test_far_side_of_a_limb(live: Any) -> None:
-    around, along = 12, 20
-    angle = 2.0 * np.pi * np.arange(around) / around
-    points = [(np.cos(a), np.sin(a), 0.5 * z) for z in range(along + 1) for a in angle]
-    quads = [
-        [around * r + c, around * r + (c + 1) % around, around * (r + 1) + (c + 1) % around, around * (r + 1) + c]
-        for r in range(along)
-        for c in range(around)
-    ]
-    obj = meshes.add(points, quads, "Limb")
-    row = np.arange(len(quads)) // around
-    meshes.enter(obj, (row >= 10) & (row < 15))
-    assert bpy.ops.mesh.fair_live_region() == {"FINISHED"}
-    for low, high in ((15, 20), (0, 10), (15, 20)):
-        assert bpy.ops.mesh.fair_live_far_side() == {"FINISHED"}
-        chosen = [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
-        assert chosen == np.flatnonzero((row >= low) & (row < high)).tolist()
-
-
 def with_keys() -> tuple[bpy.types.Object, Any]:
     """Add a bumpy grid in edit mode with a live region in its Basis, and another key of the very same shape."""
     obj = meshes.grid(16)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 
 import meshes
-from extension import module
 
 NOISE = 0.01
 LIMIT = 0.4  # faces above this height are selected
@@ -85,46 +84,3 @@ def test_undo_takes_the_band_back() -> None:
     bpy.ops.ed.undo()
     assert meshes.contents_in_edit_mode("Grid") == before
     meshes.leave()
-
-
-def with_a_hole() -> tuple[bpy.types.Object, meshes.Mask]:
-    """A rough sphere with a smooth patch; the group "Skin" and the face set 7 are its lower half."""
-    obj = meshes.sphere(48)
-    points = meshes.positions(obj)
-    noise = NOISE * np.random.default_rng(7).normal(size=len(points)) * (points[:, 2] < LIMIT)
-    faces = meshes.faces_where(obj, lambda centre: centre.z > LIMIT)
-    low = points[:, 2] < 0.2
-    meshes.move(obj, points * (1 + noise)[:, None])
-    obj.vertex_groups.new(name="Skin").add(np.flatnonzero(low).tolist(), 1.0, "REPLACE")
-    within = [all(low[v] for v in polygon.vertices) for polygon in obj.data.polygons]
-    sets = obj.data.attributes.new(".sculpt_face_set", "INT", "FACE")
-    sets.data.foreach_set("value", np.where(within, 7, 1).astype(np.int32))
-    return obj, faces
-
-
-def test_a_picked_face_set_gives_its_skin() -> None:
-    """The eyedropper's run: the region of the last one, as if it had been asked for the first time."""
-    asked, faces = with_a_hole()
-    picked, _ = with_a_hole()
-    fair(asked, faces, detail=1.0, detail_face_set=7)
-    meshes.select(picked, faces)
-    meshes.edit(picked)
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
-    assert module("mesh.painted").edited_face_set_at(picked.data, (0, 0, -3), (0, 0, 1)) == 7
-    assert module("mesh.painted").edited_face_set_at(picked.data, (0, 0, 3), (0, 0, -1)) == 1
-    assert module("mesh.painted").edited_face_set_at(picked.data, (0, 0, -3), (0, 0, -1)) == 0
-    assert module("run.pick_skin").run_with_skin_of(bpy.context, 7) == {"FINISHED"}
-    meshes.leave()
-    assert np.array_equal(meshes.positions(picked), meshes.positions(asked))
-
-
-def test_a_filled_hole_takes_the_skin_of_a_group_or_a_face_set() -> None:
-    """Its noise, and no bit of the rest; both name the same faces here."""
-    by_group, faces = with_a_hole()
-    by_set, _ = with_a_hole()
-    free = meshes.free_vertices(by_group, faces)
-    assert np.array_equal(fair(by_group, faces, detail=1.0, detail_from="Skin"), free)
-    assert np.array_equal(fair(by_set, faces, detail=1.0, detail_face_set=7), free)
-    assert np.array_equal(meshes.positions(by_group), meshes.positions(by_set))
-    deep = meshes.positions(by_group)[:, 2] < -0.2
-    assert heights(by_group)[free].std() == pytest.approx(heights(by_group)[deep].std(), rel=0.25)

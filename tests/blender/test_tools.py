@@ -145,30 +145,3 @@ def test_letting_go_accepts_a_fillet_of_the_tool_alone() -> None:
         release = SimpleNamespace(type="LEFTMOUSE", value="RELEASE", ascii="")
         module("run.fillet").MESH_OT_fair_fillet.modal(stand, bpy.context, release)
         assert bool(done) == accepted
-
-
-def test_a_key_shows_the_shape_before_while_it_is_held() -> None:
-    obj, faces = meshes.domed_grid()
-    before = meshes.positions(obj)
-    meshes.select(obj, faces)
-    meshes.edit(obj)
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
-    peek = module("run.peek").MESH_OT_fair_peek
-    manager = SimpleNamespace(modal_handler_add=lambda _operator: None)
-    real = bpy.context
-    context = SimpleNamespace(
-        window_manager=manager, objects_in_mode_unique_data=real.objects_in_mode_unique_data, mode=real.mode
-    )
-    stand = type("Stand", (), {name: vars(peek)[name] for name in ("invoke", "modal", "cancel")})()
-
-    def shown() -> Any:
-        return module("mesh.mesh_io").edit_positions(obj.data)
-
-    fair = shown()
-    assert stand.invoke(context, SimpleNamespace(type="B", value="PRESS")) == {"RUNNING_MODAL"}
-    np.testing.assert_array_equal(shown(), before)
-    assert stand.modal(context, SimpleNamespace(type="MIDDLEMOUSE", value="PRESS")) == {"PASS_THROUGH"}
-    assert stand.modal(context, SimpleNamespace(type="G", value="PRESS")) == {"RUNNING_MODAL"}
-    assert stand.modal(context, SimpleNamespace(type="B", value="RELEASE")) == {"FINISHED"}
-    np.testing.assert_array_equal(shown(), fair)
-    meshes.leave()

@@ -5,7 +5,7 @@ from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
 from fairing._denoise import denoise
-from fairing._edges_through import EdgesThrough, edges_through
+from fairing._edges_through import edges_through
 from fairing._fair import fair
 from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
@@ -14,10 +14,10 @@ from fairing._fillet import fillet
 from fairing._foreign import refuse_foreign as _refuse_foreign
 from fairing._from_curves import surface_from_curves
 from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Surface
-from fairing._growing import GrownOutline, grown_outline
+from fairing._growing import grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
-from fairing._hole_loops import HoleLoops, hole_loops
+from fairing._hole_loops import hole_loops
 from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,
@@ -31,10 +31,8 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FilletResult, FillResult, FromCurvesResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, RemeshResult
 from fairing._outline import (
-    MendedOutline,
-    SurroundingNormals,
     VisibleJoin,
     bad_outline,
     mend_outline,
@@ -46,9 +44,6 @@ from fairing._quads import PairedQuads, paired_quads
 from fairing._remesh import remesh
 from fairing._shape import (
     LIMITS,
-    Flank,
-    Girth,
-    Needles,
     flank,
     girth,
     has_lost_grain,
@@ -61,10 +56,9 @@ from fairing._shape import (
     sunken,
 )
 from fairing._solver import Solver
-from fairing._subdivided import SubdividedEdges, subdivide_edges
-from fairing._texture import GradedMesh, graded_mesh, harmonic_extension, texel_owners, texel_values
+from fairing._subdivided import subdivide_edges
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
-from fairing.objects import Made, fair_faces, fill_holes, fillet_edges
+from fairing.objects import fair_faces, fill_holes, fillet_edges
 
 __all__ = [
     "CODES",
@@ -74,22 +68,12 @@ __all__ = [
     "Cancelled",
     "Curves",
     "Diagnostic",
-    "EdgesThrough",
     "FairEdges",
     "FairResult",
     "FillResult",
     "FilletResult",
-    "Flank",
-    "FromCurvesResult",
-    "Girth",
-    "GradedMesh",
-    "GrownOutline",
-    "HoleLoops",
     "Layout",
-    "Made",
-    "MendedOutline",
     "MeshError",
-    "Needles",
     "Options",
     "PairedQuads",
     "PaperOptions",
@@ -98,9 +82,7 @@ __all__ = [
     "Solver",
     "SolverError",
     "Solving",
-    "SubdividedEdges",
     "Surface",
-    "SurroundingNormals",
     "VisibleJoin",
     "__version__",
     "bad_outline",
@@ -126,10 +108,8 @@ __all__ = [
     "flank",
     "flipped_triangles",
     "girth",
-    "graded_mesh",
     "grown_outline",
     "hard_edges",
-    "harmonic_extension",
     "has_lost_grain",
     "hierarchy",
     "hole_loops",
@@ -150,8 +130,6 @@ __all__ = [
     "sunken",
     "surface_from_curves",
     "surrounding_normals",
-    "texel_owners",
-    "texel_values",
     "vertex_normals",
     "visible_join",
 ]

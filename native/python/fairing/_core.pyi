@@ -45,7 +45,6 @@ class PaperOptions:
 
 _Floats = npt.NDArray[np.float64]
 _Ints = npt.NDArray[np.int32]
-_Flags = npt.NDArray[np.bool_]
 
 class Solver:
     def __init__(
@@ -86,7 +85,6 @@ def fair(
     neighbours: _Ints | None,
     weights: _Floats | None,
     outside: _Ints | None,
-    sample: _Ints | None,
     options: Options,
     paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,
@@ -178,9 +176,6 @@ def fill_loops(
     equation: str,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
-def quad_patterns(
-    faces: _Ints, places: _Floats, cells: float, count: int
-) -> list[tuple[_Ints, _Ints, int, float, int, int]]: ...
 def quad_mesh(
     vertices: _Floats,
     triangles: _Ints,
@@ -203,12 +198,6 @@ def remesh(
 ) -> dict[str, Any]: ...
 def interpolate(vertices: _Floats, triangles: _Ints, fixed: _Ints, values: _Floats) -> _Floats: ...
 def conformal_map(vertices: _Floats, triangles: _Ints, fixed: _Ints, places: _Floats) -> _Floats: ...
-def graded_mesh(
-    vertices: _Floats, triangles: _Ints, chosen: _Flags, finest: float
-) -> tuple[_Floats, _Ints, _Ints, _Floats, _Flags]: ...
-def harmonic_extension(vertices: _Floats, triangles: _Ints, known: _Ints, values: _Floats) -> _Floats: ...
-def texel_owners(corners: _Floats, width: int, height: int) -> tuple[_Ints, int]: ...
-def texel_values(corners: _Floats, values: _Floats, width: int, height: int) -> npt.NDArray[np.float32]: ...
 def expected_count(
     vertices: _Floats,
     triangles: _Ints,

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
 from fairing._adopted import adopted
 from fairing._groups import Boundary, Options, Skin
-from fairing._types import FairResult, FloatArray, IntArray
+from fairing._types import FairResult, FloatArray
 
 Progress = Callable[[float, str], "bool | None"]
 Preview = Callable[[FloatArray], object]
@@ -113,7 +112,6 @@ def solved(
     )  # fmt: skip
     joins = _options.continuity(surface.continuity, surface.equation, solving.method)
     around = _mending.Surroundings.of(points, faces, fixed, boundary.outside)
-    sample = _sample(skin, count, around, fixed)
     tension = _options.tension(boundary, fixed, chosen)
     as_given = _mending.Boundary(points, fixed, normals, tensions=tension)
     if not joins and boundary.curvatures is not None:
@@ -124,30 +122,20 @@ def solved(
     def call(held: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
             held.vertices, faces, held.fixed, held.normals, held.curvatures, held.tensions, m0, edges, rows,
-            around.outside, sample, engine, of_paper, progress, preview,
+            around.outside, engine, of_paper, progress, preview,
         )  # fmt: skip
 
     fitted = _arguments.choice("outline", surface.outline, _options.OUTLINES) == "mended"
     if fitted:
         _mending.refuse_creases(curves.creases, around)
     refused = {
-        "reference": m0 is not None, "outline": fitted, "continuity": joins, "detail_from": sample is not None,
-        "tension": tension is not None,
+        "reference": m0 is not None, "outline": fitted, "continuity": joins, "tension": tension is not None,
     }  # fmt: skip
     fade = _fade(skin, shown, refused, count, threads, progress)
     if fade is not None:
         return FairResult(**_feather.solve_feathered(call, as_given, around, fade))
     answer = _mending.solve_fitted(call, as_given, faces, around) if fitted else call(as_given)
     return FairResult(**_mending.with_join(answer, around))
-
-
-def _sample(skin: Skin, count: int, around: _mending.Surroundings, fixed: IntArray | None) -> IntArray | None:
-    """The triangles whose skin is taken."""
-    sample = _options.sample(skin.detail_from, count, skin.detail)
-    if sample is None:
-        return None
-    held = around.rim if fixed is None else np.union1d(around.rim, fixed)
-    return _options.sample_around(sample, around.inside, held)
 
 
 def _fade(

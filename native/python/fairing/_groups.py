@@ -122,12 +122,6 @@ class Skin:
     """float. Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean
     edges, .45 D at most."""
 
-    detail_from: npt.ArrayLike | None = None
-    """(s, 3) int. Triangles of ``vertices``, a sample: their detail replaces that of an old patch that has none, like a
-    filled hole. Heights are copied from it piece by piece, and meet the boundary's own detail. ``detail_size`` 0 is
-    then twelve mean edges of the sample. Needs ``detail`` above 0; not with ``feather`` or ``weights``. Triangles of
-    the patch itself don't count. Vertices lie as ``inner_fairness`` says."""
-
     feather: float = 0.0
     """float. Width of a band outside the patch in which the change fades out, as a share of D. The join becomes round:
     the base loses all that repeats within less than two widths (D/2 at most) at the old boundary, less on both sides of

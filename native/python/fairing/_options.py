@@ -139,26 +139,6 @@ def load_number(name: str, equation: str, value: Any) -> float:
     return float(value)
 
 
-def sample(value: npt.ArrayLike | None, count: int, detail: Any) -> IntArray | None:
-    """The triangles of ``detail_from``, or None."""
-    if value is None:
-        return None
-    if not _arguments.finite("detail", detail) > 0.0:
-        raise ValueError("detail_from: is accepted with `detail` above 0 only")
-    triangles = _arguments.indices_within("detail_from", _arguments.integers("detail_from", value, 3), count)
-    if not len(triangles):
-        raise ValueError("detail_from: one triangle at least is needed")
-    return triangles
-
-
-def sample_around(sample: IntArray, inside: IntArray, held: IntArray) -> IntArray:
-    """What of the sample has no corner inside the patch but at ``held`` vertices: that skin is to be replaced."""
-    around: IntArray = sample[~np.isin(sample, np.setdiff1d(inside, held)).any(axis=1)]
-    if not len(around):
-        raise ValueError("detail_from: all of the sample lies in the patch itself; name triangles outside it")
-    return around
-
-
 def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:
     """The word for the engine and, for "custom", the rows (i, j, λ)."""
     if isinstance(value, str) or value is None:

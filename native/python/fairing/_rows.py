@@ -15,7 +15,6 @@ from fairing._types import Diagnostic, FloatArray, IntArray, SolverError
 from fairing._watch import Progress
 
 FACES = ("triangles", "quads")
-_NO_PAIRS = np.empty((0, 2), dtype=np.int32)
 
 
 @dataclass(frozen=True)

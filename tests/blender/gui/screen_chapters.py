@@ -298,26 +298,6 @@ def _pull(begin: Any, end: Any, steps: int = 10) -> Story:
     yield 0.5
 
 
-def peeks_while_a_key_is_held() -> Story:
-    """The shape before shows from the press of the key that was bound to its release, and the view can be turned."""
-    yield from _faired_ear()
-    bound = module("show.keymap")._entries
-    (entry,) = [item for _, item in bound if item.idname == "mesh.fair_peek"]
-    entry.type, entry.alt, entry.shift = "B", True, True
-    yield 0.5
-    fair, window = scenes.positions(), view()[0]
-    screenshot("peek_after")
-    window.event_simulate(type="B", value="PRESS", x=middle()[0], y=middle()[1], alt=True, shift=True)
-    yield 4.0
-    screenshot("peek_before")
-    assert np.array_equal(scenes.positions(), scenes.original()), "the key that is held does not show the shape before"
-    for type_ in ("B", "LEFT_ALT", "LEFT_SHIFT"):  # Blender sends the release without what was held with it
-        window.event_simulate(type=type_, value="RELEASE", x=middle()[0], y=middle()[1])
-    yield 1.0
-    assert np.array_equal(scenes.positions(), fair), "the key was let go"
-    entry.type = "NONE"
-
-
 def overlays_are_seen() -> Story:
     """Every look of the overlay with its legend."""
     yield from _faired_ear()
@@ -360,7 +340,6 @@ SCREENS = (
     tools_are_seen,
     lasso_and_paint_fair,
     arrows_pull_the_last_run,
-    peeks_while_a_key_is_held,
     overlays_are_seen,
     preferences_are_seen,
 )

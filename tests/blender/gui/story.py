@@ -28,7 +28,7 @@ from live_chapters import (
     live_begins_in_the_background,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_moves_the_far_side,
+    live_moves_a_neck,
 )
 from long_run_chapters import (
     cancel_a_hopeless_run,
@@ -233,7 +233,7 @@ CHAPTERS = (
     changes_outside_edit_mode_do_not_wait,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_moves_the_far_side,
+    live_moves_a_neck,
     live_begins_in_the_background,
     undo_and_removal_end_a_run,
     undo_and_removal_end_a_search,

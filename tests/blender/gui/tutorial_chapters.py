@@ -62,6 +62,8 @@ def _opened(name: str) -> Story:
 def _done(action: Any) -> Story:
     if isinstance(action, lesson_play.Move):
         yield from _typed("G", action.axis, f"{action.by:g}")
+    elif action == lesson_play.Key("B"):
+        lesson_play.box_above()
     elif isinstance(action, lesson_play.Key):
         press(action.name.upper(), *middle())
         yield 1.0
