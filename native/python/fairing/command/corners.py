@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fairing._types import FloatArray, IntArray
-from fairing.objects.parts import PLACE, Data, Parts, Polygons
+from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
 
 
 def by_vertices(points: FloatArray, faces: Polygons, stores: tuple[Data, Data], at_corners: Data) -> Parts:
@@ -40,10 +40,7 @@ def by_points(parts: Parts) -> tuple[IntArray, IntArray, Data]:
     whole = np.arange(len(parts.points), dtype=np.int32)
     if PLACE not in parts.vertex_data:
         return whole, whole, parts.vertex_data
-    key = np.column_stack([parts.vertex_data[PLACE], parts.points])
-    _, first, number = np.unique(key, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    places, point = first[order].astype(np.int32), np.argsort(order)[number.ravel()].astype(np.int32)
+    places, point = alike(np.column_stack([parts.vertex_data[PLACE], parts.points]))
     others = {name: values for name, values in parts.vertex_data.items() if name != PLACE}
     kept = {name: values[places] for name, values in others.items() if np.array_equal(values[places][point], values)}
     return places, point, kept

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from fairing._types import FloatArray
-from fairing.objects.parts import Data, Parts, Polygons
+from fairing.objects.parts import Data, Parts, Polygons, alike
 
 _ROW = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _SOLID = re.compile(rb"^[ \t]*solid\b[ \t]*([^\r\n]*)", re.MULTILINE | re.IGNORECASE)
@@ -37,11 +37,8 @@ def read(source: Path) -> tuple[Parts, Header]:
         attribute = {"attribute": rows["attribute"].copy()} if rows["attribute"].any() else {}
         return _joined(rows["corners"].reshape(-1, 3).astype(np.float64), attribute), Header(raw[:80])
     starts = [each.start() for each in _SOLID.finditer(raw)]
-    corners = list(_CORNER.finditer(raw))
-    if (
-        len(corners) != 3 * len(re.findall(rb"\bfacet\s+normal\b", raw, re.IGNORECASE))
-        or b"endsolid" not in raw.lower()
-    ):
+    corners, facets = list(_CORNER.finditer(raw)), re.findall(rb"\bfacet\s+normal\b", raw, re.IGNORECASE)
+    if len(corners) != 3 * len(facets) or b"endsolid" not in raw.lower():
         raise ValueError("it has a facet without three corners, or ends too early")
     places = np.array([each.groups() for each in corners], dtype=np.float64)
     solid = np.searchsorted(starts, [each.start() for each in corners[::3]]) - 1
@@ -50,11 +47,8 @@ def read(source: Path) -> tuple[Parts, Header]:
 
 
 def _joined(corners: FloatArray, of_faces: Data) -> Parts:
-    points, first, number = np.unique(corners, axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    return Parts(points[order], Polygons.of(rank[number.ravel()].reshape(-1, 3).astype(np.int32)), {}, of_faces)
+    first, number = alike(corners)
+    return Parts(corners[first], Polygons.of(number.reshape(-1, 3)), {}, of_faces)
 
 
 def write(target: Path, parts: Parts, header: Header | None) -> list[str]:

@@ -17,6 +17,13 @@ Data = dict[str, npt.NDArray[Any]]
 PLACE = "\0place"  # vertex data: the number in its file of a vertex that stands there once for several values
 
 
+def alike(rows: npt.NDArray[Any]) -> tuple[IntArray, IntArray]:
+    """Rows (n, c) that are different, by the first of each in order, and (n,) which of these each row is."""
+    _, first, number = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    order = np.argsort(first)
+    return first[order].astype(np.int32), np.argsort(order)[number.ravel()].astype(np.int32)
+
+
 @dataclass(frozen=True, eq=False)
 class Polygons:
     """Faces with any number of corners."""

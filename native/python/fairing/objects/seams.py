@@ -9,7 +9,7 @@ import numpy as np
 from fairing._new_mesh import FilletResult
 from fairing._types import FloatArray, IntArray
 from fairing.objects.data import is_normal, mixed, mixes, nearest, spread
-from fairing.objects.parts import PLACE, Data, Parts, Polygons
+from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,18 +32,13 @@ class Sides:
             for name, values in parts.vertex_data.items()
             if name != PLACE and not is_normal(name, values) and values.dtype.kind in "biuf"
         ]
-        key = np.column_stack([parts.same[used], *stored])
-        _, first, alike = np.unique(key, axis=0, return_index=True, return_inverse=True)
-        own: IntArray = used[first][alike.ravel()[corners.reshape(-1, 3)]]
+        first, number = alike(np.column_stack([parts.same[used], *stored]))
+        own: IntArray = used[first][number[corners.reshape(-1, 3)]]
         places, times = np.unique(parts.same[used[first]], return_counts=True)
         copies = {v: {int(parts.same[v]): v} for v in used[first].tolist()}
         if (times == 1).all():
-            name = int(used[0])
-            return cls(
-                np.full(len(rim), name),
-                {name: {place: v for each in copies.values() for place, v in each.items()}},
-                own,
-            )
+            every = {place: v for each in copies.values() for place, v in each.items()}
+            return cls(np.zeros(len(rim), np.int64), {0: every}, own)
         middles, seam = parts.points[own].mean(axis=1), parts.points[places[times > 1]]
         away = np.linalg.norm(middles - seam[nearest(middles, seam)], axis=1)
         side = {v: v for v in copies}
