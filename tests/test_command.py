@@ -63,6 +63,9 @@ def test_fair(meshio: Any, tmp_path: Path) -> None:
         target.unlink()
     status, (report,) = report_of(tmp_path, "fair", source, "-o", target, "--sphere", 0, 0, 0, 0.01)
     assert (status, "no face" in report["reason"], target.exists()) == (3, True, False)
+    meshio.Mesh(points[quads[0]], [("quad", [[0, 1, 2, 3]])]).write(source)
+    status, (report,) = report_of(tmp_path, "fair", source, "-o", target, "--sphere", 0, 0, 0, 9)
+    assert (status, report["verdict"], target.exists()) == (3, UNUSABLE, False)  # of one face nothing is free
 
 
 def test_fillet(tmp_path: Path) -> None:

@@ -69,7 +69,7 @@ def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespac
         else:
             made = fillet_edges(parts, **options)
     except MeshError as error:
-        if error.code not in _NOTHING or given.bridge:
+        if error.code not in _NOTHING or given.command != "fill" or given.bridge:
             raise
         if source.suffix.lower() == target.suffix.lower():
             shutil.copyfile(source, target)
