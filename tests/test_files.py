@@ -278,11 +278,12 @@ def test_pieces_that_are_wound_the_other_way_are_turned(tmp_path: Path) -> None:
     assert len(said.elements) == 200
 
 
-def test_triangles_that_name_a_vertex_twice_stop_nothing() -> None:
+def test_triangles_that_are_none_or_there_twice_stop_nothing() -> None:
     points, triangles = holed()
-    odd = np.concatenate([triangles, [[0, 0, 1], [200, 200, 201], [9, 9, 9]]])
+    odd = np.concatenate([triangles, [[0, 0, 1], [200, 200, 201], [9, 9, 9]], np.roll(triangles[7:400:9], 1, axis=1)])
     mesh, result = fairing.fill_holes((points, odd), longest=20)
     assert result.converged and len(result.loops) == 1 and np.array_equal(mesh[1][: len(odd)], odd)
+    assert not result.warnings
 
 
 @pytest.mark.parametrize("begin", range(6))

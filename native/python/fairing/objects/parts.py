@@ -133,9 +133,13 @@ class Parts:
 
     @cached_property
     def sound(self) -> npt.NDArray[np.bool_]:
-        """(t,) whether a triangle has three vertices."""
+        """(t,) whether a triangle has three vertices, and is none that was there before, wound alike."""
         a, b, c = self.triangles.T
         three: npt.NDArray[np.bool_] = (a != b) & (b != c) & (c != a)
+        begin = self.triangles.argmin(axis=1)[:, None]
+        rows = np.take_along_axis(self.triangles, (begin + np.arange(3)) % 3, axis=1)
+        order = np.lexsort(rows.T)
+        three[order[1:][(rows[order[1:]] == rows[order[:-1]]).all(axis=1)]] = False
         return three
 
     def in_triangles(self) -> Parts:
