@@ -11,6 +11,7 @@ import numpy as np
 import fairing
 
 from .across import Loose, Numbering, drawn_edges, marked_edges, within
+from .around import RINGS
 from .arrays import Floats, Ints
 from .border import BorderRefusal
 from .engine import Progress
@@ -19,16 +20,15 @@ from .fill_verdict import Surface, judge
 from .findings import Origin
 from .key_surface import Surroundings
 from .neighbourhood import Neighbourhood
-from .parted import parted, stars_of
 from .passes import numbered_by_pass
 from .quality import join_at
 from .region import MeshArrays, to_local
+from .renumbered import renumbered
 from .sentences import in_mesh_words, sentences
 from .verdict import UNUSABLE, Verdict
 from .words import said
 
-_SMALL = 8  # edges of loops that are filled in one call, as most of them take a fan; see fairing's _hub.py
-_SINGLE = 4  # edges of those that one face closes
+_SEEN = 11  # rings around a hole that the engine looks at: slopes, and what is usual around hard edges
 _TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE", "NO_QUAD_ROWS")
 
 
@@ -51,60 +51,51 @@ class Job:
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
         """Make one surface, over a loop or between several."""
         outline = np.concatenate(loops)
-        local = self.local(outline, self._drawn(outline))
+        local = self._local(outline, _SEEN)
         with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
-            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1, self.options.quads)
-        return self._made(local, loops, result)
+            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1)
+        return self._made(loops, result, local.vertices)
 
-    def small(self, groups: list[list[Ints]]) -> dict[int, Piece]:
-        """Make those over small loops in one call, by the groups' numbers; none where anything is wrong with one."""
-        loops = {k: group[0] for k, group in enumerate(groups) if len(group) == 1}
-        most = _SINGLE if self.options.quads else _SMALL
-        few = [k for k, loop in loops.items() if len(loop) <= most and len(np.unique(loop)) == len(loop)]
-        few = [k for k in few if not len(self._drawn(loops[k]))]
-        if self.options.bridge or self.options.spacing != 1.0 or len(few) < 2:
+    def together(self, groups: list[list[Ints]], progress: Progress | None) -> dict[int, Piece]:
+        """Make those over lone loops in one call, by the groups' numbers; none of one that has no surface."""
+        lone = {k: group[0] for k, group in enumerate(groups) if len(group) == 1}
+        if self.options.bridge or self.options.spacing != 1.0 or len(lone) < 2:
             return {}
-        chosen = [loops[k] for k in few]
-        whole = self.local(np.unique(np.concatenate(chosen)), _no_edges())
+        local = self._local(np.concatenate(list(lone.values())), _SEEN)
         try:
-            result = self.filled(whole, chosen, None)
+            result = self.filled(local, list(lone.values()), progress, False)
         except (fairing.MeshError, fairing.SolverError):
             return {}  # each by itself tells why
-        made, stars = {}, stars_of(result)
-        for k, loop in zip(few, chosen, strict=True):
-            local = self.local(loop, _no_edges())
-            own = parted(result, stars, whole.numbers(loop), (whole.vertices, local.vertices))
-            if own is not None:
-                made[k] = self._made(local, [loop], own)
-        return made
+        found = {frozenset(hole.loops[0].tolist()): hole.surface for hole in result.holes}
+        surfaces = {k: found.get(frozenset(local.numbers(loop).tolist())) for k, loop in lone.items()}
+        return {k: self._made([lone[k]], own, local.vertices) for k, own in surfaces.items() if own is not None}
 
-    def _drawn(self, outline: Ints) -> Ints:
-        """Return the (w, 2) edges that are drawn across a hole."""
+    def _local(self, outline: Ints, rings: int = RINGS) -> Local:
+        """Return what is around an outline, with edges that are drawn across."""
         runs_on = self.options.hard_edges == "RUN_ON" and not self.options.bridge
-        return drawn_edges(self.loose, outline) if runs_on and len(self.loose.edges) else _no_edges()
-
-    def local(self, outline: Ints, drawn: Ints | None = None) -> Local:
-        drawn = _no_edges() if drawn is None else drawn
-        around = self.near.around(np.unique(outline))
+        drawn = drawn_edges(self.loose, outline) if runs_on and len(self.loose.edges) else _no_edges()
+        around = self.near.around(np.unique(outline), rings)
         vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
         return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
 
-    def filled(
-        self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool = False, quads: bool = False
-    ) -> fairing.FillResult:
+    def filled(self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool) -> fairing.FillResult:
         options = self.options
         surface = fairing.Surface(options.equation.lower(), continuity="G2" if options.joins_curvature else "G1")
         return fairing.fill(
             self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
             fairing.Options(surface), bridge=bridge,
             spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
-            faces="quads" if quads else "triangles", max_vertices=options.max_vertices,
+            faces="quads" if options.quads else "triangles", max_vertices=options.max_vertices,
             edges=options.hard_edges.lower(), wires=local.drawn,
             marked=within(marked_edges(self.world), local.vertices), progress=progress,
         )  # fmt: skip
 
-    def _made(self, local: Local, loops: list[Ints], result: fairing.FillResult) -> Piece:
-        world, vertices, around, outline = self.world, local.vertices, local.around, np.concatenate(loops)
+    def _made(self, loops: list[Ints], found: fairing.FillResult, named: Ints) -> Piece:
+        """named: the mesh vertices that the engine was given."""
+        world, outline = self.world, np.concatenate(loops)
+        local = self._local(outline)
+        vertices, around = local.vertices, local.around
+        result = renumbered(found, named, vertices)
         number = Numbering.made(outline, vertices, result)
         given = [local.numbers(loop) for loop in loops]
         triangles = numbered_by_pass(number.of[result.triangles], result.triangles.astype(np.int64), given)

@@ -33,10 +33,10 @@ def fill(
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         job = Job.of(mesh, matrix, options)
     groups = _groups(job.world, loops, options)
-    made = job.small(groups)
+    made = job.together(groups, progress)
     pieces, errors, left = [], [], []
     for i, group in enumerate(groups):
-        part = sub_range(progress, i / len(groups), (i + 1) / len(groups))
+        part = sub_range(progress, max(i, len(made)) / len(groups), max(i + 1, len(made)) / len(groups))
         try:
             pieces.append(made[i] if i in made else job.piece(group, part))
         except (ValueError, fairing.SolverError) as error:

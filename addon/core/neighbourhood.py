@@ -20,10 +20,10 @@ class Neighbourhood:
         self._ends = np.cumsum(counts)
         self._begins = self._ends - counts
 
-    def around(self, vertices: Ints) -> Ints:
-        """Return the (o, 3) triangles within RINGS steps of the vertices, in the order of the mesh."""
+    def around(self, vertices: Ints, rings: int = RINGS) -> Ints:
+        """Return the (o, 3) triangles within so many steps of the vertices, in the order of the mesh."""
         rows = self._at(vertices)
-        for _ in range(RINGS - 1):
+        for _ in range(rings - 1):
             rows = self._at(np.unique(self._triangles[rows]))
         found: Ints = self._triangles[rows]
         return found

@@ -10,7 +10,7 @@ import numpy as np
 
 import fairing
 import measures
-from fairing import _chosen, _run_on, _short_edges
+from fairing import _core, _run_on
 from problems import Problem
 
 REFUSED = 1.0  # of the size: the distance that a refusal counts
@@ -22,9 +22,8 @@ class _Hole:
     """A hole, and what the engine says about its surroundings."""
 
     edges: _run_on.Edges
-    outline: Any
-    normals: np.ndarray
-    mesh: Answer
+    holes: _core.Holes
+    vertices: np.ndarray
 
 
 class Answers:
@@ -51,12 +50,11 @@ class Answers:
         if not isinstance(self._around, _Hole):
             return bytes(self._around)
         hole = self._around
-        try:
-            curves = hole.edges.run_on(hole.outline, hole.normals, hole.mesh, (0.0, False))
-        except (ValueError, fairing.SolverError) as error:  # ends that no curve joins
-            return str(error).encode()
-        cuts = [array for cut in curves.cut if cut is not None for array in cut.loops]
-        return _hashed([hole.normals, curves.points, curves.rims, curves.rows, *curves.curves, *cuts])
+        ((normals, _),) = hole.holes.slopes(0.0)
+        (curves,) = hole.edges.through(hole.holes, hole.vertices, (0.0, False))
+        if not isinstance(curves, _run_on.Curves):
+            return _hashed([normals]) + str(curves).encode()
+        return _hashed([normals, curves.added, curves.rims, curves.rows, *curves.curves, *curves.cut.loops])
 
     def _found_around(self) -> Any:
         """What the engine decides: normals and sides of a selection, as bytes; hard edges and normals of a hole."""
@@ -66,13 +64,12 @@ class Answers:
             return _hashed([found.normals, found.from_inside])
         vertices, around = np.ascontiguousarray(problem.vertices), np.ascontiguousarray(problem.outside, np.int32)
         edges = _run_on.Edges.of((vertices, around), ("run_on", None, None), False)
-        wanted = _chosen.Wanted([loop_of(problem)], None, None, False, 0, 0.0, edges.hard)
+        named = [loop_of(problem)], [], [], np.empty((0, 3)), np.empty(0), 0, 0.0
         try:
-            chosen = _chosen.chosen_loops(vertices, around, wanted)
+            holes = _core.Holes(vertices, around, edges.hard, named, False, 1)
         except fairing.MeshError as error:
             return str(error).encode()
-        normals = _short_edges.with_shared_normals(chosen.outline, vertices, chosen.normals)
-        return _Hole(edges, chosen.outline, normals, (vertices, around))
+        return _Hole(edges, holes, vertices)
 
     def _measured(self) -> float:
         try:

@@ -1,50 +1,51 @@
-// Surfaces over holes and between loops, and new meshes for existing surfaces.
+// Surfaces over the holes of a mesh, and between boundary loops. Each is a job of its own: what comes out does not
+// depend on which others are filled, nor on the number of threads.
 #pragma once
 
+#include <optional>
+
 #include "api/fair.h"
+#include "api/holes.h"
 #include "fill/edge_lengths.h"
-#include "geometry/hard_edges.h"
 
 namespace fairing {
 
-// Closed loops of vertices, the new surface on their left, with a unit normal for each vertex.
-struct OpenLoops {
-    Points vertices;
-    std::vector<Indices> loops;
-    std::vector<Points> normals;  // 3 × size of each loop
+struct FillOptions {
+    FairOptions fair;              // creases and smooth curves are named in `held`
+    HeldInside held = {};          // vertices of the boundary
+    bool joins_curvature = false;  // G2: the curvature around goes on, too
+    bool bridge = false;           // one surface joins all loops
+    bool in_rows = false;          // quads in rows, each as two triangles
+    double spacing = 0.0;          // of new edges away from the boundary; 0: as long as its own
+    Spread spread = Spread::outline;
+    int max_vertices = 0;  // more are refused; 0: 20 times as many as over a flat surface, or 50,000, 4,000,000 at most
 };
 
-// A triangle mesh whose first vertices are the caller's, all of them; then come new ones.
-struct NewSurface {
-    Points vertices;  // the new ones
-    Triangles triangles;
-    bool converged = true;                         // whether each is the equation's surface,
-    Provenance provenance = Provenance::equation;  // where each comes from; `equation` where they differ
+// Curves that run through a hole, as creases of a surface of least variation. Numbers from the mesh's count on are
+// those of `added`.
+struct CurvesThrough {
+    Points added;
+    std::vector<Indices> loops;  // the hole's loop, cut along the curves, the surface on the left
+    std::vector<Points> normals;
+    Indices creases;    // all vertices of curves
+    VertexPairs edges;  // that no quad runs across
 };
 
-// One surface over all loops, or one over each. The mesh is coarse (some 300 new vertices each), an initial surface for
-// `remesh` and `fair`. Throws SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined.
-// Preconditions: finite vertices, loops of three vertices or more that don't touch.
-NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& options,
-                      const ProgressCallback& progress);
-
-struct NewMesh {
-    Points vertices;      // new ones
-    Points normals;       // of the surface there, unit
-    Triangles triangles;  // numbers below the count of old vertices are those, the others new ones
-    Indices triangle;     // of the old mesh, for each new vertex,
-    Points weights;       // and its barycentric coordinates there
-    Indices old;          // the old vertex that it is, one at a kept edge, or `none`
+struct FilledHole {
+    std::vector<Indices> loops;                   // vertices of the mesh, the surface on the left
+    std::optional<Diagnostic> left_because = {};  // why it stays open: nothing of what follows is set then
+    Points vertices = {};                         // the new ones, those on curves first,
+    Triangles triangles = {};                     // numbered behind all vertices of the mesh
+    FairResult report = {};  // `vertices` and `base` are empty; elements of warnings are numbered likewise
+    bool is_cut = false;     // from another mesh's surface
+    bool along_curves = false;
+    std::optional<VertexPairs> pairs = {};  // `in_rows`: the triangles of each quad
 };
 
-// A new mesh for the surface of the old one, whose fixed and border vertices stay, and the edges `kept` with the
-// vertices there. Vertices lie on curved triangles (geometry/target_surface) over the old ones. `wanted.least_count`
-// holds for each component. Components without free vertices stay as they are. Throws what check_mesh throws, and
-// NO_FREE_VERTICES.
-NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLengths& wanted, int threads,
-               const ProgressCallback& progress);
-
-// About how many vertices that mesh would have.
-double expected_remesh_count(const MeshInput& input, const WantedLengths& wanted);
+// In the order of the holes. `through`: for each hole, or empty. Throws the first reason where none can be filled;
+// Cancelled, MemoryShortage, std::invalid_argument.
+std::vector<FilledHole> fill(const HoledMesh& mesh, const std::vector<Hole>& holes,
+                             const std::vector<std::optional<CurvesThrough>>& through, const FillOptions& options,
+                             const ProgressCallback& progress);
 
 }  // namespace fairing

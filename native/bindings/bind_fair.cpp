@@ -2,6 +2,7 @@
 
 #include "api/fair_solver.h"
 #include "base/errors.h"
+#include "bindings/fair_options.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
@@ -18,6 +19,18 @@ std::string equation_of(const FairResult& result) {
     if (result.provenance == Provenance::first_surface) return "bilaplacian";
     return equation_words.word(result.equation);
 }
+
+// Rows (i, j, λ).
+std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
+    std::vector<DirectedWeight> result;
+    result.reserve(static_cast<std::size_t>(rows.shape(0)));
+    for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
+        result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
+    }
+    return result;
+}
+
+}  // namespace
 
 py::dict to_dict(const FairResult& result) {
     py::list warnings;
@@ -49,42 +62,6 @@ py::dict to_dict(const FairResult& result) {
     return dict;
 }
 
-struct Options {
-    std::string equation;
-    std::string otherwise;
-    double load;
-    double bulge;
-    std::string inner_fairness;
-    std::string method;
-    std::string normals;
-    double tolerance;
-    int max_iterations;
-    int threads;
-    double detail;
-    double detail_size;
-    std::string start;
-    Indices creases;
-    Indices smooth_curves;
-    bool fair_border;
-    double pin_radius;
-};
-
-// Rows (i, j, λ).
-std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
-    std::vector<DirectedWeight> result;
-    result.reserve(static_cast<std::size_t>(rows.shape(0)));
-    for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
-        result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
-    }
-    return result;
-}
-
-// Inner fairness that is given by arrays.
-struct FairnessArrays {
-    std::optional<IntArray> neighbours;
-    std::optional<DoubleArray> weights;
-};
-
 FairOptions to_fair_options(const Options& options, const PaperOptions& paper, const FairnessArrays& fairness) {
     FairOptions result;
     result.paper = paper;
@@ -110,6 +87,8 @@ FairOptions to_fair_options(const Options& options, const PaperOptions& paper, c
     }
     return result;
 }
+
+namespace {
 
 Preview shown_by(PythonRun& run, const py::object& preview) {
     if (preview.is_none()) return {};

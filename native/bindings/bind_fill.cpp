@@ -1,7 +1,8 @@
 #include <algorithm>
 
-#include "api/fill.h"
+#include "api/coarse_surface.h"
 #include "api/interpolate.h"
+#include "api/remesh.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <string>
 
+#include "api/coarse_surface.h"
 #include "api/fair_solver.h"
-#include "api/fill.h"
 #include "api/soft_base.h"
 #include "base/errors.h"
 #include "base/parallel.h"

@@ -1,6 +1,5 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
-from fairing._borders import expected_vertices, outer_borders
 from fairing._boundary_normals import BoundaryNormals, boundary_normals
 from fairing._conformal_map import conformal_map
 from fairing._core import __version__
@@ -17,7 +16,7 @@ from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Su
 from fairing._growing import grown_outline
 from fairing._hard_edges import hard_edges
 from fairing._hierarchy import hierarchy
-from fairing._hole_loops import hole_loops
+from fairing._holes import expected_vertices, hole_loops, outer_borders
 from fairing._interpolate import interpolate
 from fairing._measure import (
     boundary_loops,

@@ -213,3 +213,10 @@ def whole(name: str, value: Any, smallest: int, largest: int | None = None) -> i
     if not smallest <= value <= (_INT32.max if largest is None else largest):
         raise ValueError(f"{name}: {value} is not accepted; accepted is {bounds}")
     return int(value)
+
+
+def listed(indices: IntArray) -> str:
+    """A few vertices in words."""
+    shown = ", ".join(str(index) for index in indices[:5])
+    more = f" and {len(indices) - 5} more" if len(indices) > 5 else ""
+    return f"vertex {shown}" if len(indices) == 1 else f"vertices {shown}{more}"

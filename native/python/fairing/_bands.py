@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from fairing._edge_ends import EdgeEnd
 from fairing._types import FloatArray, IntArray
@@ -44,6 +46,21 @@ def bands_at(loop: IntArray, vertices: FloatArray, normals: FloatArray) -> list[
         band = _band(run, points, normals, turns, len(found))
         if band is not None:
             found.append(band)
+    return found
+
+
+def may_have_bands(loops: Sequence[FloatArray], normals: Sequence[FloatArray]) -> npt.NDArray[np.bool_]:
+    """(l,) loops (k, 3) that turn by far more at some edges than at others: bands come to no other ones."""
+    first = np.cumsum([0, *map(len, loops)])[:-1]
+    points, slopes = np.concatenate(loops), np.concatenate(normals)
+    after = np.arange(1, len(points) + 1)
+    after[np.append(first[1:], len(points)) - 1] = first
+    turns = 2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(slopes[after] - slopes, axis=1), 0.0, 1.0))
+    bend = turns / np.maximum(np.linalg.norm(points[after] - points, axis=1), _TINY)
+    extents = np.maximum.reduceat(points, first) - np.minimum.reduceat(points, first)
+    sizes = _NARROW * np.linalg.norm(extents, axis=1)
+    limits = np.radians(_LEAST_TURN) / np.maximum(sizes, _TINY)
+    found: npt.NDArray[np.bool_] = np.maximum.reduceat(bend, first) > limits
     return found
 
 

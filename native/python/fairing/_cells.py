@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fairing._loops import listed
+from fairing._arguments import listed
 from fairing._network import Network, carried, parts, refuse
 from fairing._types import FloatArray, IntArray
 

@@ -4,6 +4,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from fairing._types import Diagnostic
+
 __version__: str
 CODES: tuple[str, ...]
 WORDS: dict[str, tuple[str, ...]]
@@ -176,6 +178,40 @@ def fill_loops(
     equation: str,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
+
+_Through = tuple[_Floats, list[_Ints], list[_Floats], _Ints, _Ints]
+
+class Holes:
+    def __init__(
+        self,
+        vertices: _Floats,
+        triangles: _Ints,
+        hard: _Ints,
+        named: tuple[list[_Ints], list[_Floats], list[_Floats], _Floats, _Floats, int, float],
+        bridge: bool,
+        threads: int,
+    ) -> None: ...
+    @property
+    def loops(self) -> list[list[_Ints]]: ...
+    def slopes(self, spacing: float) -> list[tuple[_Floats, bool]]: ...
+    @property
+    def left(self) -> list[tuple[_Ints, Diagnostic, bool]]: ...
+    @property
+    def outer(self) -> Diagnostic | None: ...
+    def around(self, hole: int) -> tuple[_Ints, _Ints]: ...
+    def fill(
+        self,
+        through: list[_Through | None],
+        wishes: tuple[bool, bool, bool, float, bool, int],
+        options: tuple[Options, PaperOptions],
+        progress: Callable[[float, str], bool | None] | None,
+    ) -> list[tuple[list[_Ints], dict[str, Any] | Diagnostic]]: ...
+
+def hole_loops(vertices: _Floats, triangles: _Ints, border: _Ints | None) -> tuple[list[_Ints], list[_Ints]]: ...
+def outer_borders(vertices: _Floats, triangles: _Ints, loops: list[_Ints]) -> list[bool]: ...
+def expected_fill(vertices: _Floats, triangles: _Ints, loops: list[_Ints], bridge: bool, spacing: float) -> float: ...
+def crossing_edges(edges: _Ints, vertices: _Floats) -> _Ints: ...
+def touching_edges(edges: _Ints, vertices: _Floats) -> tuple[_Ints, _Ints]: ...
 def quad_mesh(
     vertices: _Floats,
     triangles: _Ints,

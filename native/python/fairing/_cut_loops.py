@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fairing._loops import Outline
 from fairing._types import FloatArray, IntArray
 
 
@@ -124,10 +123,3 @@ def outside_normals(loop: IntArray, vertices: FloatArray, triangles: IntArray) -
                     normal = np.cross(q - p, r - p)
                     result[at] = normal / max(float(np.linalg.norm(normal)), 1e-300)
     return result
-
-
-def outline_of(cuts: Sequence[CutOutline]) -> tuple[Outline, FloatArray]:
-    """All of them with their normals (Σ k, 3)."""
-    loops = tuple(loop for each in cuts for loop in each.loops)
-    normals = np.concatenate([rows for each in cuts for rows in each.normals])
-    return Outline(loops, (False,) * len(loops), (False,) * len(loops)), normals

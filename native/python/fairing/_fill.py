@@ -7,18 +7,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import (
-    _arguments,
-    _run_on,
-)
+from fairing import _arguments, _core, _options, _paper, _run_on
 from fairing._adopted import taken
-from fairing._chosen import Wanted, blamed, chosen_loops, fillable
-from fairing._fill_task import Task
+from fairing._filled import Surfaces
 from fairing._groups import Options
-from fairing._new_mesh import FillResult, read_only
+from fairing._holes import given_loops
+from fairing._new_mesh import FillResult
 from fairing._patch import refuse_made_here, spacing_of
-from fairing._rows import FACES, quads_of
-from fairing._types import MeshError
+from fairing._rows import FACES
+from fairing._types import FloatArray, IntArray
 from fairing._watch import Progress
 
 
@@ -48,8 +45,9 @@ def fill(
 
     The surface does not depend on ``spacing``: it is solved on a mesh that is fine enough, and a coarser mesh is cut
     from it. A loop of three or four edges that are no longer than the new ones is closed by one face. Vertices and
-    edges given stay as they are. Each loop is filled by itself: one that can't be is left open, and
-    ``result.left_because`` says why. No argument is ever changed.
+    edges given stay as they are. Each loop is filled by itself, all at once, as if it were the only one:
+    ``result.holes`` has each with its own report. One that can't be filled is left open, and says why. No argument is
+    ever changed.
 
     Parameters
     ----------
@@ -123,53 +121,80 @@ def fill(
     given = taken("fill", options, before, threads)
     points = _arguments.floats("vertices", vertices)
     around = _arguments.triangles_within(triangles, len(points))
-    limit = _arguments.whole("longest", longest, 0)
     length = spacing_of(spacing, inner)
     refuse_made_here(given, progress)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     if _arguments.finite("longest_length", longest_length) < 0:
         raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
-    if fixed_curvatures is not None and given.get("continuity", "G1") != "G2":
+    joins = given.get("continuity", "G1") == "G2"
+    if fixed_curvatures is not None and not joins:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
-    finite = np.isfinite(points).all(axis=1)
-    known = around if finite.all() else around[finite[around].all(axis=1)]
-    broken = _run_on.Edges.of((points, known), (edges, wires, marked), bool(bridge))
-    wanted = Wanted(loops, normals, fixed_curvatures, bool(bridge), limit, float(longest_length), broken.hard)
-    chosen = chosen_loops(points, around, wanted)
+    engine = _engine_options(given)
     in_rows = _arguments.choice("faces", faces, FACES) == "quads"
-    task = Task(points, known, bool(bridge), length, max_vertices, broken, given, _rising(progress), in_rows)
-    while True:
-        try:
-            values = task.filled(chosen)
-            break
-        except MeshError as error:
-            if bridge or len(chosen.outline.loops) == 1:
-                raise
-            less = blamed(chosen, error) or fillable(chosen, task.filled)
-            if less is chosen:
-                raise
-            chosen = less
-    values["warnings"] += chosen.warnings
-    pairs = values.pop("pairs", None)
-    return FillResult(
-        **values,
-        quads=None if pairs is None else quads_of(values["triangles"], pairs),
-        loops=tuple(read_only(loop) for loop in chosen.outline.loops),
-        left_open=tuple(read_only(each.loop) for each in chosen.left),
-        left_because=tuple(each.reason for each in chosen.left),
-    )
+    most = _arguments.whole("max_vertices", max_vertices, 0)
+    edges_around = _run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))
+    named = given_loops(loops, len(points)) if loops is not None else []
+    limits = _arguments.whole("longest", longest, 0), float(longest_length)
+    rows = _rows(normals, fixed_curvatures, named, len(points))
+    team = _arguments.whole("threads", threads, 0)
+    holes = _core.Holes(points, around, edges_around.hard, (named, *rows, *limits), bool(bridge), team)
+    curves = edges_around.through(holes, points, (length.length, length.even))
+    through = [each.for_engine if isinstance(each, _run_on.Curves) else None for each in curves]
+    wishes = bool(bridge), in_rows, joins, length.length, length.even, most
+    filled = holes.fill(through, wishes, engine, progress)
+    return Surfaces(len(points), filled, holes, curves).joined()
 
 
-def _rising(progress: Progress | None) -> Progress | None:
-    """The callback, which never hears less than before: some loops are filled after others, or once more."""
-    if progress is None:
-        return None
-    most = 0.0
+def _engine_options(given: dict[str, Any]) -> tuple[_core.Options, _core.PaperOptions]:
+    chosen = Options().changed(**{name: value for name, value in given.items() if name != "threads"})
+    surface, solving = chosen.surface, chosen.solving
+    if vars(chosen.skin).keys() & given.keys():
+        raise ValueError("detail, feather and weights: not accepted here, where there is no skin yet")
+    word = chosen.layout.inner_fairness
+    kind, weights = _options.inner_fairness("conformal" if word is None else word, 0)
+    if weights is not None:
+        raise ValueError("inner_fairness: rows of weights are not accepted here, where the mesh is made by this call")
+    engine = _options.engine_options(
+        equation=surface.equation, otherwise=surface.otherwise, load=surface.load, bulge=surface.bulge, fairness=kind,
+        method=solving.method, normals=solving.normals, tolerance=solving.tolerance,
+        max_iterations=solving.max_iterations, threads=given.get("threads", 0), detail=0.0, detail_size=0.0,
+        **vars(chosen.curves),
+    )  # fmt: skip
+    return engine, _paper.engine_options(solving.method, solving.levels, solving.paper)
 
-    def reported(fraction: float, stage: str) -> bool | None:
-        nonlocal most
-        most = max(most, fraction)
-        return progress(most, stage)
 
-    return reported
+Rows = tuple[list[FloatArray], list[FloatArray], FloatArray, FloatArray]
+
+
+def _rows(normals: Any, curvatures: Any, loops: list[IntArray], count: int) -> Rows:
+    """Normals and curvatures by loops, and by the mesh's vertices; what is not given is empty."""
+    of_loops, of_vertices = _split(normals, "normals", 2, loops, count)
+    bends, bends_of_vertices = _split(curvatures, "fixed_curvatures", 1, loops, count)
+    return (
+        [_arguments.floats("normals", each) for each in of_loops],
+        [_arguments.curvatures(each, np.arange(len(each), dtype=np.int32)) for each in bends],
+        np.empty((0, 3)) if of_vertices is None else _arguments.floats("normals", of_vertices),
+        np.empty(0)
+        if bends_of_vertices is None
+        else _arguments.curvatures(bends_of_vertices, np.arange(count, dtype=np.int32)),
+    )  # fmt: skip
+
+
+def _split(values: Any, name: str, dimensions: int, loops: list[IntArray], count: int) -> tuple[list[Any], Any]:
+    """The rows of each loop, or those of all vertices; None where there are none of these."""
+    if values is None:
+        return [], None
+    sizes = [len(loop) for loop in loops]
+    if isinstance(values, (list, tuple)) and len(values) and np.ndim(values[0]) == dimensions:
+        rows, by_loop = np.concatenate([np.asarray(each) for each in values]), True
+    else:
+        rows, by_loop = np.asarray(values), False
+    if len(rows) == count and not by_loop:
+        return [], rows
+    if len(rows) != sum(sizes) or not sizes:
+        needed = f"{count} rows, one for each vertex of the mesh"
+        if sizes:
+            needed = f"{sum(sizes)} rows, one for each vertex of the loops, or {needed}"
+        raise ValueError(f"{name}: {needed}, are needed, not {len(rows)}")
+    return np.split(rows, np.cumsum(sizes)[:-1]), None

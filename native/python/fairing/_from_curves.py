@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _crossings, _options
+from fairing import _arguments, _core, _options
+from fairing._arguments import listed
 from fairing._cells import Cells, cells_of
 from fairing._denoise import edges_around
 from fairing._fair import solved
 from fairing._groups import Boundary, Options
-from fairing._loops import listed
 from fairing._measure import edges_with_uses, self_intersections
 from fairing._network import refuse
 from fairing._new_mesh import FromCurvesResult, read_only, report_fields
@@ -220,11 +220,11 @@ def _check(wires: IntArray, points: FloatArray) -> None:
     broken = used[~np.isfinite(points[used]).all(axis=1)]
     if len(broken):
         refuse("NONFINITE", f"coordinates are not finite at {listed(broken)}", broken)
-    found = _crossings.touching(wires, points)
+    on_edges, pairs = _core.touching_edges(wires, points)
     short = wires[(points[wires[:, 0]] == points[wires[:, 1]]).all(axis=1)]
-    where = np.unique(np.concatenate([short.ravel(), found.pairs.ravel(), found.on_edges.ravel()]))
+    where = np.unique(np.concatenate([short.ravel(), pairs.ravel(), on_edges.ravel()]))
     if not len(where):
-        where = np.unique(_crossings.crossing(wires, points))
+        where = np.unique(_core.crossing_edges(wires, points))
     if len(where):
         text = f"wires cross, or lie on each other, at {listed(where)}: give them one common vertex, or move them apart"
         refuse("WIRES_CROSS", text, where)

@@ -9,7 +9,7 @@ from typing import NoReturn
 
 import numpy as np
 
-from fairing._loops import listed
+from fairing._arguments import listed
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
 _REACH = 0.1  # of an arc: how far on its direction at a node is read, so that one crooked edge does not decide

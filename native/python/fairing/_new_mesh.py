@@ -56,6 +56,18 @@ class NewMeshResult:
 
 
 @dataclass(frozen=True, eq=False)
+class Hole:
+    """A hole, or several loops that are joined."""
+
+    loops: tuple[IntArray, ...]
+    """In the direction that has the new surface on their left."""
+    surface: FillResult | None
+    """As if it had been filled alone: its own new vertices come behind the caller's. None: it stays open."""
+    left_because: Diagnostic | None
+    """Why."""
+
+
+@dataclass(frozen=True, eq=False)
 class FillResult(NewMeshResult):
     """What :func:`fairing.fill` gives back: the new part of the mesh and what :func:`fairing.fair` reports."""
 
@@ -73,6 +85,8 @@ class FillResult(NewMeshResult):
     """Of each curve: whether the hard edges that it continues were ``marked``."""
     bands: tuple[tuple[IntArray, ...], ...] = ()
     """Bevels and rolled edges that run on through the holes: the vertices along the rows of each, from side to side."""
+    holes: tuple[Hole, ...] = ()
+    """Each hole by itself: its surface and report, or why it stays open."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from fairing import _arguments
-from fairing._holes import PROPORTION
 from fairing._types import Diagnostic, IntArray, MeshError
 
+PROPORTION = 20.0  # times as many as over flat surfaces, or over the old one: more are refused
 _ALWAYS = 50_000  # new vertices, which take some two seconds: never refused
 _SMALL = 1000  # new vertices that are solved in any case
 _NEVER = 4_000_000  # new vertices: a slip in the spacing, rather than a wish

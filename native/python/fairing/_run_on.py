@@ -8,35 +8,33 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from fairing import _arguments, _cut_loops, _wires
-from fairing._bands import bands_at
-from fairing._crossings import crossing_edges, touches
+from fairing import _arguments, _core, _cut_loops, _wires
+from fairing._arguments import listed
+from fairing._bands import bands_at, may_have_bands
 from fairing._cut_loops import Tree, crosses, gap
 from fairing._edge_ends import EdgeEnd, ends_at
 from fairing._hard_edges import hard_edges
-from fairing._loops import Outline, listed
 from fairing._making import Making, Wanted, lengths_at
 from fairing._matching import Matching, matched
-from fairing._types import Diagnostic, FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
 EDGES = ("run_on", "ignored")
 
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """What runs through the holes."""
+    """What runs through a hole. Numbers from the count of the caller's vertices on are those of new ones."""
 
-    points: FloatArray
-    """(n + c, 3) the caller's vertices, then new ones on the curves."""
-    old_count: int
-    """n."""
-    cut: tuple[_cut_loops.CutOutline | None, ...]
-    """Of each loop, None where nothing runs through it."""
+    added: FloatArray
+    """(c, 3) new vertices on the curves."""
+    cut: _cut_loops.CutOutline
+    """The loop, cut."""
     curves: tuple[IntArray, ...]
     """Vertices of each curve, from end to end."""
     rims: IntArray
-    """Vertices of the loops where these run along hard edges."""
+    """Vertices of the loop where it runs along hard edges."""
     marked: tuple[bool, ...]
     """Whether all hard edges that each curve continues were marked."""
     rows: IntArray
@@ -44,22 +42,51 @@ class Curves:
     bands: tuple[tuple[IntArray, ...], ...]
     """The vertices along the rows of each, from side to side."""
     warnings: tuple[Diagnostic, ...]
+    loop: IntArray
 
-    def left_alone(self, loops: Sequence[IntArray]) -> Curves:
-        """Nothing, and a warning; loops: those that they cut, over which no surface holds them."""
+    def left_alone(self) -> tuple[Diagnostic, ...]:
+        """The warnings where no surface holds the edges."""
         rows = [row for band in self.bands for row in band]
-        held = np.intersect1d(np.concatenate(loops), np.concatenate([self.vertices, *rows])).astype(np.int32)
+        held = np.intersect1d(self.loop, np.concatenate([self.vertices, *rows])).astype(np.int32)
         text = f"no surface holds the edges that would run on from {listed(held)}: they are left alone"
         figures = {"ends": float(len(held)), "no_surface": 1.0}
-        warning = Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures)
-        nothing = tuple(None for _ in self.cut)
-        return replace(self, cut=nothing, curves=(), marked=(), bands=(), warnings=(*self.warnings, warning))
+        return (*self.warnings, Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures))
 
     @property
     def vertices(self) -> IntArray:
-        """All whose slope each side finds: on curves, along bands and on hard edges of the loops, ascending."""
+        """All whose slope each side finds: on curves, along bands and on hard edges of the loop, ascending."""
         found: IntArray = np.unique(np.concatenate([self.rims, self.rows, *self.curves])).astype(np.int32)
         return found
+
+    @property
+    def for_engine(self) -> tuple[FloatArray, list[IntArray], list[FloatArray], IntArray, IntArray] | None:
+        """What a surface along them is made of; None where all are left alone."""
+        if not self.cut.loops:
+            return None
+        chains = [*self.curves, *(row for band in self.bands for row in band)]
+        edges = [np.column_stack([chain[:-1], chain[1:]]) for chain in chains]
+        kept = np.concatenate([_arguments.NO_EDGES, *edges]).astype(np.int32)
+        return self.added, list(self.cut.loops), list(self.cut.normals), self.vertices, kept
+
+    def named(self, names: IntArray, count: int) -> Curves:
+        """In the numbers of a mesh of ``count`` vertices, of which these are ``names``."""
+
+        def name(numbers: IntArray) -> IntArray:
+            here = len(names)
+            known = names[np.minimum(numbers, here - 1)]
+            named: IntArray = np.where(numbers < here, known, numbers - here + count).astype(np.int32)
+            return named
+
+        return replace(
+            self,
+            cut=_cut_loops.CutOutline(tuple(map(name, self.cut.loops)), self.cut.normals),
+            curves=tuple(map(name, self.curves)),
+            rims=name(self.rims),
+            rows=name(self.rows),
+            bands=tuple(tuple(map(name, band)) for band in self.bands),
+            warnings=tuple(replace(each, elements=name(each.elements)) for each in self.warnings),
+            loop=name(self.loop),
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,52 +113,76 @@ class Edges:
         pairs = {(min(pair), max(pair)) for pair in marks.tolist()}
         return cls(hard_edges(points, around, marked=marks), pairs, drawn)
 
+    def through(
+        self, holes: _core.Holes, points: FloatArray, spacing: tuple[float, bool]
+    ) -> list[Curves | Diagnostic | None]:
+        """What runs through each hole, found by what is around it alone, or why it can't be filled.
+
+        spacing: a length or 0, and whether it is the same everywhere.
+        """
+        if not self.run_through:
+            return []
+        loops, slopes = [loops[0] for loops in holes.loops], holes.slopes(spacing[0])
+        near = may_have_bands([points[loop] for loop in loops], [normals for normals, _ in slopes])
+        near |= _touched(loops, np.concatenate([self.hard, self.wires]), len(points))
+        found: list[Curves | Diagnostic | None] = [None] * len(loops)
+        for k in np.flatnonzero(near).tolist():
+            if not slopes[k][1]:
+                continue
+            near_by, triangles = holes.around(k)
+            names = np.union1d(near_by, self.wires).astype(np.int32)
+            triangles = np.searchsorted(names, near_by).astype(np.int32)[triangles]
+            local = self._within(names)
+            mesh = points[names], triangles
+            try:
+                curves = local.run_on(np.searchsorted(names, loops[k]).astype(np.int32), slopes[k][0], mesh, spacing)
+            except MeshError as error:
+                found[k] = replace(error.diagnostic, elements=names[error.elements])
+            else:
+                found[k] = None if curves is None else curves.named(names, len(points))
+        return found
+
+    def _within(self, names: IntArray) -> Edges:
+        """In numbers of some vertices, ascending, those alone that are between them."""
+
+        def local(edges: IntArray) -> IntArray:
+            places = np.searchsorted(names, edges).clip(max=len(names) - 1)
+            known: IntArray = places[(names[places] == edges).all(axis=1)].astype(np.int32)
+            return known
+
+        marks = local(np.array(sorted(self.marked), dtype=np.int32).reshape(-1, 2))
+        return Edges(local(self.hard), set(map(tuple, marks.tolist())), local(self.wires))
+
     def run_on(
-        self, outline: Outline, normals: FloatArray, mesh: tuple[FloatArray, IntArray], spacing: tuple[float, bool]
-    ) -> Curves:
-        """The curves through loops with their normals (Σ k, 3). spacing: a length or 0, and whether it is the same
-        everywhere."""
+        self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray], spacing: tuple[float, bool]
+    ) -> Curves | None:
+        """The curves through a loop with its normals (k, 3); None where nothing runs through it or is left alone."""
         points = mesh[0]
-        rims = np.concatenate([np.roll(points[loop], -1, axis=0) - points[loop] for loop in outline.loops])
-        mean = float(np.linalg.norm(rims, axis=1).mean())
+        mean = float(np.linalg.norm(np.roll(points[loop], -1, axis=0) - points[loop], axis=1).mean())
         length, even = spacing
         wanted = Wanted((length or mean) if even else 0.0, (length or mean) / mean)
-        return _run_on(outline, normals, mesh, self, wanted)
+        through, cut = _Finder(loop, normals, mesh, self, wanted).through(points)
+        if cut is None and not through.warnings:
+            return None
+        making = through.making
+        return Curves(
+            making.points[len(points) :],
+            cut if cut is not None else _cut_loops.CutOutline((), ()),
+            tuple(making.curves),
+            through.rim,
+            tuple(making.marked),
+            np.concatenate([np.empty(0, np.int32), *making.rows]),
+            tuple(making.bands),
+            tuple(through.warnings),
+            loop,
+        )
 
 
-def _run_on(
-    outline: Outline,
-    normals: FloatArray,
-    mesh: tuple[FloatArray, IntArray],
-    edges: Edges,
-    wanted: Wanted,
-) -> Curves:
-    points = mesh[0]
-    old_count = len(points)
-    found: list[_Through] = []
-    cuts: list[_cut_loops.CutOutline | None] = []
-    names, passes = np.unique(outline.vertices, return_counts=True)
-    pinches = names[passes > 1]
-    for loop, rows in zip(outline.loops, outline.split(normals), strict=True):
-        if np.isin(loop, pinches).any():  # which pass an edge ends at is not known
-            cuts.append(None)
-            continue
-        finder = _Finder(loop, rows, mesh, edges, wanted)
-        through, cut = finder.through(points)
-        points = through.making.points
-        found.append(through)
-        cuts.append(cut)
-    return Curves(
-        points,
-        old_count,
-        tuple(cuts),
-        tuple(curve for each in found for curve in each.making.curves),
-        np.concatenate([np.empty(0, np.int32), *(each.rim for each in found)]),
-        tuple(is_marked for each in found for is_marked in each.making.marked),
-        np.concatenate([np.empty(0, np.int32), *(row for each in found for row in each.making.rows)]),
-        tuple(band for each in found for band in each.making.bands),
-        tuple(warning for each in found for warning in each.warnings),
-    )
+def _touched(loops: Sequence[IntArray], edges: IntArray, count: int) -> npt.NDArray[np.bool_]:
+    """(l,) the loops with a vertex at which one of the edges ends."""
+    at = np.zeros(count, dtype=bool)
+    at[edges] = True
+    return np.array([at[loop].any() for loop in loops], dtype=bool)
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,10 +280,12 @@ class _Finder:
 def _is_tangled(cut: _cut_loops.CutOutline, points: FloatArray) -> bool:
     """Whether a part crosses or touches itself, or bounds nothing."""
     for loop in cut.loops:
-        if len(loop) < 3 or len(crossing_edges([loop], points)):
-            return True
-        found = touches([loop], points)
-        if len(found.on_edges) or len(found.pairs):
+        around = np.column_stack([loop, np.roll(loop, -1)]).astype(np.int32)
+        if (
+            len(loop) < 3
+            or len(_core.crossing_edges(around, points))
+            or any(map(len, _core.touching_edges(around, points)))
+        ):
             return True
     return False
 

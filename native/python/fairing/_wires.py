@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fairing._arguments import listed
 from fairing._cut_loops import Tree, crosses
-from fairing._loops import listed
 from fairing._types import Diagnostic, IntArray, MeshError
 
 

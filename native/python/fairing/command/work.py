@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from fairing._borders import outer_borders
 from fairing._hard_edges import hard_edges
-from fairing._hole_loops import hole_loops
+from fairing._holes import hole_loops, outer_borders
 from fairing._measure import self_intersections
 from fairing._types import Cancelled, FloatArray, IntArray, MeshError, SolverError
 from fairing.command import files

@@ -1,0 +1,317 @@
+#include "api/hole_job.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "api/coarse_surface.h"
+#include "api/remesh.h"
+#include "base/errors.h"
+#include "base/stopwatch.h"
+#include "fill/loop_check.h"
+#include "fill/proportion.h"
+#include "fill/short_edges.h"
+#include "fill/small_hole.h"
+#include "shape/visible_join.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr int solved_count = 1000;  // free vertices of the mesh that is solved; coarser wishes are cut from its surface
+// Holes that take fewer new vertices than that are cut from a coarser one, which moves them by a thousandth of their
+// size (median of 26 holes cut into real meshes: 2.0e-3 away from a fine fill, with 1000 as with 400).
+constexpr double few = 30.0;
+constexpr int few_solved = 400;
+
+Indices vertices_of(const Hole& hole) {
+    Indices all;
+    for (const BoundaryLoop& loop : hole.loops) all.insert(all.end(), loop.vertices.begin(), loop.vertices.end());
+    return all;
+}
+
+// Vertices of the mesh on curves: they may have no triangle.
+Indices drawn(const CurvesThrough* through, const HoledMesh& mesh) {
+    if (!through) return {};
+    Indices vertices = through->creases;
+    std::erase_if(vertices, [&](int v) { return v >= static_cast<int>(mesh.mesh().vertices.cols()); });
+    return vertices;
+}
+
+// Of the first surface: harmonic but for the equations that join what no harmonic surface does.
+Equation first_equation(const FillOptions& options) {
+    const Equation asked = options.fair.solver.equation;
+    const bool is_own = asked == Equation::least_variation || asked == Equation::minimal ||
+                        (asked == Equation::automatic && !options.joins_curvature);
+    return is_own ? asked : Equation::harmonic;
+}
+
+// Where the solve on a finer mesh of the first surface begins. Automatic chooses that of least variation by itself:
+// there it stands in for nothing.
+Start start_after(Provenance first, const SolverOptions& options) {
+    Start start = is_loft(first) ? Start::loft : Start::given;
+    if (first == Provenance::least_variation) start = Start::least_variation;
+    const bool is_harmonic = options.equation == Equation::harmonic || options.equation == Equation::automatic;
+    const bool is_chosen = options.equation == Equation::automatic && start == Start::least_variation;
+    return is_harmonic && options.otherwise != Otherwise::stop && !is_chosen ? start : Start::given;
+}
+
+NewSurface first_over(const std::vector<BoundaryLoop>& loops, const std::vector<Indices>& numbers, const Points& points,
+                      Equation equation, const Progress& progress) {
+    ThinnedLoops thin;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        LoopShape shape = loops[l].shape;
+        shape.points = points(Eigen::all, numbers[l]);
+        add_thinned(thin, numbers[l], shape);
+    }
+    SolverOptions options;
+    options.equation = equation;
+    try {
+        NewSurface found = fill_loops({points, thin.loops, thin.normals}, true, options, within(progress));
+        found.triangles = thin.with_all(found.triangles);
+        return found;
+    } catch (const MeshError& error) {
+        if (loops.size() < 2 || error.diagnostic().code != Code::nonmanifold_edge) throw;
+        throw MeshError(not_joined(loops));
+    }
+}
+
+Indices once(Indices vertices) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    return vertices;
+}
+
+// Each fixed vertex once, with its largest angles: the boundary may pass some several times.
+void name_once(FairResult& report) {
+    Indices fixed = once(report.fixed);
+    if (fixed.size() == report.fixed.size()) return;
+    VectorX angles = VectorX::Zero(static_cast<Eigen::Index>(fixed.size()));
+    VectorX joins = angles;
+    for (std::size_t k = 0; k < report.fixed.size(); ++k) {
+        const auto at = std::lower_bound(fixed.begin(), fixed.end(), report.fixed[k]) - fixed.begin();
+        angles[at] = std::max(angles[at], report.boundary_angle[static_cast<Eigen::Index>(k)]);
+        joins[at] = std::max(joins[at], report.join[static_cast<Eigen::Index>(k)]);
+    }
+    report.fixed = std::move(fixed);
+    report.boundary_angle = angles;
+    report.join = joins;
+}
+
+}  // namespace
+
+Points joined(const Points& one, const Points& other) {
+    Points both(3, one.cols() + other.cols());
+    both << one, other;
+    return both;
+}
+
+HolePatch meshed(const HolePatch& patch, int old_count, const WantedLengths& wanted, const HeldInside& held,
+                 const Progress& progress, NewMesh* made) {
+    NewMesh mesh = remesh(patch.input(held), {}, wanted, 1, within(progress));
+    const int gone = static_cast<int>(patch.vertices.cols()) - old_count;
+    mesh.triangles = mesh.triangles.unaryExpr([&](int v) { return v < old_count + gone ? v : v - gone; });
+    HolePatch result{joined(patch.vertices.leftCols(old_count), mesh.vertices), mesh.triangles, patch.fixed,
+                     patch.normals};
+    if (made) *made = std::move(mesh);
+    return result;
+}
+
+void measure_join(FairResult& report, const HolePatch& patch, const Triangles& around) {
+    if (around.cols() == 0) return;
+    const JoinedMesh mesh{report.vertices, patch.triangles, around, std::nullopt};
+    const VectorX degrees = visible_join(mesh, report.fixed).degrees;
+    Indices outside(around.reshaped().begin(), around.reshaped().end());
+    outside = once(std::move(outside));
+    Indices inside(patch.triangles.reshaped().begin(), patch.triangles.reshaped().end());
+    inside = once(std::move(inside));
+    const auto in = [](const Indices& sorted, int v) { return std::binary_search(sorted.begin(), sorted.end(), v); };
+    for (Eigen::Index k = 0; k < degrees.size(); ++k) {
+        const int v = report.fixed[k];
+        if (in(outside, v) && in(inside, v)) report.join[k] = degrees[k];
+    }
+}
+
+ProgressCallback within(const Progress& part) {
+    return [part](double fraction, std::string_view stage) {
+        part.report(fraction, stage);
+        return true;
+    };
+}
+
+HoleJob::HoleJob(const HoledMesh& mesh, const Hole& hole, const CurvesThrough* through, const FillOptions& options)
+    : mesh_(mesh),
+      hole_(hole),
+      through_(through),
+      options_(options),
+      local_(mesh.around(vertices_of(hole), drawn(through, mesh))),
+      loops_(hole.loops) {
+    for (BoundaryLoop& loop : loops_) loop.vertices = local_.local(loop.vertices);
+    split_ = split_boundary(loops_, local_.points);
+}
+
+double HoleJob::flat_count() const {
+    std::vector<LoopShape> shapes;
+    for (const BoundaryLoop& loop : loops_) shapes.push_back(loop.shape);
+    return fairing::flat_count(shapes, options_.spacing, options_.bridge);
+}
+
+Points HoleJob::normals() const {
+    Points all(3, 0);
+    for (const BoundaryLoop& loop : loops_) all = joined(all, loop.shape.normals);
+    return all;
+}
+
+HeldInside HoleJob::held() const {
+    HeldInside held = options_.held;
+    for (Indices* list : {&held.creases, &held.smooth_curves}) {
+        *list = local_.local(*list);
+        std::erase(*list, none);
+    }
+    return held;
+}
+
+FilledHole HoleJob::filled(const Progress& progress) const {
+    const Stopwatch watch;
+    FilledHole result;
+    const auto timed = [&](FilledHole made) {
+        made.report.seconds["total"] = watch.seconds();
+        return made;
+    };
+    if (!options_.bridge && is_single_face(loops_[0].shape, options_.spacing)) return timed(closed_by_face());
+    if (through_) {
+        if (auto made = along(*through_, progress.range(0.0, 0.5))) return timed(std::move(*made));
+    }
+    if (auto made = fan(progress)) return timed(finished(std::move(*made), split_));
+    return timed(finished(surface(progress), split_));
+}
+
+FilledHole HoleJob::closed_by_face() const {
+    const BoundaryLoop& loop = loops_[0];
+    SolvedHole made{{local_.points, face_over(loop, local_.triangles), loop.vertices, std::nullopt}, {}};
+    refuse_doubles(made.patch.triangles, local_.triangles);
+    FairResult& report = made.report;
+    const Equation asked = options_.fair.solver.equation;
+    report.equation = asked == Equation::automatic ? Equation::harmonic : asked;
+    report.joins_curvature = options_.joins_curvature;
+    report.vertices = local_.points;
+    report.mean_curvature = VectorX::Zero(local_.points.cols());
+    report.fixed = loop.vertices;
+    report.boundary_angle = angles_of_face(loop, made.patch.triangles);
+    report.join = report.boundary_angle;
+    measure_join(report, made.patch, local_.triangles);
+    return finished(std::move(made), split_);
+}
+
+FairResult HoleJob::solved(const HolePatch& patch, Start start, Otherwise otherwise, const Progress& progress) const {
+    FairOptions options = options_.fair;
+    options.start = start;
+    options.solver.otherwise = otherwise;
+    MeshInput input = patch.input(held());
+    input.outside = local_.triangles;
+    if (options_.joins_curvature) {
+        VectorX given(static_cast<Eigen::Index>(patch.fixed.size()));
+        Eigen::Index first = 0;
+        for (const BoundaryLoop& loop : loops_) {
+            given.segment(first, loop.curvatures.size()) = loop.curvatures;
+            first += loop.curvatures.size();
+        }
+        input.fixed_curvatures = first > 0 ? given : curvatures_around(patch, local_.triangles);
+    }
+    FairResult report = fair(std::move(input), {}, options, within(progress));
+    measure_join(report, patch, local_.triangles);
+    return report;
+}
+
+std::optional<SolvedHole> HoleJob::fan(const Progress& progress) const {
+    const Equation equation = options_.fair.solver.equation;
+    const bool is_plain = equation == Equation::harmonic || equation == Equation::automatic;
+    if (options_.bridge || options_.in_rows || options_.spacing > 0.0 || !is_plain || options_.joins_curvature ||
+        split_.count() != split_.old_count)
+        return std::nullopt;
+    const LoopShape& shape = loops_[0].shape;
+    const Vector3 hub = shape.points.rowwise().mean();
+    if (!takes_hub(shape, hub)) return std::nullopt;
+    HolePatch patch{joined(split_.placed, hub), fairing::fan(loops_[0].vertices, split_.count()), split_.fixed(),
+                    normals()};
+    FairResult report = solved(patch, Start::given, Otherwise::stop, progress);
+    if (!report.converged || !takes_hub(shape, report.vertices.rightCols(1))) return std::nullopt;
+    patch.vertices = report.vertices;
+    return SolvedHole{std::move(patch), std::move(report)};
+}
+
+SolvedHole HoleJob::surface(const Progress& progress) const {
+    const SolverOptions& solver = options_.fair.solver;
+    const double flat = flat_count();
+    const Limit most = Limit::of(flat, options_.max_vertices);
+    const Indices boundary = vertices_of(hole_);
+    most.check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), boundary);
+    Stopwatch watch;
+    const NewSurface first =
+        first_over(loops_, split_.loops, split_.parted, first_equation(options_), progress.range(0.0, 0.2));
+    const double first_seconds = watch.lap();
+    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals()};
+    if (solver.equation == Equation::minimal) patch.normals = std::nullopt;
+    WantedLengths wanted{options_.spacing, 0, options_.spread};
+    const double count = expected_remesh_count(patch.input({}), wanted);
+    most.check(count, boundary, first.converged);
+    const bool is_coarse = count < 0.9 * solved_count;
+    wanted.least_count = count < few && !options_.in_rows && !options_.joins_curvature ? few_solved : solved_count;
+    HolePatch fine = meshed(patch, split_.count(), wanted, held(), progress.range(0.2, 0.4));
+    fine.vertices.leftCols(split_.count()) = split_.placed;
+    const double mesh_seconds = watch.lap();
+    refuse_doubles(fine.triangles, local_.triangles);
+    const Otherwise otherwise = first.converged ? solver.otherwise : Otherwise::stop;  // it was sought in vain once
+    SolvedHole made{fine, solved(fine, start_after(first.provenance, solver), otherwise,
+                                 progress.range(0.4, is_coarse ? 0.9 : 1.0))};
+    watch.lap();
+    const Diagnostics slopes = not_tangent(made.report, split_.loops, local_, mesh_);
+    made.report.warnings.insert(made.report.warnings.end(), slopes.begin(), slopes.end());
+    made.patch.vertices = made.report.vertices;
+    if (options_.in_rows) {
+        const auto again = [&](const HolePatch& rows) {
+            return solved(rows, Start::given, Otherwise::stop, progress.range(0.9, 1.0));
+        };
+        made = fairing::in_rows(std::move(made), static_cast<int>(loops_.size()), split_.count(), again,
+                                progress.range(0.9, 1.0));
+    } else if (is_coarse) {
+        wanted.least_count = 0;
+        NewMesh mesh;
+        const HolePatch coarse = meshed(made.patch, split_.count(), wanted, held(), progress.range(0.9, 1.0), &mesh);
+        made = cut_from(made, coarse, mesh.triangle, mesh.weights);
+    }
+    made.report.seconds["first"] = first_seconds;
+    made.report.seconds["mesh"] = mesh_seconds;
+    made.report.seconds["coarser"] = watch.lap();
+    return made;
+}
+
+FilledHole HoleJob::finished(SolvedHole solved, const SplitBoundary& split) const {
+    const int mesh_count = static_cast<int>(mesh_.mesh().vertices.cols());
+    const int old = std::min<int>(split.count(), static_cast<int>(solved.patch.vertices.cols()));
+    const auto number = [&](int v) {
+        const int welded = split.welded(v);
+        return welded < split.old_count ? local_.to_mesh[welded] : mesh_count + welded - split.old_count;
+    };
+    FilledHole made;
+    for (const BoundaryLoop& loop : hole_.loops) made.loops.push_back(loop.vertices);
+    FairResult& report = solved.report;
+    if (options_.in_rows && !solved.pairs) solved.pairs = pairs_among(solved, {});
+    const Eigen::Index count = solved.patch.vertices.cols() - old;
+    made.vertices = solved.patch.vertices.rightCols(count);
+    made.triangles = solved.patch.triangles.unaryExpr(number);
+    report.mean_curvature = VectorX(report.mean_curvature.tail(count));
+    report.vertices.resize(3, 0);
+    report.base.resize(3, 0);
+    std::transform(report.fixed.begin(), report.fixed.end(), report.fixed.begin(), number);
+    name_once(report);
+    for (Diagnostic& warning : report.warnings) {
+        if (warning.kind != ElementKind::vertex) continue;
+        std::transform(warning.elements.begin(), warning.elements.end(), warning.elements.begin(), number);
+    }
+    made.report = std::move(report);
+    made.is_cut = solved.is_cut;
+    made.pairs = std::move(solved.pairs);
+    return made;
+}
+
+}  // namespace fairing

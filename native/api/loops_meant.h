@@ -1,0 +1,14 @@
+// The loops that a call means, on their way to be holes: in the right direction, and parted where they touch.
+#pragma once
+
+#include "api/holes.h"
+
+namespace fairing {
+
+// All loops along the border that are not too long. Throws NO_BOUNDARY where there are none.
+Holes found_loops(const HoledMesh& mesh, const NamedLoops& named);
+
+// Those that the caller names. Throws NOT_A_LOOP for those that are to be joined, or share an edge.
+Holes named_loops(const HoledMesh& mesh, const NamedLoops& named, bool bridge, bool are_parted = true);
+
+}  // namespace fairing

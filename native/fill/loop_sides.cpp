@@ -1,0 +1,127 @@
+#include "fill/loop_sides.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "base/direction.h"
+#include "base/errors.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double leads_away = -0.3;  // mean cosine of the ways into the surface and to the others; −.17 at 200° bends
+constexpr double leads_aside = 0.1;  // of the same: the side of a loop whose surface leads neither there nor away
+constexpr double facing = 0.5;       // of the same, and between normals and the directions from a loop's middle
+
+// Mean cosine between the directions into a loop's surface and to the nearest of other points; 0 for a lone loop.
+double way_to_others(const std::vector<BoundaryLoop>& loops, std::size_t one) {
+    const LoopShape& loop = loops[one].shape;
+    std::vector<Vector3> others;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (l == one) continue;
+        for (const auto place : loops[l].shape.points.colwise()) others.emplace_back(place);
+    }
+    if (others.empty()) return 0.0;
+    const Indices some = spread(static_cast<int>(others.size()));
+    const Indices few = spread(loop.size());
+    double sum = 0.0;
+    for (const int k : few) {
+        const Vector3 here = loop.points.col(k);
+        const Vector3 along = loop.edge(k) + loop.edge((k + loop.size() - 1) % loop.size());
+        const int nearest = *std::min_element(some.begin(), some.end(), [&](int a, int b) {
+            return (others[a] - here).squaredNorm() < (others[b] - here).squaredNorm();
+        });
+        sum += direction(loop.normals.col(k).cross(along)).dot(direction(others[nearest] - here));
+    }
+    return sum / static_cast<double>(few.size());
+}
+
+Diagnostic refusal(const std::string& text, Indices vertices, const char* figure) {
+    std::sort(vertices.begin(), vertices.end());
+    Figures figures;
+    if (figure) figures[figure] = size_of(vertices);
+    return {Code::loops_not_joined, "loops: " + text, std::move(vertices), ElementKind::vertex, std::move(figures)};
+}
+
+std::string named(const std::vector<BoundaryLoop>& loops, std::size_t one) {
+    return "no surface joins loop " + std::to_string(one) + " (" + listed(loops[one].vertices) + ") with the others";
+}
+
+Diagnostic refused(const std::vector<BoundaryLoop>& loops, std::size_t one, const std::string& what,
+                   std::string advice) {
+    if (!loops[one].is_bare)
+        advice = std::string("flip the triangles around it") + (loops.size() > 2 ? ", or leave it out" : "");
+    return refusal(named(loops, one) + ", " + what + ": " + advice, loops[one].vertices, "turned");
+}
+
+// Mean cosine between the normals and the directions from the loop's middle.
+double outward(const LoopShape& loop) {
+    const Vector3 middle = loop.points.rowwise().mean();
+    double sum = 0.0;
+    for (int k = 0; k < loop.size(); ++k) sum += loop.normals.col(k).dot(direction(loop.points.col(k) - middle));
+    return sum / loop.size();
+}
+
+// A tube that is seen from outside at one end and from inside at the other one crosses itself.
+void check_sides(const std::vector<BoundaryLoop>& loops) {
+    if (loops.size() != 2 || std::min(way_to_others(loops, 0), way_to_others(loops, 1)) < facing) return;
+    const double one = outward(loops[0].shape);
+    const double other = outward(loops[1].shape);
+    if (std::min(std::abs(one), std::abs(other)) <= facing || one * other >= 0.0) return;
+    const char* const what = "its normals point to the axis of the tube, those of the other one away from it";
+    throw MeshError(refused(loops, one < other ? 0 : 1, what, "turn its normals"));
+}
+
+}  // namespace
+
+void BoundaryLoop::turn() {
+    std::reverse(vertices.begin(), vertices.end());
+    shape.points = shape.points.rowwise().reverse().eval();
+    shape.normals = shape.normals.rowwise().reverse().eval();
+    curvatures = curvatures.reverse().eval();
+    is_turned = !is_turned;
+}
+
+void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
+    const bool joined = bridge && loops.size() > 1;
+    std::vector<std::size_t> turned;
+    for (std::size_t l = 0; l < loops.size(); ++l) {
+        if (!loops[l].is_bare) continue;
+        if (joined ? way_to_others(loops, l) < leads_away : leads_outside(loops[l].shape)) turned.push_back(l);
+    }
+    for (const std::size_t l : turned) loops[l].turn();
+    if (joined) check_sides(loops);
+}
+
+Diagnostic not_joined(const std::vector<BoundaryLoop>& loops) {
+    std::vector<double> ways;
+    for (std::size_t l = 0; l < loops.size(); ++l) ways.push_back(way_to_others(loops, l));
+    const auto worst = static_cast<std::size_t>(std::min_element(ways.begin(), ways.end()) - ways.begin());
+    if (ways[worst] > leads_aside) {
+        Indices all;
+        for (const BoundaryLoop& loop : loops) all.insert(all.end(), loop.vertices.begin(), loop.vertices.end());
+        return refusal(
+            "no surface joins them; they cross or are linked, face away from each other, or are too many: "
+            "join fewer",
+            std::move(all), nullptr);
+    }
+    if (loops[worst].is_bare)
+        return refused(loops, worst, "the surface would lead away from the others there",
+                       "turn its normals or its direction");
+    return refusal(named(loops, worst) + ": the triangles around it lie between: cut them back, or leave it out",
+                   loops[worst].vertices, "between");
+}
+
+std::string listed(const Indices& vertices) {
+    constexpr std::size_t most = 5;
+    std::string text = vertices.size() == 1 ? "vertex " : "vertices ";
+    for (std::size_t k = 0; k < std::min(vertices.size(), most); ++k)
+        text += (k > 0 ? ", " : "") + std::to_string(vertices[k]);
+    if (vertices.size() > most) text += " and " + std::to_string(vertices.size() - most) + " more";
+    return text;
+}
+
+}  // namespace fairing

@@ -1,0 +1,46 @@
+#include "fill/proportion.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "base/errors.h"
+#include "fill/hole_shape.h"
+
+namespace fairing {
+
+namespace {
+
+std::string rounded(double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.2g", value);
+    return text.data();
+}
+
+}  // namespace
+
+Limit Limit::of(double flat, int asked) {
+    constexpr double always = 50'000.0;    // which take some two seconds: never refused
+    constexpr double never = 4'000'000.0;  // a slip in the spacing, rather than a wish
+    const double usual = std::min(std::max(always, out_of_proportion * flat), never);
+    return {flat, asked > 0 ? static_cast<double>(asked) : usual, asked > 0};
+}
+
+void Limit::check(double count, Indices around, bool found) const {
+    constexpr double small = 1000.0;  // that are solved in any case
+    const double limit = found || is_chosen ? most : std::min(most, std::max(small, out_of_proportion * flat));
+    if (count <= limit) return;
+    std::string text = "the surface would take about " + rounded(count) + " new vertices, and " + rounded(limit) +
+                       " are accepted: raise `spacing`, or allow more by `max_vertices`";
+    if (!found) text = "no surface was found on a small mesh, and " + text;
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    throw MeshError({Code::out_of_proportion,
+                     text,
+                     std::move(around),
+                     ElementKind::vertex,
+                     {{"count", count}, {"limit", limit}, {"flat", flat}}});
+}
+
+}  // namespace fairing

@@ -1,0 +1,102 @@
+#include "fill/small_hole.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "fill/limits.h"
+#include "geometry/angle.h"
+#include "geometry/area_vector.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double split_length = 4.0 / 3.0;  // of the wanted length: longer edges are split, as in every new mesh
+
+bool is_edge_of(const Triangles& triangles, int a, int b) {
+    for (const auto corners : triangles.colwise()) {
+        if ((corners.array() == a).any() && (corners.array() == b).any()) return true;
+    }
+    return false;
+}
+
+Vector3 area_of(const LoopShape& loop, const std::array<int, 3>& corners) { return area_vector(loop.points, corners); }
+
+}  // namespace
+
+bool is_single_face(const LoopShape& loop, double spacing) {
+    if (loop.size() > 4) return false;
+    double longest = 0.0;
+    for (int k = 0; k < loop.size(); ++k) longest = std::max(longest, loop.edge(k).norm());
+    return !(spacing > 0.0) || longest <= split_length * spacing;
+}
+
+Triangles face_over(const BoundaryLoop& loop, const Triangles& around) {
+    using Cut = std::array<std::array<int, 3>, 2>;
+    const Indices& at = loop.vertices;
+    if (at.size() == 3) return Eigen::Vector3i(at[0], at[1], at[2]);
+    const Vector3 normal = loop.shape.normals.rowwise().sum();
+    const auto facing = [&](const Cut& cut, bool is_there) {
+        constexpr double never = 10.0;
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto& corners : cut)
+            least = std::min(least, std::cos(radians_between(area_of(loop.shape, corners), normal)));
+        return is_there ? least - never : least;
+    };
+    const Cut one{{{0, 1, 2}, {0, 2, 3}}};
+    const Cut other{{{1, 2, 3}, {1, 3, 0}}};
+    const bool takes_one =
+        facing(one, is_edge_of(around, at[0], at[2])) >= facing(other, is_edge_of(around, at[1], at[3]));
+    Triangles face(3, 2);
+    for (int t = 0; t < 2; ++t) {
+        for (int k = 0; k < 3; ++k) face(k, t) = at[(takes_one ? one : other)[t][k]];
+    }
+    return face;
+}
+
+VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face) {
+    VectorX angles(loop.shape.size());
+    for (int k = 0; k < loop.shape.size(); ++k) {
+        Vector3 sum = Vector3::Zero();
+        for (const auto corners : face.colwise()) {
+            if (!(corners.array() == loop.vertices[k]).any()) continue;
+            std::array<int, 3> places{};
+            for (int c = 0; c < 3; ++c) {
+                const auto found = std::find(loop.vertices.begin(), loop.vertices.end(), corners[c]);
+                places[c] = static_cast<int>(found - loop.vertices.begin());
+            }
+            sum += area_of(loop.shape, places);
+        }
+        angles[k] = degrees_between(sum, loop.shape.normals.col(k));
+    }
+    return angles;
+}
+
+bool takes_hub(const LoopShape& loop, const Vector3& hub) {
+    constexpr int fewest = 5;
+    constexpr int most = 8;
+    if (loop.size() < fewest || loop.size() > most) return false;
+    const Vector3 normal = loop.normals.rowwise().sum();
+    const double mean = loop.perimeter() / loop.size();
+    for (int k = 0; k < loop.size(); ++k) {
+        const Vector3 spoke = loop.points.col(k) - hub;
+        const Vector3 next = loop.points.col((k + 1) % loop.size()) - hub;
+        const Vector3 area = spoke.cross(next);
+        const double edge = (next - spoke).norm();
+        if (!(spoke.norm() <= split_length * mean) || !(area.dot(normal) > 0.0)) return false;
+        const double largest = std::max({spoke.norm() * next.norm(), edge * next.norm(), edge * spoke.norm()});
+        if (!(area.norm() >= std::sin(bad_angle * degree) * largest)) return false;
+    }
+    return true;
+}
+
+Triangles fan(const Indices& loop, int hub) {
+    Triangles triangles(3, static_cast<Eigen::Index>(loop.size()));
+    for (std::size_t k = 0; k < loop.size(); ++k)
+        triangles.col(static_cast<Eigen::Index>(k)) = Eigen::Vector3i(loop[k], loop[(k + 1) % loop.size()], hub);
+    return triangles;
+}
+
+}  // namespace fairing

@@ -1,0 +1,28 @@
+// Holes that take no vertex, or one.
+#pragma once
+
+#include "fill/loop_sides.h"
+#include "geometry/hard_edges.h"
+
+namespace fairing {
+
+// Whether one face closes a loop: it has three edges, or four, none of them longer than those wanted; a new vertex
+// would lift the surface of a flat place by as much as the fitted normals are off, over half an edge. `spacing`: 0 for
+// the loop's own edges.
+bool is_single_face(const LoopShape& loop, double spacing);
+
+// One triangle or two over such a loop. Of two diagonals the one whose triangles face as the surroundings do, unless it
+// is an edge of `around` already.
+Triangles face_over(const BoundaryLoop& loop, const Triangles& around);
+
+// Degrees at each vertex of the loop between its normal and that of the face over it, area by area.
+VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face);
+
+// Whether a fan around the hub is a good mesh over a loop of five to eight edges: a hub in the middle of a regular
+// polygon of eight edges has spokes of 1.31 edges, below the 4/3 beyond which edges are split.
+bool takes_hub(const LoopShape& loop, const Vector3& hub);
+
+// Between a loop and its hub.
+Triangles fan(const Indices& loop, int hub);
+
+}  // namespace fairing

@@ -1,0 +1,26 @@
+// Edges in space that touch or cross each other, and vertices that lie on edges or on each other.
+#pragma once
+
+#include <array>
+
+#include "base/view.h"
+#include "geometry/hard_edges.h"
+
+namespace fairing {
+
+// The edges of a closed loop, in its direction.
+VertexPairs edges_around(const Indices& loop);
+
+// The ends of two edges each that meet, not at a vertex that both have: nearer than 1e-9 of the extent of all.
+std::vector<std::array<int, 4>> crossing_edges(const VertexPairs& edges, const View<Points>& points);
+
+struct Touches {
+    std::vector<std::array<int, 3>> on_edges;  // the ends of an edge, and a vertex that lies on it between them
+    VertexPairs pairs;                         // vertices that lie on each other, the smaller index first
+};
+
+// Vertices nearer than 1e-5 of an edge to that edge, or to an end of it that no edge joins to them; each once,
+// ascending.
+Touches touching_edges(const VertexPairs& edges, const View<Points>& points);
+
+}  // namespace fairing

@@ -1,0 +1,41 @@
+// The triangles of a list around some of its vertices, at the cost of these alone.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "base/types.h"
+
+namespace fairing {
+
+class Stars {
+public:
+    // Keeps a reference to the triangles.
+    Stars(const Triangles& triangles, int vertex_count);
+
+    [[nodiscard]] std::span<const int> at(int vertex) const;
+    // Within so many rings of the vertices, ascending.
+    [[nodiscard]] Indices around(const Indices& vertices, int rings) const;
+
+private:
+    const Triangles& triangles_;
+    Indices begin_;
+    Indices triangle_;
+};
+
+// Some triangles of a mesh with their vertices numbered anew, in the order of the mesh.
+struct LocalMesh {
+    Points points;
+    Triangles triangles;
+    Indices to_mesh;  // ascending
+
+    // `also`: vertices that need no triangle. Precondition: `points` has them all.
+    LocalMesh(const Eigen::Ref<const Points>& mesh_points, const Triangles& mesh_triangles, const Indices& chosen,
+              const Indices& also);
+
+    [[nodiscard]] int local(int vertex) const;  // of a vertex of the mesh; `none`: it is not here
+    [[nodiscard]] Indices local(Indices vertices) const;
+    [[nodiscard]] std::vector<std::array<int, 2>> local(const std::vector<std::array<int, 2>>& pairs) const;
+};
+
+}  // namespace fairing

@@ -1,0 +1,162 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "api/fill.h"
+#include "base/errors.h"
+#include "base/parallel.h"
+#include "fill/loop_check.h"
+#include "fill/proportion.h"
+#include "fill/short_edges.h"
+#include "geometry/segments.h"
+#include "mesh/hole_loops.h"
+#include "meshes.h"
+
+using namespace fairing;
+
+namespace {
+
+// The triangles of a grid of n × n squares but those around some of its vertices (their column and row).
+test::Mesh grid_without(int n, const std::vector<std::array<int, 2>>& gone,
+                        const std::function<Vector3(double, double)>& surface = test::sphere) {
+    test::Mesh mesh = test::grid(n, 0.0, surface);
+    Indices kept;
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+        const auto corners = mesh.triangles.col(t);
+        const bool is_gone = std::any_of(gone.begin(), gone.end(), [&](const auto& at) {
+            return (corners.array() == at[1] * (n + 1) + at[0]).any();
+        });
+        if (!is_gone) kept.push_back(static_cast<int>(t));
+    }
+    mesh.triangles = Triangles(mesh.triangles(Eigen::all, kept));
+    return mesh;
+}
+
+HoleLoops loops_of(const test::Mesh& mesh) {
+    return hole_loops(mesh.points, mesh.triangles, border_sides(mesh.triangles, static_cast<int>(mesh.points.cols())));
+}
+
+std::vector<FilledHole> filled(const test::Mesh& mesh, const std::vector<Indices>& loops, int threads = 1) {
+    const HoledMesh holed({mesh.points, mesh.triangles});
+    NamedLoops named;
+    named.loops = loops;
+    FillOptions options;
+    options.fair.threads = threads;
+    return fill(holed, find_holes(holed, named, false).holes, {}, options, {});
+}
+
+}  // namespace
+
+TEST_CASE("hole loops: a hole beside the outer border, each with the hole on its left") {
+    const HoleLoops found = loops_of(grid_without(8, {{4, 4}}, test::flat));
+    REQUIRE(found.loops.size() == 2);
+    CHECK(found.torn.empty());
+    CHECK(found.loops[0].size() == 32);
+    CHECK(std::min_element(found.loops[1].begin(), found.loops[1].end()) == found.loops[1].begin());
+}
+
+TEST_CASE("hole loops: holes that meet in a vertex are two, triangles wound against each other tear a border") {
+    test::Mesh mesh = grid_without(10, {{3, 3}, {5, 5}}, test::flat);
+    const HoleLoops found = loops_of(mesh);
+    CHECK(found.loops.size() == 3);
+    mesh.triangles.col(0).reverseInPlace();
+    CHECK(!loops_of(mesh).torn.empty());
+}
+
+TEST_CASE("segments: edges that cross, vertices on edges and on each other") {
+    Points points(3, 6);
+    points << 0.0, 1.0, 0.5, 0.5, 0.5, 0.0,  //
+        0.0, 0.0, -1.0, 1.0, 0.0, 0.0,       //
+        0.0, 0.0, 0.0, 0.0, 0.0, 1e-9;
+    CHECK(crossing_edges({{0, 1}, {2, 3}}, points).size() == 1);
+    CHECK(crossing_edges({{0, 1}, {1, 2}}, points).empty());
+    CHECK(touching_edges({{0, 1}, {4, 3}}, points).on_edges == std::vector<std::array<int, 3>>{{0, 1, 4}});
+    CHECK(touching_edges({{0, 1}, {5, 3}}, points).pairs == VertexPairs{{0, 5}});
+}
+
+TEST_CASE("short edges: vertices left out come back in their order") {
+    constexpr int count = 12;
+    LoopShape shape{Points(3, count + 2), Points(3, count + 2)};
+    Indices loop;
+    for (int k = 0; k < count + 2; ++k) {
+        const double angle = (k < 2 ? 1e-3 * k : k - 2 + (k == 2 ? 2e-3 : 0.0)) * 2.0 * std::numbers::pi / count;
+        shape.points.col(k) << std::cos(angle), std::sin(angle), 0.0;
+        loop.push_back(k);
+    }
+    shape.normals.colwise() = Vector3::UnitZ();
+    ThinnedLoops thin;
+    add_thinned(thin, loop, shape);
+    CHECK(thin.loops[0].size() == count);
+    REQUIRE(thin.left_out.size() == 2);
+    CHECK(thin.left_out[0][1] + 1 == thin.left_out[1][1]);
+}
+
+TEST_CASE("fill: a second wall is refused where it comes all the same") {
+    Triangles around(3, 2);
+    around << 0, 2, 1, 1, 2, 3;
+    Triangles made(3, 2);
+    made << 0, 1, 1, 3, 4, 4;
+    refuse_doubles(made, around);
+    made.col(1) << 1, 2, 3;
+    CHECK_THROWS_AS(refuse_doubles(made, around), MeshError);
+}
+
+TEST_CASE("proportion: a search in vain gets no large mesh") {
+    const Limit limit = Limit::of(210.0, 0);
+    limit.check(20'000.0, {});
+    CHECK_THROWS_AS(limit.check(20'000.0, {1, 2}, false), MeshError);
+    CHECK_THROWS_AS(limit.check(60'000.0, {1, 2}), MeshError);
+    Limit::of(210.0, 100'000).check(60'000.0, {}, false);
+}
+
+TEST_CASE("fill: what comes out does not depend on which other holes are filled, nor on threads") {
+    const test::Mesh mesh = grid_without(24, {{4, 4}, {12, 4}, {13, 5}, {18, 18}, {5, 17}, {5, 18}, {6, 18}});
+    std::vector<Indices> loops = loops_of(mesh).loops;
+    std::erase_if(loops, [](const Indices& loop) { return loop.size() > 60; });
+    REQUIRE(loops.size() == 4);
+    const std::vector<FilledHole> together = filled(mesh, loops);
+    const std::vector<FilledHole> on_two = filled(mesh, loops, 2);
+    for (std::size_t k = 0; k < loops.size(); ++k) {
+        const FilledHole alone = filled(mesh, {loops[k]})[0];
+        CHECK(alone.vertices == together[k].vertices);
+        CHECK(alone.triangles == together[k].triangles);
+        CHECK(alone.vertices == on_two[k].vertices);
+        CHECK(alone.report.join == on_two[k].report.join);
+        for (const auto place : alone.vertices.colwise()) CHECK(std::abs(place.norm() - 1.0) < 2e-3);
+    }
+}
+
+TEST_CASE("fill: what can't be filled is left open with its reason, the others are filled") {
+    test::Mesh mesh = grid_without(16, {{4, 4}, {11, 11}});
+    std::vector<Indices> loops = loops_of(mesh).loops;
+    std::erase_if(loops, [](const Indices& loop) { return loop.size() > 40; });
+    REQUIRE(loops.size() == 2);
+    mesh.points.col(loops[0][1]) = mesh.points.col(loops[0][0]);
+    const HoledMesh holed({mesh.points, mesh.triangles});
+    NamedLoops named;
+    named.loops = loops;
+    const Holes found = find_holes(holed, named, false);
+    REQUIRE(found.holes.size() == 1);
+    REQUIRE(found.left.size() == 1);
+    CHECK(found.left[0].reason.code == Code::not_a_loop);
+    CHECK(!fill(holed, found.holes, {}, {}, {})[0].left_because);
+}
+
+TEST_CASE("fill: triangles that stand up from the border leave a hole a hole") {
+    test::Mesh mesh = grid_without(16, {{8, 8}});
+    const Indices hole = loops_of(mesh).loops.back();
+    const auto count = static_cast<int>(mesh.points.cols());
+    const int flaps = static_cast<int>(hole.size()) / 2;
+    mesh.points.conservativeResize(3, count + flaps);
+    mesh.triangles.conservativeResize(3, mesh.triangles.cols() + flaps);
+    for (int k = 0; k < flaps; ++k) {
+        const Vector3 middle = 0.5 * (mesh.points.col(hole[2 * k]) + mesh.points.col(hole[2 * k + 1]));
+        mesh.points.col(count + k) = 1.08 * middle;
+        mesh.triangles.rightCols(flaps - k).col(0) << hole[2 * k], hole[2 * k + 1], count + k;
+    }
+    std::vector<Indices> loops = loops_of(mesh).loops;
+    std::erase_if(loops, [&](const Indices& loop) { return *std::max_element(loop.begin(), loop.end()) < count; });
+    REQUIRE(loops.size() == 1);
+    CHECK(!is_outer(loop_shapes(HoledMesh({mesh.points, mesh.triangles}), loops)[0]));
+}

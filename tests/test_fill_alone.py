@@ -1,0 +1,90 @@
+"""A hole is a job of its own: filled with others, in any order, it is what it is alone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fairing
+from holes import FloatArray, IntArray
+from test_fill_each import ball, caps
+
+
+def random_holes(seed: int) -> tuple[FloatArray, IntArray, list[IntArray]]:
+    """A dented ball with holes of some sizes, a few of which touch."""
+    rng = np.random.default_rng(seed)
+    vertices, triangles = ball(4)
+    dents = rng.normal(size=(3, 3))
+    vertices = vertices * (1.0 + 0.15 * np.sin(3.0 * vertices @ dents.T).prod(axis=1))[:, None]
+    axes = rng.normal(size=(6, 3))
+    axes /= np.linalg.norm(axes, axis=1)[:, None]
+    for axis, cosine in zip(axes, rng.uniform(0.95, 0.995, size=6), strict=True):
+        triangles = caps(vertices, triangles, axis[None], float(cosine))
+    found = fairing.hole_loops(vertices, triangles)
+    return vertices, triangles, [loop for loop in found.loops if len(loop) < 90]
+
+
+def surfaces(result: fairing.FillResult) -> dict[frozenset[int], fairing.Hole]:
+    return {frozenset(np.concatenate(hole.loops).tolist()): hole for hole in result.holes}
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_filling_in_one_call_is_filling_one_by_one(seed: int) -> None:
+    vertices, triangles, loops = random_holes(seed)
+    rng = np.random.default_rng(seed)
+    together = surfaces(fairing.fill(vertices, triangles, loops))
+    order = rng.permutation(len(loops))
+    shuffled = surfaces(fairing.fill(vertices, triangles, [loops[k] for k in order], threads=2))
+    assert len(together) == len(shuffled) == len(loops)
+    for loop in loops:
+        here = frozenset(loop.tolist())
+        (alone,) = fairing.fill(vertices, triangles, [loop]).holes
+        for other in (together[here], shuffled[here]):
+            assert alone.surface is not None
+            assert other.surface is not None
+            assert np.array_equal(alone.surface.vertices, other.surface.vertices)
+            assert np.array_equal(alone.surface.triangles, other.surface.triangles)
+            assert np.array_equal(alone.surface.join, other.surface.join)
+            assert [str(each.message) for each in alone.surface.warnings] == [
+                str(each.message) for each in other.surface.warnings
+            ]
+
+
+def test_all_surfaces_are_those_of_the_holes() -> None:
+    vertices, triangles, loops = random_holes(1)
+    result = fairing.fill(vertices, triangles, loops)
+    made = [hole.surface for hole in result.holes if hole.surface is not None]
+    assert np.array_equal(result.vertices, np.concatenate([each.vertices for each in made]))
+    assert len(result.triangles) == sum(len(each.triangles) for each in made)
+    assert result.left_open == ()
+
+
+def test_what_is_wrong_elsewhere_is_no_matter() -> None:
+    """A doubled triangle and an edge with three of them, away from the hole."""
+    vertices, triangles, loops = random_holes(2)
+    near = np.isin(triangles, loops[0]).any(axis=1)
+    far = triangles[~near & ~np.isin(triangles, np.concatenate(loops)).any(axis=1)]
+    fin = np.array([[far[9, 0], far[9, 1], len(vertices)]])
+    points = np.concatenate([vertices, [2.0 * vertices[far[9, 0]]]])
+    wrong = np.concatenate([triangles, far[:1], fin])
+    (found,) = fairing.fill(points, wrong, [loops[0]]).holes
+    (plain,) = fairing.fill(vertices, triangles, [loops[0]]).holes
+    assert found.surface is not None
+    assert plain.surface is not None
+    assert np.abs(found.surface.vertices - plain.surface.vertices).max() < 1e-9
+
+
+def test_a_thousand_small_holes_are_cancelled_in_between() -> None:
+    vertices, triangles = ball(5)
+    chosen = np.arange(0, len(vertices), 37)
+    gone = np.isin(triangles, chosen).any(axis=1)
+    asked = 0
+
+    def stop(fraction: float, stage: str) -> bool:
+        nonlocal asked
+        asked += 1
+        return fraction < 0.2
+
+    with pytest.raises(fairing.Cancelled):
+        fairing.fill(vertices, triangles[~gone], progress=stop)
+    assert asked > 1
