@@ -296,6 +296,25 @@ def test_a_concave_face_is_cut_within_itself(begin: int) -> None:
     assert len(areas) == 4 and (areas > 0).all() and areas.sum() == pytest.approx(3.0)
 
 
+def test_each_hole_has_a_row_of_its_own(tmp_path: Path) -> None:
+    """Two tubes; at the rim of the second one's hole two fins stand on one edge: the first one's hole is filled."""
+    points, triangles = holed()
+    count = len(points)
+    (rim,) = (loop for loop in fairing.hole_loops(points, triangles).loops if len(loop) == 12)
+    places = np.concatenate([points, points + np.array([4, 0, 0]), [[9, 9, 9], [9, 9, 8]]])
+    a, b = rim[:2] + count
+    faces = np.concatenate([triangles, triangles + count, [[a, b, 2 * count], [b, a, 2 * count + 1]]])
+    files.off.write(tmp_path / "two.off", Parts(places, Polygons.of(faces)), None)
+    status, (report,) = report_of(tmp_path, "fill", tmp_path / "two.off", "--longest", 20)
+    mesh = files.read(Path(report["written"]))[0]
+    first, *others = report["holes"]
+    assert (status, report["verdict"], first["verdict"], first["edges"]) == (1, "look", "good", 12)
+    assert np.allclose(first["at"], points[rim].mean(axis=0), atol=1e-5)
+    assert others and all(each["verdict"] == "unusable" and each["reason"] for each in others)
+    assert report["reason"].startswith(f"{len(others)} of {1 + len(others)} holes can't be filled")
+    assert abs(radius(mesh.points[len(places) :]) - 1).max() < 1e-4 and len(mesh.points) > len(places)
+
+
 def test_the_same_message_is_said_once(tmp_path: Path) -> None:
     points, triangles = holed()
     several = np.concatenate([points + np.array([0, 0, 4 * k]) for k in range(3)])

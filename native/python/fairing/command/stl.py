@@ -77,4 +77,4 @@ def write(target: Path, parts: Parts, header: Header | None) -> list[str]:
 
 
 def _words(values: FloatArray) -> str:
-    return " ".join(f"{value:.9g}" for value in values.tolist())
+    return " ".join(map(repr, values.tolist()))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
-from fairing._types import Diagnostic
+from fairing._new_mesh import FillResult, Hole
 
 GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
 VISIBLE = 12.0  # degrees at the join; docs/python.md, "What comes back"
@@ -20,15 +19,28 @@ def judged(result: Any) -> tuple[str, str]:
     broken = [each for each in result.warnings if each.code in _BROKEN and "others" not in each.figures]
     if not result.converged or broken:
         return UNUSABLE, broken[0].message if broken else f"no surface was found: {result.termination}"
-    for warning in _serious(result.warnings):
-        return LOOK, warning.message
-    for left in _serious(getattr(result, "left_because", ())):
-        return LOOK, f"a loop stays open: {left.message}"
+    for warning in result.warnings:
+        if warning.code not in _HARMLESS:
+            return LOOK, warning.message
     worst = float(np.max(result.join, initial=0.0))
-    if worst > VISIBLE:
-        return LOOK, f"a kink of {worst:.0f}° at the join"
-    return GOOD, "; ".join(dict.fromkeys(each.message for each in result.warnings if each.code == "NOT_A_HOLE"))
+    return (LOOK, f"a kink of {worst:.0f}° at the join") if worst > VISIBLE else (GOOD, "")
 
 
-def _serious(found: Iterable[Diagnostic]) -> list[Diagnostic]:
-    return [each for each in found if each.code not in _HARMLESS]
+def judged_holes(result: FillResult) -> tuple[str, str, list[tuple[str, str]]]:
+    """The same of all holes together, and of each."""
+    each = [_of_hole(hole) for hole in result.holes]
+    bad, odd = ([reason for grade, reason in each if grade == wanted] for wanted in (UNUSABLE, LOOK))
+    odd += [warning.message for warning in result.warnings if "others" in warning.figures]
+    notes = [reason for grade, reason in each if grade == GOOD and reason]
+    reasons = [f"{len(bad)} of {len(each)} holes can't be filled: {bad[0]}"] if bad else []
+    reasons += [f"{odd[0]} ({len(odd)} times)" if len(odd) > 1 else odd[0]] if odd else []
+    if len(bad) + len(notes) == len(each):
+        return (UNUSABLE if bad else GOOD), "; ".join(reasons + notes[:1]), each
+    return (LOOK if reasons else GOOD), "; ".join(reasons or notes[:1]), each
+
+
+def _of_hole(hole: Hole) -> tuple[str, str]:
+    if hole.surface is not None:
+        return judged(hole.surface)
+    assert hole.left_because is not None
+    return (GOOD if hole.left_because.code in _HARMLESS else UNUSABLE), hole.left_because.message

@@ -16,11 +16,12 @@ import numpy as np
 from fairing._hard_edges import hard_edges
 from fairing._holes import hole_loops, outer_borders
 from fairing._measure import self_intersections
+from fairing._new_mesh import Hole
 from fairing._types import Cancelled, FloatArray, IntArray, MeshError, SolverError
 from fairing.command import files
-from fairing.command.verdict import GOOD, UNUSABLE, judged
-from fairing.objects import fair_faces, fill_holes, fillet_edges
-from fairing.objects.calls import once
+from fairing.command.verdict import GOOD, UNUSABLE, judged, judged_holes
+from fairing.objects import fair_faces, fillet_edges
+from fairing.objects.calls import Made, fill_accepted, once
 from fairing.objects.parts import Parts
 
 Report = dict[str, Any]
@@ -61,12 +62,7 @@ def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespac
     options = {name: value for name in _OPTIONS[given.command] if (value := getattr(given, name)) is not None}
     options["progress"] = progress
     try:
-        if given.command == "fill":
-            made: Any = fill_holes(parts, **options)
-        elif given.command == "fair":
-            made = fair_faces(parts, selection(parts, given), **options)
-        else:
-            made = fillet_edges(parts, **options)
+        made, report = _WORK[given.command](parts, given, options)
     except MeshError as error:
         if error.code not in _NOTHING or given.command != "fill" or given.bridge:
             raise
@@ -75,12 +71,42 @@ def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespac
         else:
             write(target, parts)
         return {"verdict": GOOD, "reason": f"nothing to fill: {error.diagnostic.message}", "written": str(target)}
-    verdict, reason = judged(made.result)
-    report = {"verdict": verdict, "reason": reason, **_figures(made.result)}
-    if verdict != UNUSABLE or given.accept_all:
+    report |= _figures(made.result)
+    if report["verdict"] != UNUSABLE or given.accept_all:
         report["not_written"] = write(target, made.mesh)
         report["written"] = str(target)
     return report
+
+
+def _fill(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
+    """Holes whose surface can't be used stay open."""
+    made = fill_accepted(parts, lambda each: given.accept_all or judged(each)[0] != UNUSABLE, **options)
+    verdict, reason, each = judged_holes(made.result)
+    holes = [_hole(parts, *row) for row in zip(made.result.holes, each, strict=True)]
+    return made, {"verdict": verdict, "reason": reason, "holes": holes}
+
+
+def _fair(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
+    made = fair_faces(parts, selection(parts, given), **options)
+    return made, dict(zip(("verdict", "reason"), judged(made.result), strict=True))
+
+
+def _fillet(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
+    made = fillet_edges(parts, **options)
+    return made, dict(zip(("verdict", "reason"), judged(made.result), strict=True))
+
+
+_WORK = {"fill": _fill, "fair": _fair, "fillet": _fillet}
+
+
+def _hole(parts: Parts, hole: Hole, judged: tuple[str, str]) -> Report:
+    around = np.concatenate(hole.loops)
+    return {
+        "edges": len(around),
+        "at": parts.points[around].mean(axis=0).round(6).tolist(),
+        "verdict": judged[0],
+        "reason": judged[1],
+    }
 
 
 def _figures(result: Any) -> Report:

@@ -17,11 +17,11 @@ from fairing._fair import fair
 from fairing._fill import fill
 from fairing._fillet import fillet
 from fairing._measure import boundary_loops, self_intersections
-from fairing._new_mesh import FilletResult, FillResult
+from fairing._new_mesh import FilletResult, FillResult, NewMeshResult
 from fairing._types import Diagnostic, FairResult, IntArray
 from fairing.objects import data
 from fairing.objects.hosts import opened
-from fairing.objects.parts import Parts, Polygons
+from fairing.objects.parts import Parts
 from fairing.objects.seams import filled, rounded
 
 Result = TypeVar("Result", FairResult, FillResult, FilletResult)
@@ -99,17 +99,19 @@ def fill_holes(
     options
         Those of :func:`fairing.fill`. Quads become faces of four corners where the kind of mesh has them.
     """
+    given = dict(options, longest=longest, longest_length=longest_length, bridge=bridge, loops=loops)
+    return fill_accepted(mesh, lambda surface: True, **given)
+
+
+def fill_accepted(mesh: Any, accept: Callable[[NewMeshResult], bool], **options: Any) -> Made[FillResult]:
+    """The same; holes whose surface is not accepted stay open in the mesh."""
     parts, make = opened(mesh)
     parts, turned = _wound_alike(parts)
-    given = None if loops is None else [parts.same[np.asarray(loop)] for loop in loops]
-    result = fill(
-        parts.points, parts.triangles[parts.sound], given,
-        bridge=bridge, longest=longest, longest_length=longest_length, **options,
-    )  # fmt: skip
-    new_faces = Polygons.of(result.triangles)
-    if result.quads is not None:
-        new_faces = Polygons.joined([Polygons.of(result.quads.quads), Polygons.of(result.quads.triangles)])
-    made = filled(parts, result.vertices, result.triangles, new_faces)
+    if (loops := options.pop("loops", None)) is not None:
+        options["loops"] = [parts.same[np.asarray(loop)] for loop in loops]
+    result = fill(parts.points, parts.triangles[parts.sound], **options)
+    surfaces = [hole.surface for hole in result.holes if hole.surface is not None and accept(hole.surface)]
+    made = filled(parts, surfaces) if surfaces else parts
     result = replace(result, warnings=(*result.warnings, *turned))
     new = np.arange(len(parts.points), len(made.points), dtype=np.int32)
     return _made(make, made, result, new, np.arange(len(made.own)) >= len(parts.own))

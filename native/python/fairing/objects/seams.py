@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from fairing._new_mesh import FilletResult
+from fairing._new_mesh import FilletResult, NewMeshResult
 from fairing._types import FloatArray, IntArray
 from fairing.objects.data import is_normal, mixed, mixes, nearest, spread
 from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
@@ -52,20 +53,20 @@ class Sides:
         return cls(np.array(of_rim), copies, own)
 
 
-def filled(parts: Parts, new: FloatArray, triangles: IntArray, faces: Polygons) -> Parts:
-    """Parts with new vertices (k, 3) and faces behind those there are, over holes of the welded mesh.
+def filled(parts: Parts, surfaces: Sequence[NewMeshResult]) -> Parts:
+    """Parts with the surfaces over holes of the welded mesh, all new vertices and faces behind those there are.
 
-    ``triangles``: the same surface as ``faces``. A new face lies on the side of a seam that the face nearest to it lies
-    on, and has the data of that one; where two sides meet, new vertices are parted as the old ones are.
+    A new face lies on the side of a seam that the face nearest to it lies on, and has the data of that one; where two
+    sides meet, new vertices are parted as the old ones are.
     """
     count = len(parts.points)
-    points = np.concatenate([parts.points, new])
-    rim = np.flatnonzero(np.isin(parts.triangles, triangles).any(axis=1))
+    points = np.concatenate([parts.points, *(each.vertices for each in surfaces)])
+    rim = np.flatnonzero(np.isin(parts.triangles, np.concatenate([each.triangles for each in surfaces])).any(axis=1))
     sides = Sides.around(parts, rim)
-    middles = np.add.reduceat(points[faces.corners], faces.first) / faces.sizes[:, None]
-    beside = nearest(middles, parts.points[parts.own[rim]].mean(axis=1))
-    each = np.column_stack([faces.corners, np.repeat(sides.of_rim[beside], faces.sizes)])
-    pairs, pair_of = np.unique(each, axis=0, return_inverse=True)
+    faces, beside = _pieces(parts, surfaces, points, rim)
+    surface = Parts(points, faces).own
+    on_sides = np.column_stack([faces.corners, np.repeat(sides.of_rim[beside], faces.sizes)])
+    pairs, pair_of = np.unique(on_sides, axis=0, return_inverse=True)
     numbers = np.array([sides.copies[s].get(v, -1) for v, s in pairs.tolist()])
     inner, firsts = np.unique(pairs[:, 0], return_index=True)
     numbers[firsts[inner >= count]] = inner[inner >= count]
@@ -74,7 +75,7 @@ def filled(parts: Parts, new: FloatArray, triangles: IntArray, faces: Polygons) 
     side = np.full(len(points) - count, sides.of_rim[0])
     side[inner[inner >= count] - count] = pairs[firsts[inner >= count], 1]
     places = np.concatenate([np.arange(count, len(points)), pairs[again, 0]])
-    added = _rows(parts, sides, (points, triangles), places, np.concatenate([side, pairs[again, 1]]))
+    added = _rows(parts, sides, (points, surface), places, np.concatenate([side, pairs[again, 1]]))
     of_faces = {
         name: np.concatenate([values, values[parts.faces.face_of[rim[beside]]]])
         for name, values in parts.face_data.items()
@@ -82,6 +83,24 @@ def filled(parts: Parts, new: FloatArray, triangles: IntArray, faces: Polygons) 
     whole = Polygons.joined([parts.faces, Polygons(numbers[pair_of.ravel()].astype(np.int32), faces.sizes)])
     of_vertices = {name: np.concatenate([values, added[name]]) for name, values in parts.vertex_data.items()}
     return Parts(np.concatenate([points, points[pairs[again, 0]]]), whole, of_vertices, of_faces)
+
+
+def _pieces(
+    parts: Parts, surfaces: Sequence[NewMeshResult], points: FloatArray, rim: IntArray
+) -> tuple[Polygons, IntArray]:
+    """The new faces, and of each which of the triangles ``rim`` is the nearest one around the same hole."""
+    count = first = len(parts.points)
+    pieces, under = [], []
+    for each in surfaces:
+        own = [each.triangles] if each.quads is None else [each.quads.quads, each.quads.triangles]
+        piece = Polygons.joined([Polygons.of(rows) for rows in own if len(rows)])
+        piece = Polygons(np.where(piece.corners < count, piece.corners, piece.corners + first - count), piece.sizes)
+        first += len(each.vertices)
+        near = np.flatnonzero(np.isin(parts.triangles[rim], piece.corners).any(axis=1))
+        middles = np.add.reduceat(points[piece.corners], piece.first) / piece.sizes[:, None]
+        pieces.append(piece)
+        under.append(near[nearest(middles, parts.points[parts.own[rim[near]]].mean(axis=1))])
+    return Polygons.joined(pieces), np.concatenate(under)
 
 
 def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], places: IntArray, of: IntArray) -> Data:
