@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path, PurePosixPath
 
 from fairing._core import __version__
@@ -31,6 +32,8 @@ def parsed(words: Sequence[str] | None) -> Namespace:
         parser.error("--output is for one file: use --into with several")
     if given.jobs < 1:
         parser.error("--jobs: 1 or more is needed")
+    if given.dask and find_spec("distributed") is None:
+        parser.error("--dask needs distributed: pip install 'intrinsic-fairing[dask]'")
     if any(is_address(each) for each in given.files) and not given.dask:
         parser.error("an address is read by the workers of --dask alone")
     return given

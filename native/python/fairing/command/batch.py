@@ -33,6 +33,9 @@ def main(words: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
+    except OSError as error:  # of a cluster that does not answer
+        print(error, file=sys.stderr)
+        return 2
     finally:  # what is done is done, interrupted or not
         _write_json(reports, given)
     return max(_STATUS[report["verdict"]] for report in reports)
