@@ -296,6 +296,11 @@ def test_a_concave_face_is_cut_within_itself(begin: int) -> None:
     assert len(areas) == 4 and (areas > 0).all() and areas.sum() == pytest.approx(3.0)
 
 
+def test_a_face_with_a_corner_that_is_no_number_is_cut_all_the_same() -> None:
+    corners = np.array([(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, np.nan), (1, 2, 0), (0, 2, 0)], float)
+    assert Parts(corners, Polygons.of([range(6)])).own.shape == (4, 3)
+
+
 def test_each_hole_has_a_row_of_its_own(tmp_path: Path) -> None:
     """Two tubes; at the rim of the second one's hole two fins stand on one edge: the first one's hole is filled."""
     points, triangles = holed()
