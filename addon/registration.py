@@ -7,15 +7,14 @@ import bpy
 
 from . import file_owned, translations
 from .follow import live, undone, watch
-from .follow.live_operators import FairLive, MESH_OT_fair_live_forget, MESH_OT_fair_live_select
+from .follow.live_operators import FairLive, MESH_OT_fair_live_forget
 from .follow.taking import MESH_OT_fair_live_region
 from .host import handlers
 from .preferences import FairPreferences
 from .run import cli, compare, presets, redo, redo_panel
-from .run.again import MESH_OT_fair_again, MESH_OT_fair_reselect, MESH_OT_fair_spots
+from .run.again import MESH_OT_fair_again
 from .run.background import MESH_OT_fair_cancel
 from .run.brush import FairDab, MESH_OT_fair_brush
-from .run.curvature import MESH_OT_fair_curvature
 from .run.denoise import MESH_OT_fair_denoise
 from .run.fill import MESH_OT_fair_fill
 from .run.fillet import MESH_OT_fair_fillet
@@ -24,7 +23,7 @@ from .run.masked import MESH_OT_fair_masked
 from .run.operators import MESH_OT_fair_region
 from .run.redo import MESH_OT_fair_follow
 from .run.report_properties import FairCheck, FairProgress, FairReport
-from .run.selection_tools import TOOLS
+from .run.selection_tools import MESH_OT_fair_select
 from .run.strokes import MESH_OT_fair_stroke
 from .show import brush_preview, fillet_preview, gizmos, keymap, marks, menus, overlay, tab, tools, ui
 from .show.chosen_options import MESH_OT_fair_reset
@@ -46,11 +45,8 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_denoise,
     MESH_OT_fair_from_curves,
     MESH_OT_fair_live_region,
-    MESH_OT_fair_live_select,
     MESH_OT_fair_live_forget,
     compare.MESH_OT_fair_compare,
-    MESH_OT_fair_spots,
-    MESH_OT_fair_reselect,
     MESH_OT_fair_cancel,
     MESH_OT_fair_follow,
     MESH_OT_fair_reset,
@@ -59,10 +55,9 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_stroke,
     *tools.MACROS,
     *gizmos.GROUPS,
-    *TOOLS,
+    MESH_OT_fair_select,
     MESH_OT_fair_again,
     watch.MESH_OT_fair_inspect,
-    MESH_OT_fair_curvature,
     *ui.PANELS,
 )
 for _class in _CLASSES:  # tooltips break their lines by themselves

@@ -146,21 +146,6 @@ def bad_outline(problem: Problem) -> Ints:
     return bad
 
 
-@dataclass(frozen=True)
-class FittedBoundary:
-    """A boundary moved onto the fit of its surroundings."""
-
-    vertices: Ints  # (k,) of the mesh that move
-    points: Floats  # (k, 3) where to, in world space
-
-
-def fitted_boundary(problem: Problem) -> FittedBoundary:
-    """Return where the boundary and the two rings around it go, as far as it is noisy."""
-    rim = np.intersect1d(problem.patch.outline, problem.outside)
-    fitted = fairing.mend_outline(problem.points, problem.outside, rim)
-    return FittedBoundary(problem.vertices[fitted.moved], fitted.vertices[fitted.moved])
-
-
 def islands(patch: Patch) -> int:
     """Count the pieces that are solved each on its own; raises MeshRefusal."""
     with in_mesh_words(patch.origin):

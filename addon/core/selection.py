@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -10,7 +10,7 @@ import fairing
 
 from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats, Ints, Mask
-from .engine import Problem, bad_outline
+from .engine import Problem
 from .outline import edges_of, two_sided_edges
 from .region import MeshArrays, free_vertices, make_patch, nothing
 
@@ -134,26 +134,6 @@ def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:
         patch = make_patch(world)
         vertices, outside = numbered(patch, wound_alike(world, outside_triangles(world, patch)))
     return Problem(patch, world.positions[vertices], np.empty((0, 3)), vertices, outside)
-
-
-def grown_until_smooth(mesh: MeshArrays, matrix: Floats) -> Mask:
-    """Return the (f,) mask of the selection, grown over the faces at the bad vertices of its boundary.
-
-    Ends where the boundary has none, after ROUNDS, or before another boundary or a vertex without any would come of it.
-    Raises what make_patch does.
-    """
-    for _ in range(ROUNDS):
-        bad = bad_outline(problem_of(mesh, matrix))
-        touched = np.zeros(len(mesh.positions), dtype=bool)
-        touched[bad] = True
-        larger = mesh.in_patch.copy()
-        larger[mesh.corner_faces[touched[mesh.corner_vertices]]] = True
-        larger &= visible(mesh)
-        grown = replace(mesh, in_patch=larger)
-        if np.array_equal(larger, mesh.in_patch) or _outlines(grown) != _outlines(mesh):
-            break
-        mesh = grown
-    return mesh.in_patch
 
 
 def _outlines(mesh: MeshArrays) -> int:

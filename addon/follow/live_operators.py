@@ -35,26 +35,6 @@ def _require_region(operator: Any, context: bpy.types.Context) -> bool:
     )
 
 
-class MESH_OT_fair_live_select(bpy.types.Operator):
-    """Select the faces of the live region, to see which they are"""
-
-    bl_idname = "mesh.fair_live_select"
-    bl_label = "Select Live Region"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """There must be a region."""
-        return _require_region(cls, context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select in face mode: the other modes would select faces between the region's vertices too."""
-        context.tool_settings.mesh_select_mode = (False, False, True)
-        for obj in edited_objects(context):
-            live_mesh.select_region(obj.data)
-        return {"FINISHED"}
-
-
 class MESH_OT_fair_live_forget(bpy.types.Operator):
     """Forget the live region of the meshes being edited; their shape stays as it is"""
 

@@ -78,13 +78,6 @@ def _selected(mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> 
     return _arrays(mesh, enclosed, group, options) if enclosed.any() else arrays
 
 
-def read_own_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
-    """Read the mesh of an object in whichever mode, without modifiers."""
-    if obj.data.is_editmode:
-        return read_edit_mesh(obj, options)
-    return _arrays(obj.data, column(obj.data.polygons, "select", 1, bool), None, options)
-
-
 def read_shown_mesh(obj: bpy.types.Object, options: FairOptions) -> MeshArrays:
     """Read what is seen of an object: in edit mode its own mesh, else the one that its modifiers make."""
     if obj.data.is_editmode:

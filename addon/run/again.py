@@ -1,5 +1,5 @@
 # mypy: disable-error-code="valid-type"
-"""Buttons after a run: look at its worst spots, or run once more with one change.
+"""Buttons after a run: run once more with one change.
 
 No postponed annotations here: Blender reads them as property definitions.
 """
@@ -24,51 +24,7 @@ from ..core.verdict import (
     WRITE,
 )
 from ..host.polling import require, require_edit_mode
-from ..host.status import look_at
-from ..translations import translated
 from . import last_run
-
-
-class MESH_OT_fair_spots(bpy.types.Operator):
-    """Select the spots that the verdict is about and turn the view to them"""
-
-    bl_idname = "mesh.fair_spots"
-    bl_label = "Show Worst Spots"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """There must be some."""
-        return require_edit_mode(cls, context) and require(cls, last_run.has_spots(), "The last run has no bad spots")
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select, and look."""
-        try:
-            last_run.select_spots(context)
-        except last_run.Changed as change:
-            self.report({"ERROR"}, translated(str(change)))
-            return {"CANCELLED"}
-        look_at(context, *last_run.worst_spot(context))
-        return {"FINISHED"}
-
-
-class MESH_OT_fair_reselect(bpy.types.Operator):
-    """Select the faces of the last run again, or those whose boundary was examined"""
-
-    bl_idname = "mesh.fair_reselect"
-    bl_label = "Select Region Again"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """There must have been a run, or a look at a boundary."""
-        return require_edit_mode(cls, context) and require(cls, last_run.can_reselect(context), "There is no region")
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select in face mode."""
-        last_run.reselect(context)
-        return {"FINISHED"}
-
 
 # What each button changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
@@ -145,7 +101,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
         try:
             last_run.select_region(context)
             if self.way == ADD_LEFT_OUT:
-                bpy.ops.mesh.fair_add_left_out()
+                bpy.ops.mesh.fair_select(what="LEFT_OUT")
             for _ in range({GROW: 1, GROW_OVER: last_run.rings()}.get(self.way, 0)):
                 bpy.ops.mesh.select_more()
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to

@@ -1,142 +1,138 @@
-"""Buttons for the selection and its boundary: what is bad about it, and what can be done before a run."""
+# mypy: disable-error-code="valid-type"
+"""What a button can select: bad vertices of a boundary, faces that were left out, what the last run was about.
+
+No postponed annotations here: Blender reads them as property definitions.
+"""
 
 from collections.abc import Callable
 from typing import Any
 
 import bpy
 import numpy as np
+from bpy.props import EnumProperty
 
-from ..core.arrays import Ints, Mask
-from ..core.engine import REFUSALS, bad_outline, fitted_boundary
+from ..core.engine import REFUSALS, bad_outline
 from ..core.options import FairOptions
-from ..core.region import MeshArrays, to_local
-from ..core.selection import grown_until_smooth, left_out_faces, problem_of
+from ..core.selection import left_out_faces, problem_of
 from ..core.words import said
 from ..host.context import edited_objects
-from ..host.polling import SELECT_FACES, require_edit_mode
-from ..mesh import mesh_io, selecting
+from ..host.polling import require_edit_mode
+from ..host.status import look_at
+from ..mesh import live_mesh, selecting
 from ..translations import translated
 from . import job, last_run
 
+_FACES, _VERTICES = (False, False, True), (True, False, False)  # modes of selection
 
-class _Tool:
-    """Does something with the selection of every object in edit mode that has one."""
 
+def _tasks(context: bpy.types.Context) -> list[job.Task]:
+    context.view_layer.update()
+    return job.read(context, FairOptions())
+
+
+def _bad(context: bpy.types.Context) -> bool:
+    tasks = _tasks(context)
+    found = [bad_outline(problem_of(task.mesh, task.matrix)) for task in tasks]
+    if not any(map(len, found)):
+        return False
+    last_run.keep_selection(tasks)
+    context.tool_settings.mesh_select_mode = _VERTICES
+    objects = job.objects_in_mode(context)
+    for task, vertices in zip(tasks, found, strict=True):
+        selecting.select_vertices(objects[task.object_name].data, vertices)
+    return True
+
+
+def _left_out(context: bpy.types.Context) -> bool:
+    found = [(task, left_out_faces(task.mesh)) for task in _tasks(context)]
+    if not any(faces.any() for _, faces in found):
+        return False
+    context.tool_settings.mesh_select_mode = _FACES
+    objects = job.objects_in_mode(context)
+    for task, faces in found:
+        selecting.select_faces(objects[task.object_name].data, np.flatnonzero(faces | task.mesh.in_patch))
+    return True
+
+
+def _spots(context: bpy.types.Context) -> bool:
+    if not last_run.has_spots():
+        return False
+    last_run.select_spots(context)
+    look_at(context, *last_run.worst_spot(context))
+    return True
+
+
+def _region(context: bpy.types.Context) -> bool:
+    if not last_run.can_reselect(context):
+        return False
+    last_run.reselect(context)
+    return True
+
+
+def _live(context: bpy.types.Context) -> bool:
+    meshes = [obj.data for obj in edited_objects(context)]
+    if not any(map(live_mesh.has_region, meshes)):
+        return False
+    context.tool_settings.mesh_select_mode = _FACES  # the others would select faces between the region's vertices, too
+    for mesh in meshes:
+        live_mesh.select_region(mesh)
+    return True
+
+
+_WHAT = (
+    ("SPOTS", "Show Worst Spots", "Select the spots that the verdict is about and turn the view to them"),
+    ("REGION", "Select Region Again", "Select the faces of the last run again, or those whose boundary was examined"),
+    (
+        "BAD",
+        "Select Bad Boundary",
+        "Select the vertices of the boundary whose surroundings are folded, noisy or needles: "
+        "the surface would follow them",
+    ),
+    ("LEFT_OUT", "Add Left-Out Faces", "Select the single faces that a lasso missed"),
+    ("LIVE", "Select Live Region", "Select the faces of the live region, to see which they are"),
+)
+NAMES = {identifier: name for identifier, name, _ in _WHAT}
+# Each selects, and returns whether there was something; raises last_run.Changed and what reading does.
+_SELECTS: dict[str, Callable[[bpy.types.Context], bool]] = {
+    "SPOTS": _spots,
+    "REGION": _region,
+    "BAD": _bad,
+    "LEFT_OUT": _left_out,
+    "LIVE": _live,
+}
+
+
+class MESH_OT_fair_select(bpy.types.Operator):
+    """Select what a run was about, or should be about"""
+
+    bl_idname = "mesh.fair_select"
+    bl_label = "Fair Select"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    what: EnumProperty(name="What", description="What is selected", items=_WHAT, default="REGION")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: Any) -> str:
+        """Say what this button selects."""
+        return next(text for identifier, _, text in _WHAT if identifier == properties.what)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has a selection."""
-        return require_edit_mode(cls, context, SELECT_FACES)
+        return require_edit_mode(cls, context)
 
-    def _each(self, context: bpy.types.Context, work: Callable[[bpy.types.Object, job.Task], int]) -> int | None:
-        """Add up what the work returns for each object; None where one is refused, which is reported."""
-        context.view_layer.update()
-        total = 0
-        for obj in edited_objects(context):
-            try:
-                task = job.read_object(obj, FairOptions())
-                if task.mesh.in_patch.any():
-                    total += work(obj, task)
-            except REFUSALS as cause:
-                self.report({"ERROR"}, translated(said("named", name=obj.name, text=str(cause))))  # type: ignore[attr-defined]
-                return None
-        return total
-
-    def _answer(self, count: int | None, done: str, nothing: str) -> set[str]:
-        if count is None:
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select it, where there is any."""
+        try:
+            if _SELECTS[self.what](context):
+                return {"FINISHED"}
+        except (last_run.Changed, job.Refused, *REFUSALS) as cause:
+            self.report({"ERROR"}, translated(str(cause)))
             return {"CANCELLED"}
-        self.report({"INFO"}, translated(done if count else nothing))  # type: ignore[attr-defined]
-        return {"FINISHED"} if count else {"CANCELLED"}
+        self.report({"INFO"}, translated(said("nothing_to_select")))
+        return {"CANCELLED"}
 
 
-class MESH_OT_fair_select_bad(_Tool, bpy.types.Operator):
-    """Select the vertices of the boundary whose surroundings are folded, noisy or needles:
-    the surface would follow them"""
-
-    bl_idname = "mesh.fair_select_bad"
-    bl_label = "Select Bad Boundary"
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select them in vertex mode, where there are any."""
-        found: list[tuple[bpy.types.Object, Ints]] = []
-
-        tasks: list[job.Task] = []
-
-        def look(obj: bpy.types.Object, task: job.Task) -> int:
-            tasks.append(task)
-            found.append((obj, bad_outline(problem_of(task.mesh, task.matrix))))
-            return len(found[-1][1])
-
-        count = self._each(context, look)
-        if count:
-            last_run.keep_selection(tasks)
-            context.tool_settings.mesh_select_mode = (True, False, False)
-            for obj, vertices in found:
-                selecting.select_vertices(obj.data, vertices)
-        return self._answer(count, said("bad_vertices", n=count or 0), said("none_bad"))
-
-
-def _select_faces(context: bpy.types.Context, obj: bpy.types.Object, mesh: MeshArrays, faces: Mask) -> int:
-    """Select these faces in face mode; return how many there are more than before."""
-    context.tool_settings.mesh_select_mode = (False, False, True)
-    selecting.select_faces(obj.data, np.flatnonzero(faces))
-    return int(np.count_nonzero(faces & ~mesh.in_patch))
-
-
-class MESH_OT_fair_grow(_Tool, bpy.types.Operator):
-    """Grow the selection over the bad vertices of its boundary, until none is left"""
-
-    bl_idname = "mesh.fair_grow"
-    bl_label = "Grow Until Smooth"
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select more, where that helps."""
-        count = self._each(
-            context,
-            lambda obj, task: _select_faces(context, obj, task.mesh, grown_until_smooth(task.mesh, task.matrix)),
-        )
-        return self._answer(count, said("faces_more", n=count or 0), said("nothing_to_grow"))
-
-
-class MESH_OT_fair_add_left_out(_Tool, bpy.types.Operator):
-    """Select the single faces that a lasso missed"""
-
-    bl_idname = "mesh.fair_add_left_out"
-    bl_label = "Add Left-Out Faces"
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select small holes, too."""
-        count = self._each(
-            context,
-            lambda obj, task: _select_faces(context, obj, task.mesh, task.mesh.in_patch | left_out_faces(task.mesh)),
-        )
-        return self._answer(count, said("faces_more", n=count or 0), said("none_left_out"))
-
-
-def _smooth(obj: bpy.types.Object, task: job.Task) -> int:
-    fitted = fitted_boundary(problem_of(task.mesh, task.matrix))
-    mesh_io.write_edit_mesh(obj.data, fitted.vertices, to_local(fitted.points, task.matrix))
-    return len(fitted.vertices)
-
-
-class MESH_OT_fair_smooth_outline(_Tool, bpy.types.Operator):
-    """Move a noisy boundary and the two rings around it onto the surface that the surroundings suggest,
-    by a quarter of an edge at most"""
-
-    bl_idname = "mesh.fair_smooth_outline"
-    bl_label = "Smooth Boundary"
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """Move vertices of the boundary; nothing inside the selection moves."""
-        count = self._each(context, _smooth)
-        text = said("vertices_moved", n=count or 0)
-        return self._answer(count, text, said("smooth_already"))
-
-
-TOOLS: tuple[Any, ...] = (
-    MESH_OT_fair_select_bad,
-    MESH_OT_fair_grow,
-    MESH_OT_fair_smooth_outline,
-    MESH_OT_fair_add_left_out,
-)
+def draw_select(layout: Any, what: str, **shown: Any) -> None:
+    """Draw the button for one of these."""
+    layout.operator(MESH_OT_fair_select.bl_idname, **{"text": NAMES[what], **shown}).what = what

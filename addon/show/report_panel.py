@@ -9,8 +9,9 @@ import bpy
 from ..core.report import GRADE_NAMES
 from ..follow.watch import watch
 from ..host.text import draw_text
-from ..run.again import WAY_NAMES, MESH_OT_fair_again, MESH_OT_fair_spots, best_first
+from ..run.again import WAY_NAMES, MESH_OT_fair_again, best_first
 from ..run.report_properties import message
+from ..run.selection_tools import draw_select
 from ..translations import translated
 from .sidebar import SidebarPanel, pair
 
@@ -61,7 +62,7 @@ class VIEW3D_PT_fairing_details(SidebarPanel, bpy.types.Panel):
         self.layout.label(text=report.objects, icon="OBJECT_DATA", translate=False)
         if report.verdict != "GOOD":
             column = self.layout.column(align=True)
-            column.operator(MESH_OT_fair_spots.bl_idname, icon="VIEWZOOM")
+            draw_select(column, "SPOTS", icon="VIEWZOOM")
             _draw_way(column, best_first(report.remedies)[1:])
         for note in _notes(context, report)[0 if report.reason else 1 :]:
             draw_text(self.layout, message(note), "INFO")

@@ -9,13 +9,8 @@ import bpy
 from ..follow.inspection import Inspection
 from ..follow.watch import MESH_OT_fair_inspect, is_large, request, watch
 from ..host.text import draw_text
-from ..run.again import MESH_OT_fair_reselect
-from ..run.selection_tools import (
-    MESH_OT_fair_add_left_out,
-    MESH_OT_fair_grow,
-    MESH_OT_fair_select_bad,
-    MESH_OT_fair_smooth_outline,
-)
+from ..run import last_run
+from ..run.selection_tools import draw_select
 from ..translations import translated
 from .sidebar import SidebarPanel, pair
 
@@ -39,8 +34,8 @@ class VIEW3D_PT_fairing_selection(SidebarPanel, bpy.types.Panel):
             return
         for found in watch.found:
             _draw_inspection(self.layout, found, len(watch.found) > 1)
-        if not any(found.faces for found in watch.found) and MESH_OT_fair_reselect.poll(context):
-            self.layout.operator(MESH_OT_fair_reselect.bl_idname, icon="FILE_REFRESH")
+        if not any(found.faces for found in watch.found) and last_run.can_reselect(context):
+            draw_select(self.layout, "REGION", icon="FILE_REFRESH")
 
 
 class VIEW3D_PT_fairing_counts(SidebarPanel, bpy.types.Panel):
@@ -70,11 +65,9 @@ def _draw_inspection(layout: Any, found: Inspection, named: bool) -> None:
     for note in found.notes:
         draw_text(layout, note, "INFO")
     if found.left_out:
-        layout.operator(MESH_OT_fair_add_left_out.bl_idname, icon="ADD")
+        draw_select(layout, "LEFT_OUT", icon="ADD")
     if len(found.bad):
         pair(layout.column(align=True), "Bad Vertices", str(len(found.bad)), "ERROR")
-        column = layout.column(align=True)
-        for tool in (MESH_OT_fair_select_bad, MESH_OT_fair_grow, MESH_OT_fair_smooth_outline):
-            column.operator(tool.bl_idname)
+        draw_select(layout, "BAD")
     if not (found.notes or found.left_out or len(found.bad)):
         layout.label(text="Ready", icon="CHECKMARK")

@@ -7,17 +7,16 @@ import bpy
 from ..follow.live import live
 from ..follow.live_operators import (
     MESH_OT_fair_live_forget,
-    MESH_OT_fair_live_select,
 )
 from ..follow.taking import MESH_OT_fair_live_region
 from ..host.status import draw_progress
 from ..host.text import draw_text
 from ..run.compare import MESH_OT_fair_compare
-from ..run.curvature import MESH_OT_fair_curvature
 from ..run.fill import MESH_OT_fair_fill
 from ..run.masked import MESH_OT_fair_masked
 from ..run.operators import MESH_OT_fair_region
 from ..run.presets import MESH_MT_fair_fill_runs, MESH_MT_fair_region_runs
+from ..run.selection_tools import draw_select
 from ..translations import translated
 from . import chosen_options
 from .overlay import overlay
@@ -65,7 +64,7 @@ class VIEW3D_PT_fairing_live(SidebarPanel, bpy.types.Panel):
         """Draw the operators, what is followed and how quickly."""
         row = self.layout.row(align=True)
         row.operator(MESH_OT_fair_live_region.bl_idname)
-        row.operator(MESH_OT_fair_live_select.bl_idname, text="", icon="RESTRICT_SELECT_OFF")
+        draw_select(row, "LIVE", text="", icon="RESTRICT_SELECT_OFF")
         row.operator(MESH_OT_fair_live_forget.bl_idname, text="", icon="X")
         column = self.layout.column(align=True)
         for name, session in live.sessions.items():
@@ -90,7 +89,6 @@ class VIEW3D_PT_fairing_overlay(SidebarPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the settings."""
         _draw_overlay(self.layout, context.window_manager.fairing_overlay)
-        self.layout.operator(MESH_OT_fair_curvature.bl_idname, icon="RNDCURVE")
 
 
 def _draw_button(column: Any, operator: Any, icon: str, presets: Any) -> None:

@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from core.arrays import Floats, Mask
-from core.engine import bad_outline
 from core.region import MeshArrays, make_patch
-from core.selection import enclosed_faces, grown_until_smooth, left_out_faces, problem_of
+from core.selection import enclosed_faces, left_out_faces
 from core.symmetry import mirror_map, with_image
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
@@ -96,23 +95,6 @@ def folded_rim() -> MeshArrays:
     near &= points[:, 0] > centre[0] - 0.02
     points[near] += 0.12 * np.random.default_rng(4).normal(size=(np.count_nonzero(near), 3))
     return replace(mesh, positions=points)
-
-
-def test_growing_leaves_the_bad_vertices_inside() -> None:
-    mesh = folded_rim()
-    bad = bad_outline(problem_of(mesh, np.eye(4)))
-    assert len(bad) > 0
-    faces = grown_until_smooth(mesh, np.eye(4))
-    assert (faces & ~mesh.in_patch).any()
-    assert faces[mesh.in_patch].all()
-    grown = replace(mesh, in_patch=faces)
-    patch = make_patch(grown)
-    assert set(bad) <= set(patch.vertices[patch.free])
-    assert len(bad_outline(problem_of(grown, np.eye(4)))) == 0
-    clean = grid(20, 0.6, on_sphere)
-    assert np.array_equal(grown_until_smooth(clean, np.eye(4)), clean.in_patch)
-    hidden = ~mesh.in_patch
-    assert np.array_equal(grown_until_smooth(replace(mesh, hidden=hidden), np.eye(4)), mesh.in_patch)
 
 
 def test_a_selection_on_one_side_gets_its_image() -> None:

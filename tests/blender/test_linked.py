@@ -38,13 +38,6 @@ def test_fair_mesh_refuses_linked_data(linked: tuple[bpy.types.Object, list[int]
     assert np.array_equal(meshes.positions(obj), before)
 
 
-def test_curvature_is_not_written_to_linked_data(linked: tuple[bpy.types.Object, list[int]]) -> None:
-    obj, _ = linked
-    with pytest.raises(RuntimeError, match="linked from another file"):
-        bpy.ops.mesh.fair_curvature()
-    assert "mean_curvature" not in obj.data.attributes
-
-
 def test_command_refuses_linked_data(
     linked: tuple[bpy.types.Object, list[int]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

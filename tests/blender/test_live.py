@@ -416,7 +416,7 @@ def test_region_can_be_selected(live: Any, mode: tuple[bool, bool, bool]) -> Non
     obj.data.polygons.foreach_set("select", (~faces).tolist())
     meshes.edit(obj)
     bpy.context.tool_settings.mesh_select_mode = mode
-    assert bpy.ops.mesh.fair_live_select() == {"FINISHED"}
+    assert bpy.ops.mesh.fair_select(what="LIVE") == {"FINISHED"}
     meshes.leave()
     shown = faces.copy()
     shown[hidden] = False
@@ -434,4 +434,4 @@ def test_forgetting_leaves_no_trace(live: Any) -> None:
     assert module("mesh.live_mesh").KEY not in obj.data
     meshes.edit(obj)
     assert not bpy.ops.mesh.fair_live_forget.poll()
-    assert not bpy.ops.mesh.fair_live_select.poll()
+    assert bpy.ops.mesh.fair_select(what="LIVE") == {"CANCELLED"}

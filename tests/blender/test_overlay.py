@@ -182,32 +182,3 @@ def test_switching_off_leaves_nothing(overlay: Any) -> None:
     settings().show = False
     assert len(bpy.app.handlers.depsgraph_update_post) == count
     assert (overlay.surfaces, overlay.handle) == ((), None)
-
-
-def attribute(obj: bpy.types.Object) -> Any:
-    layer = obj.data.attributes["mean_curvature"]
-    assert (layer.data_type, layer.domain) == ("FLOAT", "POINT")
-    values = np.empty(len(layer.data), dtype=np.float32)
-    layer.data.foreach_get("value", values)
-    return values
-
-
-@pytest.mark.parametrize("mode", ["OBJECT", "EDIT"])
-def test_curvature_attribute(mode: str) -> None:
-    obj = meshes.sphere(96)
-    obj.scale = (2.0, 2.0, 2.0)
-    before = meshes.contents(obj)
-    bpy.ops.object.mode_set(mode=mode)
-    for _ in range(2):  # the second run overwrites
-        assert bpy.ops.mesh.fair_curvature() == {"FINISHED"}
-    meshes.leave()
-    np.testing.assert_allclose(attribute(obj), -0.5, rtol=2e-3)
-    after = meshes.contents(obj)
-    assert after["POINT position"] == before["POINT position"]
-
-
-def test_curvature_attribute_of_another_kind_is_refused() -> None:
-    obj = meshes.sphere()
-    obj.data.attributes.new("mean_curvature", "FLOAT_COLOR", "CORNER")
-    with pytest.raises(RuntimeError, match="another attribute"):
-        bpy.ops.mesh.fair_curvature()

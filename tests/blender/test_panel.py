@@ -268,7 +268,7 @@ def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
     shown.remedies, shown.warnings, shown.free_vertices = "GROW,SMOOTH_OUTLINE,EVEN_CURVATURE", "One\nTwo", 5
     assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Look here", "It is so", "Least Variation"]
     details = drawn("VIEW3D_PT_fairing_details").splitlines()
-    assert details[:6] == ["Grid", "mesh.fair_spots", "Grow by a Ring", "Smooth Boundary", "One", "Two"]
+    assert details[:6] == ["Grid", "Show Worst Spots", "Grow by a Ring", "Smooth Boundary", "One", "Two"]
     shown.verdict, shown.reason, shown.remedies = "GOOD", "", ""
     assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Good", "One"]
     assert drawn("VIEW3D_PT_fairing_details").splitlines()[:2] == ["Grid", "Two"]
@@ -364,7 +364,7 @@ def test_enabled_and_disabled_twenty_times() -> None:
         assert without["types"] == without["window manager"] == without["scene"] == without["operators"] == []
         assert without["presets"] == []
         assert all(without["handlers"][name] <= enabled["handlers"][name] for name in enabled["handlers"])
-        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 8
+        assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 7
         addon_utils.enable(ID)
     assert footprint() == enabled
 

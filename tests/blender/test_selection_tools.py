@@ -72,10 +72,10 @@ def test_left_out_faces_are_offered_and_added() -> None:
     meshes.enter(obj, faces & ~hole)
     watch = module("follow.watch").watch
     watch.look(bpy.context)
-    assert "mesh.fair_add_left_out" in drawn("VIEW3D_PT_fairing_selection")
-    assert bpy.ops.mesh.fair_add_left_out() == {"FINISHED"}
+    assert "Add Left-Out Faces" in drawn("VIEW3D_PT_fairing_selection")
+    assert bpy.ops.mesh.fair_select(what="LEFT_OUT") == {"FINISHED"}
     assert chosen_faces(obj) == np.flatnonzero(faces).tolist()
-    assert bpy.ops.mesh.fair_add_left_out() == {"CANCELLED"}
+    assert bpy.ops.mesh.fair_select(what="LEFT_OUT") == {"CANCELLED"}
     meshes.leave()
 
 
@@ -90,7 +90,7 @@ def folded() -> tuple[bpy.types.Object, Any]:
     return obj, faces
 
 
-def test_bad_outline_vertices_are_marked_selected_and_grown_over() -> None:
+def test_bad_outline_vertices_are_marked_and_selected() -> None:
     obj, faces = folded()
     points = meshes.positions(obj)
     obj.location = (0.0, 0.0, 5.0)
@@ -102,21 +102,13 @@ def test_bad_outline_vertices_are_marked_selected_and_grown_over() -> None:
     ((places, colour),) = marks.shown(bpy.context)
     assert colour == marks.BAD
     text = drawn("VIEW3D_PT_fairing_selection")
-    assert {"Bad Vertices", "mesh.fair_select_bad", "mesh.fair_grow", "mesh.fair_smooth_outline"} <= set(
-        text.split("\n")
-    )
-    assert bpy.ops.mesh.fair_select_bad() == {"FINISHED"}
+    assert {"Bad Vertices", "Select Bad Boundary"} <= set(text.split("\n"))
+    assert bpy.ops.mesh.fair_select(what="BAD") == {"FINISHED"}
     bad = [vertex.index for vertex in bmesh.from_edit_mesh(obj.data).verts if vertex.select]
     np.testing.assert_allclose(sorted(map(tuple, places)), sorted(map(tuple, points[bad] + [0.0, 0.0, 5.0])), atol=1e-5)
     assert np.abs(points[bad, :2] - [0.5, 0.0]).max() < 0.3
     meshes.leave()
     meshes.enter(obj, faces)
-    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
-    assert bpy.ops.mesh.fair_grow() == {"FINISHED"}
-    grown = set(chosen_faces(obj))
-    assert grown > set(np.flatnonzero(faces).tolist())
-    watch.look(bpy.context)
-    assert not set(map(tuple, watch.found[0].bad.round(5).tolist())) & set(map(tuple, places.round(5).tolist()))
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.context.view_layer.update()
     assert marks.shown(bpy.context) == []  # of another selection

@@ -122,7 +122,7 @@ def test_the_shoulder_is_fair(tmp_path: Path) -> None:
     lesson_play.play(LESSONS["bottle"].steps)
     followed = now()
     bpy.context.window_manager.fairing_live.on = False
-    bpy.ops.mesh.fair_live_select()
+    bpy.ops.mesh.fair_select(what="LIVE")
     bpy.ops.mesh.fair_region("EXEC_DEFAULT")
     assert np.abs(now() - followed).max() < 1e-4
 

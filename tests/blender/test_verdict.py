@@ -232,15 +232,15 @@ def test_the_region_is_selected_again() -> None:
     obj, faces = thorn()
     meshes.enter(obj, faces)
     meshes.run()
-    for other in (bpy.ops.mesh.fair_spots, bpy.ops.mesh.fair_select_bad):
-        assert other() == {"FINISHED"}
+    for other in ("SPOTS", "BAD"):
+        assert bpy.ops.mesh.fair_select(what=other) == {"FINISHED"}
         assert selected_faces(obj) == []
         module("follow.watch").watch.look(bpy.context)
-        assert "mesh.fair_reselect" in drawn("VIEW3D_PT_fairing_selection")
-        assert bpy.ops.mesh.fair_reselect() == {"FINISHED"}
+        assert "Select Region Again" in drawn("VIEW3D_PT_fairing_selection")
+        assert bpy.ops.mesh.fair_select(what="REGION") == {"FINISHED"}
         assert selected_faces(obj) == np.flatnonzero(faces).tolist()
         module("follow.watch").watch.look(bpy.context)
-        assert "mesh.fair_reselect" not in drawn("VIEW3D_PT_fairing_selection")
+        assert "Select Region Again" not in drawn("VIEW3D_PT_fairing_selection")
     meshes.leave()
 
 

@@ -65,13 +65,11 @@ def marks_before_a_run() -> Story:
     assert len(found.bad) > 3, found
     tell(f"bad outline vertices: {len(found.bad)}")
     screenshot("marks")
-    for name in ("fair_select_bad", "fair_reselect", "fair_grow"):
+    for what in ("BAD", "REGION"):
         with in_view():
-            getattr(bpy.ops.mesh, name)("EXEC_DEFAULT", True)
+            bpy.ops.mesh.fair_select("EXEC_DEFAULT", True, what=what)
         yield from _look()
-        screenshot(f"marks_{name}")
-    (found,) = module("follow.watch").watch.found
-    tell(f"bad outline vertices after Grow Until Smooth: {len(found.bad)}")
+        screenshot(f"marks_{what.lower()}")
 
 
 def worth_a_look() -> Story:
@@ -81,7 +79,7 @@ def worth_a_look() -> Story:
     assert (report().verdict, report().written) == ("LOOK", True), report().reason
     tell(f"look here: {report().reason}")
     screenshot("look")
-    run_operator("mesh.fair_spots")
+    run_operator("mesh.fair_select", what="SPOTS")
     yield 1.0
     chosen = spoilt_scenes.selected_vertices()
     assert 0 < len(chosen) < 10, chosen
