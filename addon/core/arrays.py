@@ -8,5 +8,4 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
-Pixels = NDArray[np.float32]  # (h, w, 4), of an image
 Words = NDArray[np.str_]

@@ -58,11 +58,6 @@ class Surface:
         shown = self.values(mode)[np.unique(self.triangles)]
         return float(shown[np.abs(shown).argmax()]) if len(shown) else 0.0
 
-    @property
-    def largest_curvature(self) -> float:
-        """The usual size of H."""
-        return self.usual("CURVATURE")
-
 
 def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Floats | None = None) -> Surface:
     """Measure the patch of the mesh, or the whole of it, in world space; deviation: (n,) of all its vertices.

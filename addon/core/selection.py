@@ -6,13 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-import fairing
-
 from .around import numbered, outside_triangles, wound_alike
 from .arrays import Floats, Ints, Mask
 from .engine import Problem
 from .outline import edges_of, two_sided_edges
-from .region import MeshArrays, free_vertices, make_patch, nothing
+from .region import MeshArrays, make_patch, nothing
 
 LEFT_OUT = 4  # faces at most of a hole in a selection that is taken for an oversight
 ROUNDS = 5  # of growing
@@ -134,7 +132,3 @@ def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:
         patch = make_patch(world)
         vertices, outside = numbered(patch, wound_alike(world, outside_triangles(world, patch)))
     return Problem(patch, world.positions[vertices], np.empty((0, 3)), vertices, outside)
-
-
-def _outlines(mesh: MeshArrays) -> int:
-    return len(fairing.boundary_loops(make_patch(mesh).triangles)) if free_vertices(mesh).any() else 0

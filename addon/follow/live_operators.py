@@ -10,6 +10,7 @@ import bpy
 from bpy.props import BoolProperty
 
 from ..core.signals import live_changed
+from ..core.words import said
 from ..host.context import edited_objects
 from ..host.polling import require, require_edit_mode
 from ..mesh import live_mesh
@@ -31,7 +32,7 @@ def _require_region(operator: Any, context: bpy.types.Context) -> bool:
     return require_edit_mode(operator, context) and require(
         operator,
         any(live_mesh.has_region(obj.data) for obj in edited_objects(context)),
-        "There is no live region",
+        said("no_live_region_here"),
     )
 
 

@@ -14,7 +14,7 @@ from ..host.context import edited_objects
 from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
 from ..host.polling import require_edit_mode
 from ..host.status import redraw_sidebars
-from ..mesh.mesh_io import edit_face_count
+from ..mesh import selecting
 from ..preferences import inspect_up_to
 from .inspection import Inspection, inspect, last_options
 
@@ -45,7 +45,7 @@ watch = Watch()
 
 def is_large(context: bpy.types.Context) -> bool:
     """Return whether a look would be felt."""
-    faces = sum(edit_face_count(obj.data) for obj in edited_objects(context))
+    faces = sum(selecting.face_count(obj.data) for obj in edited_objects(context))
     return bool(faces > inspect_up_to(context))
 
 

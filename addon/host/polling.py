@@ -7,8 +7,10 @@ from typing import Any
 import bpy
 
 from ..core.words import said
+from ..translations import translated
 
-SELECT_FACES = "Select faces of a mesh in edit mode"
+SELECT_FACES = said("select_faces")
+IN_EDIT_MODE = said("in_edit_mode")
 NO_FACE = said("no_face")
 NO_FREE = said("no_free")
 
@@ -16,16 +18,16 @@ NO_FREE = said("no_free")
 def require(operator: Any, met: bool, otherwise: str) -> bool:
     """Return `met`; where it is False the operator says `otherwise`."""
     if not met:
-        operator.poll_message_set(otherwise)
+        operator.poll_message_set(translated(otherwise))
     return met
 
 
 def require_idle(operator: Any, context: bpy.types.Context) -> bool:
     """Return whether no run is under way, which has the mesh to itself."""
     idle = not context.window_manager.fairing_progress.running
-    return require(operator, idle, "Fairing is under way: wait for it, or press Esc")
+    return require(operator, idle, said("under_way"))
 
 
-def require_edit_mode(operator: Any, context: bpy.types.Context, otherwise: str = "Only in edit mode") -> bool:
+def require_edit_mode(operator: Any, context: bpy.types.Context, otherwise: str = IN_EDIT_MODE) -> bool:
     """Return whether a mesh is being edited."""
     return require(operator, context.mode == "EDIT_MESH", otherwise)

@@ -109,11 +109,6 @@ def check_new_faces(obj: bpy.types.Object | None) -> None:
         raise ValueError(said("multires"))
 
 
-def edit_face_count(mesh: bpy.types.Mesh) -> int:
-    """Return the number of faces of a mesh in edit mode, at no cost."""
-    return len(bmesh.from_edit_mesh(mesh).faces)
-
-
 def edit_positions(mesh: bpy.types.Mesh) -> Floats:
     """Return the (n, 3) positions of a mesh in edit mode."""
     with snapshot(mesh) as now:

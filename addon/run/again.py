@@ -23,6 +23,7 @@ from ..core.verdict import (
     SMOOTH_OUTLINE,
     WRITE,
 )
+from ..core.words import said
 from ..host.polling import require, require_edit_mode
 from . import last_run
 
@@ -93,7 +94,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """There must have been a run."""
-        return require_edit_mode(cls, context) and require(cls, last_run.has_regions(), "Nothing has been faired yet")
+        return require_edit_mode(cls, context) and require(cls, last_run.has_regions(), said("nothing_faired"))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select what the last run had, change one thing, run; what is no better than before isn't written."""

@@ -55,7 +55,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Sculpt mode has brushes."""
-        return require(cls, context.mode == "SCULPT", "In sculpt mode") and super().poll(context)
+        return require(cls, context.mode == "SCULPT", said("in_sculpt_mode")) and super().poll(context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to paint; what can't be faired is refused before."""
@@ -104,7 +104,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         """Fair, in the background where that takes a while."""
         self._hide()
         if not len(self.dabs):
-            self.report({"INFO"}, translated("There is no face under the mouse"))
+            self.report({"INFO"}, translated(said("no_face_there")))
             return {"CANCELLED"}
         return self._begin_with(context, self._start)
 

@@ -149,7 +149,7 @@ class MESH_OT_fair_compare(bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """There must be something to compare, in edit mode."""
-        return require_edit_mode(cls, context) and require(cls, is_available(), "Nothing has been faired yet")
+        return require_edit_mode(cls, context) and require(cls, is_available(), said("nothing_faired"))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Swap, unless the vertices were moved by anything else."""
@@ -158,5 +158,5 @@ class MESH_OT_fair_compare(bpy.types.Operator):
         except Changed as change:
             self.report({"ERROR"}, translated(str(change)))
             return {"CANCELLED"}
-        self.report({"INFO"}, translated("Shown: the result" if shows_result else "Shown: the shape before"))
+        self.report({"INFO"}, translated(said("shown_result") if shows_result else said("shown_before")))
         return {"FINISHED"}

@@ -18,6 +18,7 @@ from ..core.options import FairOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..core.spanning import WIRES_ALONE
+from ..core.words import said
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode, require_idle
 from ..mesh import filled, mesh_io
@@ -141,9 +142,7 @@ class MESH_OT_fair_fill(FillProperties, Redone, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Edit mode has borders; while a run is under way, the mesh is its own."""
-        return require_edit_mode(cls, context, "Select the boundary of a hole in edit mode") and require_idle(
-            cls, context
-        )
+        return require_edit_mode(cls, context, said("select_boundary")) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Lay the options out in groups."""

@@ -68,7 +68,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
             return self._picked(context, event)
         if self.source != "FACE_SET" or self.face_set or self._only_visible(active_object(context)):
             return self._begin_with(context, self._start)
-        return self.pick(context, "Click the face set to fair")
+        return self.pick(context, said("click_face_set"))
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Wait for the click, then for the result."""
@@ -80,7 +80,7 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
             face = face_under_mouse(context, event, shown)
             self.face_set = 0 if face is None else painted.face_set_at(shown.data, face)
         if face is None:
-            self.report({"INFO"}, translated("There is no face under the mouse"))
+            self.report({"INFO"}, translated(said("no_face_there")))
             return {"CANCELLED"}
         return self._begin_with(context, self._start)
 

@@ -179,8 +179,8 @@ class FairsOutside(FairProperties, Redone):
         """Needs a mesh outside edit mode."""
         obj = active_object(context)
         return (
-            require(cls, obj is not None and obj.type == "MESH", "Make a mesh object active")
-            and require(cls, obj.mode in MODES, "In sculpt or object mode; in edit mode use Fair Region")
+            require(cls, obj is not None and obj.type == "MESH", said("make_active"))
+            and require(cls, obj.mode in MODES, said("outside_edit_mode"))
             and require_idle(cls, context)
         )
 

@@ -50,7 +50,7 @@ class Overlay:
         self.clear()
         if context.window_manager.fairing_overlay.mode == "COMBS":
             self.combs = _combs(context)
-            self.message = "" if self.combs else "Select edges in edit mode: combs stand along them"
+            self.message = "" if self.combs else said("combs_need_edges")
             return
         self.surfaces = tuple(s for obj in _shown(context) if (s := self._surface(obj, whole)) is not None)
 

@@ -24,7 +24,7 @@ def test_curvature_of_a_selection_is_that_of_the_sphere_up_to_its_border() -> No
     assert len(shown) == 9**2
     np.testing.assert_allclose(surface.curvature[shown], -0.5, rtol=2e-2)  # convex, radius 2
     np.testing.assert_allclose(surface.normals[shown], surface.positions[shown] / 2.0, atol=1e-2)
-    assert surface.largest_curvature == pytest.approx(0.5, rel=2e-2)
+    assert surface.usual("CURVATURE") == pytest.approx(0.5, rel=2e-2)
     assert surface.boundary.shape == (4 * 8, 2, 3)
     np.testing.assert_allclose(np.linalg.norm(surface.boundary, axis=2), 2.0, rtol=1e-6)
 
@@ -48,4 +48,4 @@ def test_nothing_selected_draws_nothing() -> None:
     mesh = grid(6, 0.67)
     surface = make_surface(replace(mesh, in_patch=np.zeros(36, dtype=bool)), EYE, whole=False)
     assert len(surface.triangles) == 0
-    assert surface.largest_curvature == 0.0
+    assert surface.usual("CURVATURE") == 0.0
