@@ -218,13 +218,16 @@ def test_objects_of_a_scene_stay(tmp_path: Path) -> None:
     for name, mine in (("upper", upper), ("lower", ~upper)):
         part = trimesh.Trimesh(points, triangles[mine], process=False)
         part.remove_unreferenced_vertices()
-        scene.add_geometry(
-            part, geom_name=name, node_name=name, transform=trimesh.transformations.translation_matrix([3, 0, 0])
-        )
+        place = trimesh.transformations.translation_matrix([3, 0, 0])
+        if name == "upper":  # mirrored in its file
+            part.apply_transform(np.diag([1, 1, -1, 1]))
+            place[2, 2] = -1
+        scene.add_geometry(part, geom_name=name, node_name=name, transform=place)
     scene.export(str(tmp_path / "tube.glb"))
     mesh, report = filled(tmp_path / "tube.glb", "--longest", 20)
     after = trimesh.load_scene(tmp_path / "out.glb", process=False)
     assert report["verdict"] == "good" and {*after.graph.nodes_geometry} == {"upper", "lower"}
+    assert not report["warnings"] and all(part.volume > 0 for part in after.geometry.values())
     assert {*after.geometry} == {"upper", "lower"}
     assert abs(radius(mesh.points - [3, 0, 0]) - 1).max() < 1e-4
     found = fairing.hole_loops(mesh.points, mesh.triangles)

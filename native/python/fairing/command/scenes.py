@@ -39,12 +39,12 @@ def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
 
 
 def _joined(own: list[Parts], matrices: list[FloatArray]) -> Parts:
-    counts = [len(parts.points) for parts in own]
+    moved = [_moved(parts.points, parts.faces, matrix) for parts, matrix in zip(own, matrices, strict=True)]
+    counts, sizes = [len(points) for points, _ in moved], [faces.sizes for _, faces in moved]
     begins = np.cumsum([0, *counts])
-    corners = [(parts.faces.corners + begin).astype(np.int32) for parts, begin in zip(own, begins, strict=False)]
-    sizes = [parts.faces.sizes for parts in own]
+    corners = [(faces.corners + begin).astype(np.int32) for (_, faces), begin in zip(moved, begins, strict=False)]
     return Parts(
-        np.concatenate([_moved(parts.points, matrix) for parts, matrix in zip(own, matrices, strict=True)]),
+        np.concatenate([points for points, _ in moved]),
         Polygons(np.concatenate(corners), np.concatenate(sizes)),
         _together([parts.vertex_data for parts in own], counts),
         _together([parts.face_data for parts in own], [len(each) for each in sizes]),
@@ -60,16 +60,15 @@ def _one_of(made: Parts, number: int, before: Parts, matrix: FloatArray) -> Part
     )
     faces = Polygons((np.cumsum(kept) - 1)[chosen.corners].astype(np.int32), chosen.sizes)
     of_vertices = {key: made.vertex_data[key][kept] for key in before.vertex_data}
-    return Parts(
-        _moved(made.points[kept], matrix),
-        faces,
-        of_vertices,
-        {key: made.face_data[key][mine] for key in before.face_data},
-    )
+    of_faces = {key: made.face_data[key][mine] for key in before.face_data}
+    return Parts(*_moved(made.points[kept], faces, matrix), of_vertices, of_faces)
 
 
-def _moved(points: FloatArray, matrix: FloatArray) -> FloatArray:
-    return points if (matrix == np.eye(4)).all() else points @ matrix[:3, :3].T + matrix[:3, 3]
+def _moved(points: FloatArray, faces: Polygons, matrix: FloatArray) -> tuple[FloatArray, Polygons]:
+    """In other coordinates; a mirror turns the faces."""
+    if np.linalg.det(matrix[:3, :3]) < 0:
+        faces = faces.turned(np.arange(len(faces.sizes)))
+    return points if (matrix == np.eye(4)).all() else points @ matrix[:3, :3].T + matrix[:3, 3], faces
 
 
 def _together(data: list[dict[str, Any]], counts: list[int]) -> dict[str, Any]:
