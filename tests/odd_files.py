@@ -137,6 +137,7 @@ def good() -> dict[str, bytes]:
         "colours_unannounced.off": _off(vertex=" 10 20 30"),
         "normals.off": _off("NOFF\n", vertex=" 0 0 1"),
         "normals_colours.off": _off("CNOFF\n", vertex=" 0 0 1 9 8 7 255"),
+        "letters_turned.off": _off("NCOFF\n", vertex=" 0 0 1 9 8 7 255"),
         "texture.off": _off("STOFF\n", vertex=" 0.5 0.25"),
         "everything.off": _off("STCNOFF\n", vertex=" 0 0 1 9 8 7 255 0.5 0.25"),
         "four.off": _off("4OFF\n", vertex=" 1"),

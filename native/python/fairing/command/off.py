@@ -16,7 +16,7 @@ from fairing.objects.parts import PLACE, Data, Parts, Polygons
 
 Array = npt.NDArray[Any]
 Words = list[str]
-_FIRST = re.compile(r"\s*(?:(ST)?(C)?(N)?(4)?(n)?OFF|off|Off)\b[ \t]*(BINARY)?")
+_FIRST = re.compile(r"\s*(?:((?:ST|C|N|4|n)*)OFF|off|Off)\b[ \t]*(BINARY)?")
 
 
 def read(source: Path) -> tuple[Parts, str]:
@@ -24,10 +24,11 @@ def read(source: Path) -> tuple[Parts, str]:
     raw = source.read_bytes()
     text = re.sub("#.*", "", raw.decode("utf-8", "replace"))
     first = _FIRST.match(text)
-    st, c, n, homogeneous, dimension, binary = map(bool, first.groups()) if first else (False,) * 6
-    if dimension:
+    letters = first[1] or "" if first else ""
+    st, c, n, homogeneous = ("ST" in letters, "C" in letters, "N" in letters, "4" in letters)
+    if "n" in letters:
         raise ValueError("it has another dimension than three")
-    if binary:
+    if first and first[2]:
         return _binary(raw[raw.index(b"\n") + 1 :], 3 * n)
     lines = [words for line in text[first.end() if first else 0 :].splitlines() if (words := line.split())]
     counts: list[int] = []

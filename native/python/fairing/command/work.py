@@ -87,12 +87,14 @@ def _fill(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made
 
 
 def _fair(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
-    made = fair_faces(parts, selection(parts, given), **options)
-    return made, dict(zip(("verdict", "reason"), judged(made.result), strict=True))
+    return _judged(fair_faces(parts, selection(parts, given), **options))
 
 
 def _fillet(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
-    made = fillet_edges(parts, **options)
+    return _judged(fillet_edges(parts, **options))
+
+
+def _judged(made: Made[Any]) -> tuple[Made[Any], Report]:
     return made, dict(zip(("verdict", "reason"), judged(made.result), strict=True))
 
 
