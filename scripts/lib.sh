@@ -109,10 +109,11 @@ install_packages() {
         apt-get install --yes --no-install-recommends "${missing[@]}"
 }
 
-# Of the two below: $python is the environment's, which knows where pybind11 is.
+# Of the two below: $python is the environment's, which knows where pybind11 is. Sources are compiled in groups, unless
+# $unity says OFF: a fresh build takes three fifths of the time.
 # usage: configure PRESET [OPTION…]
 configure() {
-    quietly "$1-configure" cmake --preset "$@" \
+    quietly "$1-configure" cmake --preset "$@" -DFAIRING_UNITY="${unity-ON}" \
         -Dpybind11_DIR="$("$python" -m pybind11 --cmakedir)" -DPython_EXECUTABLE="$python"
 }
 

@@ -1,6 +1,6 @@
-"""Which of the engine's sources may be read as one: those whose private names mean nothing in one another.
+"""Which sources may be read as one: those whose private names mean nothing in one another.
 
-    source_groups.py        CMake's groups for a unity build of native/ (FAIRING_UNITY)
+    source_groups.py CMAKELISTS.TXT        CMake's groups for the sources that it lists (FAIRING_UNITY)
 
 Libraries' headers take most of the time of compilers and of clang-tidy. Sources that are read as one share them.
 """
@@ -8,6 +8,7 @@ Libraries' headers take most of the time of compilers and of clang-tidy. Sources
 from __future__ import annotations
 
 import re
+import sys
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -21,7 +22,7 @@ NAME = re.compile(
 SAID = re.compile(r'//[^\n]*|"(?:\\.|[^"\\\n])*"')  # comments and strings, names of headers among them
 OPENMESH = ROOT / "native/mesh/surface_mesh.h"
 GIVEN = frozenset(("dot", "cross", "norm", "sqrnorm", "normalize", "vectorize"))  # what it declares for Eigen's types
-SIZE = 16  # sources
+SIZE = 8  # sources: a fresh build takes as long with 16, and an edit compiles its group
 
 
 @cache
@@ -43,36 +44,39 @@ def closure(path: Path) -> list[Path]:
 
 
 @dataclass(frozen=True)
-class Words:
-    """What a source declares for itself alone, and all words of the code in it and in our headers that it includes."""
+class Names:
+    """What a source declares for itself alone, and what else it and our headers that it includes declare."""
 
     private: frozenset[str]
-    every: frozenset[str]
-    room: str
+    shared: frozenset[str]
+    folder: str
 
-    def fit(self, other: Words) -> bool:
-        """Whether no private name of either stands in the other; bindings have libraries of their own."""
-        alike = (self.room == "bindings") == (other.room == "bindings")
-        return alike and not (self.private & other.every or other.private & self.every)
+    def fit(self, other: Names) -> bool:
+        """Whether the sources lie in one folder, and no private name of either means something in the other."""
+        clash = self.private & (other.private | other.shared) or self.shared & other.private
+        return self.folder == other.folder and not clash
 
 
-def words(path: Path) -> Words:
-    own = "".join(PRIVATE.findall(path.read_text(encoding="utf-8")))
-    private = frozenset(name for pair in NAME.findall(own) for name in pair if name)
+def declared(text: str) -> frozenset[str]:
+    return frozenset(name for pair in NAME.findall(SAID.sub("", text)) for name in pair if name)
+
+
+def names(path: Path) -> Names:
     read = closure(path)
-    text = "".join(SAID.sub("", each.read_text(encoding="utf-8")) for each in read)
+    texts = {each: each.read_text(encoding="utf-8") for each in read}
+    private = declared("".join(PRIVATE.findall(texts[path])))
+    texts[path] = PRIVATE.sub("", texts[path])
     given = GIVEN if OPENMESH in read else frozenset()
-    return Words(private, given.union(re.findall(r"\w+", text)), path.parent.name)
+    return Names(private, given.union(*map(declared, texts.values())), path.parent.name)
 
 
 def groups(paths: list[Path]) -> list[list[Path]]:
-    """Sources to read together, up to SIZE in each group: those that fit the fewest others come first."""
-    all_words = {path: words(path) for path in paths}
-    clashes = {path: sum(not mine.fit(other) for other in all_words.values()) for path, mine in all_words.items()}
+    """Sources of one folder to read together, up to SIZE in each group, in their order."""
+    all_names = {path: names(path) for path in paths}
     found: list[list[Path]] = []
-    for path in sorted(paths, key=lambda path: -clashes[path]):
+    for path in paths:
         for group in found:
-            if len(group) < SIZE and all(all_words[path].fit(all_words[other]) for other in group):
+            if len(group) < SIZE and all(all_names[path].fit(all_names[other]) for other in group):
                 group.append(path)
                 break
         else:
@@ -81,14 +85,12 @@ def groups(paths: list[Path]) -> list[list[Path]]:
 
 
 def main() -> None:
-    """Prints a line of CMake for each group of the engine's sources."""
-    listed = (
-        (ROOT / "native" / "CMakeLists.txt").read_text(encoding="utf-8").split("add_library(fairing_engine STATIC")[1]
-    )
-    sources = [ROOT / "native" / name for name in re.findall(r"^\s+(\w+/\w+\.cpp)", listed.split(")")[0], re.MULTILINE)]
-    for number, group in enumerate(groups(sources)):
+    """Prints a line of CMake for each group."""
+    lists = Path(sys.argv[1])
+    sources = re.findall(r"^\s+([\w/]+\.cpp)", lists.read_text(encoding="utf-8"), re.MULTILINE)
+    for number, group in enumerate(groups([lists.parent / name for name in dict.fromkeys(sources)])):
         if len(group) > 1:
-            names = " ".join(path.relative_to(ROOT / "native").as_posix() for path in group)
+            names = " ".join(path.relative_to(lists.parent).as_posix() for path in group)
             print(f"set_source_files_properties({names} PROPERTIES UNITY_GROUP {number})")
 
 
