@@ -2,7 +2,7 @@
 
 #include "api/component.h"
 #include "base/errors.h"
-#include "fill/harmonic_values.h"
+#include "fairness/harmonic_values.h"
 #include "mesh/pieces.h"
 
 namespace fairing {

@@ -6,7 +6,7 @@
 namespace fairing {
 
 // Rows: the mesh's vertices; columns as those of `given`, whose rows belong to `input.fixed`. Harmonic at the other
-// vertices (fill/harmonic_values); zero where no component holds a fixed vertex. Border vertices that are not fixed
+// vertices (fairness/harmonic_values); zero where no component holds a fixed vertex. Border vertices that are not fixed
 // stay zero, too: a mesh whose border is not all fixed has no use for this. Throws what check_mesh throws, and
 // SolverError.
 Eigen::MatrixXd interpolate(const MeshInput& input, const Eigen::MatrixXd& given);

@@ -5,12 +5,10 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <queue>
-#include <tuple>
 #include <vector>
 
-#include "base/progress.h"
 #include "geometry/neighbourhood.h"
+#include "mesh/nearest_first.h"
 
 namespace fairing {
 
@@ -54,7 +52,8 @@ public:
           stops_(stops),
           around_(outside, static_cast<int>(points.cols())),
           edges_(std::move(edges)),
-          distance_(VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity())) {
+          nearest_edge_(static_cast<std::size_t>(points.cols()), none),
+          reached_(VectorX::Constant(points.cols(), std::numeric_limits<double>::infinity())) {
         for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
             for (int v : edges_[e]) edges_at_[v].push_back(e);
         }
@@ -62,28 +61,15 @@ public:
 
     VectorX distances(double farthest) && {
         for (const auto& [v, edges] : edges_at_) reach(v, edges.front());
-        while (!next_.empty()) {
-            const auto [distance, v, edge] = next_.top();
-            next_.pop();
-            if (distance > distance_[v]) continue;
-            if (distance > farthest) break;
+        for (int v = reached_.next(); v != none && !(reached_[v] > farthest); v = reached_.next()) {
             if (stops_[v]) continue;
-            checkpoint();
+            const int edge = nearest_edge_[v];
             for (int k = around_.begin[v]; k < around_.begin[v + 1]; ++k) spread(around_.neighbours[k], edge);
         }
-        return std::move(distance_);
+        return std::move(reached_).take();
     }
 
 private:
-    struct Reached {
-        double distance;
-        int vertex;
-        int edge;
-        bool operator<(const Reached& other) const {
-            return std::tie(other.distance, other.vertex, other.edge) < std::tie(distance, vertex, edge);
-        }
-    };
-
     void spread(int vertex, int edge) {
         for (int end : edges_[edge]) {
             for (int near : edges_at_[end]) reach(vertex, near);
@@ -92,10 +78,8 @@ private:
 
     void reach(int vertex, int edge) {
         const auto [a, b] = edges_[edge];
-        const double distance = distance_to(points_.col(vertex), points_.col(a), points_.col(b));
-        if (!(distance < distance_[vertex])) return;
-        distance_[vertex] = distance;
-        next_.push({distance, vertex, edge});
+        if (reached_.lower(vertex, distance_to(points_.col(vertex), points_.col(a), points_.col(b))))
+            nearest_edge_[vertex] = edge;
     }
 
     const Points& points_;
@@ -103,8 +87,8 @@ private:
     VertexAdjacency around_;
     std::vector<Edge> edges_;
     std::map<int, Indices> edges_at_;
-    VectorX distance_;
-    std::priority_queue<Reached> next_;
+    Indices nearest_edge_;
+    NearestFirst reached_;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/direction.h"
-#include "fill/harmonic_values.h"
+#include "fairness/harmonic_values.h"
 #include "geometry/angle.h"
 
 namespace fairing {

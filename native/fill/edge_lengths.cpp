@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
-#include <utility>
+#include <limits>
 
 #include "base/progress.h"
-#include "fill/harmonic_values.h"
+#include "fairness/harmonic_values.h"
 #include "geometry/face_geometry.h"
+#include "mesh/nearest_first.h"
 
 namespace fairing {
 
@@ -68,22 +68,13 @@ VectorX continued(const Patch& patch, const Points& points, const VectorX& borde
 
 // Makes every length at most (or, with `sign` −1, at least) that of a neighbour plus (minus) `growth` times the way.
 void grade(const Patch& patch, const Points& points, double growth, double sign, VectorX& lengths) {
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (int v = 0; v < patch.vertex_count(); ++v) queue.emplace(sign * lengths[v], v);
-    while (!queue.empty()) {
-        checkpoint();
-        const auto [key, v] = queue.top();
-        queue.pop();
-        if (key > sign * lengths[v]) continue;
-        for (const int u : patch.ring(v).vertices) {
-            const double reached = key + growth * (points.col(u) - points.col(v)).norm();
-            if (reached < sign * lengths[u]) {
-                lengths[u] = sign * reached;
-                queue.emplace(reached, u);
-            }
-        }
+    NearestFirst reached(VectorX::Constant(lengths.size(), std::numeric_limits<double>::infinity()));
+    for (int v = 0; v < patch.vertex_count(); ++v) reached.lower(v, sign * lengths[v]);
+    for (int v = reached.next(); v != none; v = reached.next()) {
+        for (const int u : patch.ring(v).vertices)
+            reached.lower(u, reached[v] + growth * (points.col(u) - points.col(v)).norm());
     }
+    lengths = sign * std::move(reached).take();
 }
 
 // The outline's edges are what they are: where they are longer than wanted, lengths shrink inwards, and the other way

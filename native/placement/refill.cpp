@@ -1,8 +1,6 @@
 #include "placement/refill.h"
 
-#include <algorithm>
-
-#include <Eigen/SparseCholesky>
+#include "linear/sparse_cholesky.h"
 
 namespace fairing {
 
@@ -10,7 +8,7 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-// The number of each free vertex near the triangles, none elsewhere.
+// The free vertices near the triangles.
 Indices unknowns_near(const Patch& patch, const Indices& triangles, int rings) {
     std::vector<char> near(patch.vertex_count(), 0);
     for (const int t : triangles) {
@@ -23,20 +21,20 @@ Indices unknowns_near(const Patch& patch, const Indices& triangles, int rings) {
             for (const int w : patch.ring(v).vertices) near[w] = 1;
         }
     }
-    Indices number(patch.vertex_count(), none);
-    int count = 0;
+    Indices unknowns;
     for (int v = 0; v < patch.free_count; ++v) {
-        if (near[v]) number[v] = count++;
+        if (near[v]) unknowns.push_back(v);
     }
-    return number;
+    return unknowns;
 }
 
 }  // namespace
 
 Points refilled(const Patch& patch, const Points& points, const Indices& triangles, int rings) {
-    const Indices number = unknowns_near(patch, triangles, rings);
-    const auto count = patch.free_count - std::count(number.begin(), number.begin() + patch.free_count, none);
-    if (count == 0) return points;
+    const Indices unknowns = unknowns_near(patch, triangles, rings);
+    if (unknowns.empty()) return points;
+    Indices number(patch.vertex_count(), none);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) number[unknowns[k]] = static_cast<int>(k);
     Triplets entries;
     Eigen::MatrixXd known = Eigen::MatrixXd::Zero(patch.vertex_count(), 3);
     const auto add = [&](int row, int vertex, double value) {
@@ -50,15 +48,13 @@ Points refilled(const Patch& patch, const Points& points, const Indices& triangl
         add(v, v, static_cast<double>(ring.size()));
         for (const int w : ring) add(v, w, -1.0);
     }
-    Eigen::SparseMatrix<double> umbrellas(patch.vertex_count(), count);
+    SparseMatrix umbrellas(patch.vertex_count(), static_cast<Eigen::Index>(unknowns.size()));
     umbrellas.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SparseMatrix<double> normal = umbrellas.transpose() * umbrellas;
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(normal);
-    const Eigen::MatrixXd solved = factor.solve(-umbrellas.transpose() * known);
+    const SparseMatrix normal = umbrellas.transpose() * umbrellas;
+    SparseCholesky factor(points(Eigen::all, unknowns));
+    if (!factor.factorise(normal.triangularView<Eigen::Lower>(), "placement", Progress())) return points;
     Points result = points;
-    for (int v = 0; v < patch.free_count; ++v) {
-        if (number[v] != none) result.col(v) = solved.row(number[v]).transpose();
-    }
+    result(Eigen::all, unknowns) = factor.solve(-umbrellas.transpose() * known).transpose();
     return result;
 }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <queue>
 
 #include <Eigen/Geometry>
 
@@ -15,6 +14,7 @@
 #include "geometry/face_geometry.h"
 #include "geometry/limits.h"
 #include "geometry/vertex_normal.h"
+#include "mesh/nearest_first.h"
 
 namespace fairing {
 
@@ -171,13 +171,13 @@ bool ProxyMesh::keeps_shape(Halfedge h) const {
     return after >= poor_shape || after >= before;
 }
 
-double ProxyMesh::relative_length(Halfedge h, const std::vector<double>& target) const {
+double ProxyMesh::relative_length(Halfedge h, const VectorX& target) const {
     const double wanted = 0.5 * (target[mesh_.from_vertex_handle(h).idx()] + target[mesh_.to_vertex_handle(h).idx()]);
     return mesh_.calc_edge_length(h) / wanted;
 }
 
 // Whether an edge would have to be split again.
-bool ProxyMesh::makes_long(Halfedge h, const std::vector<double>& target) const {
+bool ProxyMesh::makes_long(Halfedge h, const VectorX& target) const {
     const Vertex kept = mesh_.to_vertex_handle(h);
     for (const Vertex other : mesh_.vv_range(mesh_.from_vertex_handle(h))) {
         if (other == kept) continue;
@@ -197,7 +197,7 @@ void ProxyMesh::collapse(Halfedge h) {
 }
 
 // Shortest first.
-int ProxyMesh::collapse_short(const std::vector<double>& target, const Care& care) {
+int ProxyMesh::collapse_short(const VectorX& target, const Care& care) {
     ShortestFirst queue(mesh_.n_halfedges());
     const auto is_short = [&](Halfedge h, double length) {
         return !fixed(mesh_.from_vertex_handle(h)) && length < collapse_below;
@@ -230,8 +230,8 @@ int ProxyMesh::collapse_short(const std::vector<double>& target, const Care& car
 }
 
 // The longest edges at each vertex that `turn` admits.
-std::vector<double> ProxyMesh::lengths_by_turn(const Sizing& sizing) const {
-    std::vector<double> target(mesh_.n_vertices(), sizing.longest);
+VectorX ProxyMesh::lengths_by_turn(const Sizing& sizing) const {
+    VectorX target = VectorX::Constant(static_cast<Eigen::Index>(mesh_.n_vertices()), sizing.longest);
     if (!std::isfinite(sizing.turn)) return target;
     std::vector<Vector3> normals(mesh_.n_vertices(), Vector3::Zero());
     for (const Vertex v : mesh_.vertices()) {
@@ -251,37 +251,24 @@ std::vector<double> ProxyMesh::lengths_by_turn(const Sizing& sizing) const {
     return target;
 }
 
-std::vector<double> ProxyMesh::target_lengths(const Sizing& sizing) const {
-    std::vector<double> target = lengths_by_turn(sizing);
-    using Entry = std::pair<double, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (const Vertex v : mesh_.vertices()) {
-        if (target[v.idx()] < sizing.longest) queue.emplace(target[v.idx()], v.idx());
-    }
+VectorX ProxyMesh::target_lengths(const Sizing& sizing) const {
+    const VectorX by_turn = lengths_by_turn(sizing);
+    NearestFirst target(VectorX::Constant(by_turn.size(), sizing.longest));
+    for (const Vertex v : mesh_.vertices()) target.lower(v.idx(), by_turn[v.idx()]);
     for (const Edge e : mesh_.edges()) {
         if (!mesh_.is_boundary(e)) continue;
-        const double length = mesh_.calc_edge_length(e);
-        for (const Vertex v : {mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 0)),
-                               mesh_.to_vertex_handle(mesh_.halfedge_handle(e, 1))}) {
-            if (length < target[v.idx()]) queue.emplace(target[v.idx()] = length, v.idx());
-        }
+        for (const int side : {0, 1})
+            target.lower(mesh_.to_vertex_handle(mesh_.halfedge_handle(e, side)).idx(), mesh_.calc_edge_length(e));
     }
-    while (!queue.empty()) {
-        checkpoint();
-        const auto [length, v] = queue.top();
-        queue.pop();
-        if (length > target[v]) continue;
-        for (const Halfedge h : mesh_.voh_range(mesh_.vertex_handle(unsigned(v)))) {
-            const int other = mesh_.to_vertex_handle(h).idx();
-            const double reached = length + sizing.growth * mesh_.calc_edge_length(h);
-            if (reached < target[other]) queue.emplace(target[other] = reached, other);
-        }
+    for (int v = target.next(); v != none; v = target.next()) {
+        for (const Halfedge h : mesh_.voh_range(mesh_.vertex_handle(unsigned(v))))
+            target.lower(mesh_.to_vertex_handle(h).idx(), target[v] + sizing.growth * mesh_.calc_edge_length(h));
     }
-    return target;
+    return std::move(target).take();
 }
 
 // Longest first.
-int ProxyMesh::split_long(const std::vector<double>& target, int free_limit) {
+int ProxyMesh::split_long(const VectorX& target, int free_limit) {
     std::vector<std::pair<double, int>> long_edges;
     for (const Edge e : mesh_.edges()) {
         const double length = relative_length(mesh_.halfedge_handle(e, 0), target);
@@ -308,7 +295,7 @@ void ProxyMesh::adapt(const Sizing& sizing) {
     constexpr int shapeless_rounds = 2;  // a crumpled start has no shapes worth keeping
     const int vertices_per_change = sizing.settles ? 50 : 100;
     for (int round = 0; round < most_rounds; ++round) {
-        const std::vector<double> target = target_lengths(sizing);
+        const VectorX target = target_lengths(sizing);
         const bool is_crumpled = round < shapeless_rounds;
         const bool is_careful = !is_crumpled || removed_.empty();
         int changes = collapse_short(target, {is_careful, is_careful && sizing.settles});

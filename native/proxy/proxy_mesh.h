@@ -74,16 +74,16 @@ private:
     [[nodiscard]] bool should_flip(Edge e) const;
     int flip_round();
     void smooth();
-    int collapse_short(const std::vector<double>& target, const Care& care);
-    int split_long(const std::vector<double>& target, int free_limit);
-    [[nodiscard]] double relative_length(Halfedge h, const std::vector<double>& target) const;
+    int collapse_short(const VectorX& target, const Care& care);
+    int split_long(const VectorX& target, int free_limit);
+    [[nodiscard]] double relative_length(Halfedge h, const VectorX& target) const;
     [[nodiscard]] bool may_collapse(Halfedge h);
-    [[nodiscard]] bool makes_long(Halfedge h, const std::vector<double>& target) const;
+    [[nodiscard]] bool makes_long(Halfedge h, const VectorX& target) const;
     void collapse(Halfedge h);
     [[nodiscard]] bool keeps_shape(Halfedge h) const;
     [[nodiscard]] Vector3 normal(Vertex v) const;
-    [[nodiscard]] std::vector<double> lengths_by_turn(const Sizing& sizing) const;
-    [[nodiscard]] std::vector<double> target_lengths(const Sizing& sizing) const;
+    [[nodiscard]] VectorX lengths_by_turn(const Sizing& sizing) const;
+    [[nodiscard]] VectorX target_lengths(const Sizing& sizing) const;
 
     SurfaceMesh mesh_;
     std::vector<char> fixed_;

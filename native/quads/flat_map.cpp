@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <queue>
 #include <utility>
-
-#include <Eigen/SparseCholesky>
 
 #include "base/errors.h"
 #include "fill/conformal_map.h"
 #include "geometry/angle.h"
-#include "geometry/cotangent.h"
-#include "geometry/face_geometry.h"
+#include "mesh/nearest_first.h"
 
 namespace fairing {
 
@@ -21,41 +17,35 @@ namespace {
 
 constexpr double inner_radius = 0.3;  // of the ring that a tube is mapped to
 
+// What the angle grows by beyond the difference of its values, whole turns times the weight of an edge, at its ends.
+struct Turns {
+    Eigen::MatrixXd sources;
+    explicit Turns(int vertex_count) : sources(Eigen::MatrixXd::Zero(vertex_count, 2)) {}
+    void add(int a, int b, double weight) {
+        sources(a, 0) += weight * full_turn;
+        sources(b, 0) -= weight * full_turn;
+    }
+};
+
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 }  // namespace
 
 FlatMap::FlatMap(const Patch& patch, const Points& points) : patch_(patch), points_(points), loops_(patch.loops()) {
     if (is_tube()) cut_tube();
-    std::vector<char> is_known(static_cast<std::size_t>(patch.vertex_count()), 0);
-    Flat flat = Flat::Zero(2, patch.vertex_count());
-    const Flat rim = known();
-    Eigen::Index k = 0;
-    for (const Indices& loop : loops_) {
-        for (const int v : loop) {
-            is_known[v] = 1;
-            flat.col(v) = rim.col(k++);
-        }
-    }
-    flat_ = on_plane(solved(triangle_edges(), std::move(flat), is_known));
+    flat_ = on_plane(inside());
     sort_triangles();
 }
 
 // The shortest way along edges from the first vertex of one loop to the other loop, which then begins there.
 void FlatMap::cut_tube() {
-    std::vector<double> away(static_cast<std::size_t>(patch_.vertex_count()), std::numeric_limits<double>::infinity());
-    Indices before(away.size(), none);
-    std::vector<char> is_goal(away.size(), 0);
+    NearestFirst away(VectorX::Constant(patch_.vertex_count(), std::numeric_limits<double>::infinity()));
+    Indices before(static_cast<std::size_t>(patch_.vertex_count()), none);
+    std::vector<char> is_goal(before.size(), 0);
     for (const int v : loops_[1]) is_goal[v] = 1;
-    using Reached = std::pair<double, int>;
-    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> ahead;
     const int first = loops_[0].front();
-    away[first] = 0.0;
-    ahead.emplace(0.0, first);
-    while (!ahead.empty()) {
-        const auto [distance, v] = ahead.top();
-        ahead.pop();
-        if (distance > away[v]) continue;
+    away.lower(first, 0.0);
+    for (int v = away.next(); v != none; v = away.next()) {
         if (is_goal[v] != 0) {
             for (int at = v; at != none; at = before[at]) cut_.push_back(at);
             std::reverse(cut_.begin(), cut_.end());
@@ -63,28 +53,18 @@ void FlatMap::cut_tube() {
             return;
         }
         for (const int next : patch_.ring(v).vertices) {
-            const double there = distance + (points_.col(next) - points_.col(v)).norm();
-            if (there >= away[next] || (!patch_.is_free(next) && is_goal[next] == 0)) continue;
+            if (!patch_.is_free(next) && is_goal[next] == 0) continue;
             if (v == first && is_goal[next] != 0) continue;  // an edge from loop to loop leaves no side to tell
-            away[next] = there;
-            before[next] = v;
-            ahead.emplace(there, next);
+            if (away.lower(next, away[v] + (points_.col(next) - points_.col(v)).norm())) before[next] = v;
         }
     }
     throw SolverError("the surface can't be flattened");
 }
 
 // Crossing the cut from its right to its left takes a turn away: spokes that leave it to the left begin a turn later.
-std::vector<FlatMap::Edge> FlatMap::triangle_edges() const {
-    FaceGeometry faces;
-    faces.update(points_, patch_.triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, patch_);
-    std::vector<Edge> edges;
-    for (int e = 0; e < patch_.edge_count(); ++e) {
-        const auto [a, b] = patch_.edge_ends[e];
-        edges.push_back({a, b, std::max(least_harmonic_weight, stiffness.weights[e]), 0});
-    }
+FlatMap::Flat FlatMap::inside() const {
+    const InnerWeights edges = harmonic_weights(patch_, points_);
+    Turns turns(patch_.vertex_count());
     for (std::size_t k = 0; k < cut_.size(); ++k) {
         const RingView ring = patch_.ring(cut_[k]);
         const int count = static_cast<int>(ring.valence());
@@ -95,12 +75,20 @@ std::vector<FlatMap::Edge> FlatMap::triangle_edges() const {
         const int begin = k + 1 < cut_.size() ? place_of(cut_[k + 1]) + 1 : 0;
         int end = k > 0 ? place_of(cut_[k - 1]) : count;
         if (end < begin) end += count;
-        for (int j = begin; j < end; ++j) {
-            Edge& edge = edges[ring.spokes[j % count]];
-            edge.turns += edge.a == cut_[k] ? -1 : 1;
+        for (int j = begin; j < end; ++j)
+            turns.add(cut_[k], ring.vertices[j % count], -edges[ring.spokes[j % count]].weight);
+    }
+    std::vector<char> is_known(static_cast<std::size_t>(patch_.vertex_count()), 0);
+    Flat flat = Flat::Zero(2, patch_.vertex_count());
+    const Flat rim = known();
+    Eigen::Index k = 0;
+    for (const Indices& loop : loops_) {
+        for (const int v : loop) {
+            is_known[v] = 1;
+            flat.col(v) = rim.col(k++);
         }
     }
-    return edges;
+    return solved({edges, std::move(is_known), points_, std::move(turns.sources)}, flat);
 }
 
 VectorX FlatMap::along(const Indices& loop) const {
@@ -129,37 +117,10 @@ FlatMap::Flat FlatMap::known() const {
     return result;
 }
 
-FlatMap::Flat FlatMap::solved(const std::vector<Edge>& edges, Flat flat, const std::vector<char>& is_known) {
-    Indices row(is_known.size(), none);
-    int count = 0;
-    for (std::size_t v = 0; v < is_known.size(); ++v) {
-        if (is_known[v] == 0) row[v] = count++;
-    }
-    if (count == 0) return flat;
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 2);
-    const auto add = [&](int v, int other, double weight, int turns) {
-        if (row[v] == none) return;
-        entries.emplace_back(row[v], row[v], weight);
-        right(row[v], 0) += weight * full_turn * turns;
-        if (row[other] == none)
-            right.row(row[v]) += weight * flat.col(other).transpose();
-        else
-            entries.emplace_back(row[v], row[other], -weight);
-    };
-    for (const Edge& edge : edges) {
-        add(edge.a, edge.b, edge.weight, edge.turns);
-        add(edge.b, edge.a, edge.weight, -edge.turns);
-    }
-    Eigen::SparseMatrix<double> matrix(count, count);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-    if (factor.info() != Eigen::Success) throw SolverError("the surface can't be flattened");
-    const Eigen::MatrixXd found = factor.solve(right);
-    for (std::size_t v = 0; v < row.size(); ++v) {
-        if (row[v] != none) flat.col(static_cast<Eigen::Index>(v)) = found.row(row[v]).transpose();
-    }
-    return flat;
+FlatMap::Flat FlatMap::solved(const HarmonicProblem& problem, const Flat& flat) {
+    const auto found = harmonic_values(problem, flat.transpose());
+    if (!found) throw SolverError("the surface can't be flattened");
+    return found->transpose();
 }
 
 FlatMap::Flat FlatMap::on_plane(Flat flat) const {
@@ -178,14 +139,17 @@ FlatMap::Flat FlatMap::places(const QuadPattern& pattern) const {
     for (const auto& quad : pattern.quads) add(quad);
     for (const auto& triangle : pattern.triangles) add(triangle);
     for (const auto& [a, b] : pattern.over_seam) turns[std::minmax(a, b)] = a < b ? 1 : -1;
-    std::vector<Edge> edges;
-    edges.reserve(turns.size());
-    for (const auto& [ends, each] : turns) edges.push_back({ends.first, ends.second, 1.0, each});
+    InnerWeights edges;
+    Turns sources(pattern.vertex_count);
+    for (const auto& [ends, each] : turns) {
+        edges.push_back({ends.first, ends.second, 1.0});
+        sources.add(ends.first, ends.second, each);
+    }
     std::vector<char> is_known(static_cast<std::size_t>(pattern.vertex_count), 0);
     std::fill_n(is_known.begin(), pattern.boundary_count, 1);
     Flat flat = Flat::Zero(2, pattern.vertex_count);
     flat.leftCols(pattern.boundary_count) = known();
-    return on_plane(solved(edges, std::move(flat), is_known));
+    return on_plane(solved({edges, std::move(is_known), Points(3, 0), std::move(sources.sources)}, flat));
 }
 
 VectorX FlatMap::angles() const {

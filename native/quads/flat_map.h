@@ -1,6 +1,7 @@
 // A surface over one boundary loop, or between two, flattened to a disc or to a ring.
 #pragma once
 
+#include "fairness/harmonic_values.h"
 #include "geometry/target_surface.h"
 #include "quads/tube.h"
 
@@ -31,21 +32,15 @@ public:
     [[nodiscard]] SurfacePoint located(const Eigen::Vector2d& place) const;
 
 private:
-    // An edge; `turns`: whole turns by which the angle grows from a to b beyond the difference of their angles.
-    struct Edge {
-        int a;
-        int b;
-        double weight;
-        int turns;
-    };
     void cut_tube();
-    [[nodiscard]] std::vector<Edge> triangle_edges() const;
+    // Of the patch's vertices; of a tube angle and height.
+    [[nodiscard]] Flat inside() const;
     [[nodiscard]] Flat known() const;
     [[nodiscard]] VectorX along(const Indices& loop) const;
     [[nodiscard]] VectorX angles() const;
     [[nodiscard]] double area() const;
     [[nodiscard]] Flat on_plane(Flat flat) const;
-    static Flat solved(const std::vector<Edge>& edges, Flat flat, const std::vector<char>& is_known);
+    static Flat solved(const HarmonicProblem& problem, const Flat& flat);
     [[nodiscard]] std::array<int, 2> bin_of(const Eigen::Vector2d& place) const;
     void sort_triangles();
 

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <unordered_map>
 
 #include <Eigen/Geometry>
-#include <Eigen/SparseCholesky>
 
+#include "fairness/harmonic_values.h"
 #include "mesh/corners.h"
 #include "mesh/union_find.h"
 #include "start/swept_tube.h"
@@ -62,34 +63,19 @@ private:
 // For each loop the function of cells that is 1 there, 0 at the other loops, and elsewhere the mean of its neighbours
 // by the edges between them. Nothing where some cells hang on no loop.
 std::optional<Eigen::MatrixXd> harmonic_functions(const Patch& patch, const Cells& cells, int loop_count) {
-    using Entry = Eigen::Triplet<double>;
-    const int inner = cells.count() - loop_count;
-    std::vector<Entry> entries;
-    Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(inner, loop_count);
-    const auto add = [&](int a, int b) {
-        if (a < loop_count) return;
-        entries.emplace_back(a - loop_count, a - loop_count, 1.0);
-        if (b < loop_count) {
-            pull(a - loop_count, b) += 1.0;
-        } else {
-            entries.emplace_back(a - loop_count, b - loop_count, -1.0);
-        }
-    };
+    InnerWeights edges;
     for (const auto& [v, w] : patch.edge_ends) {
         const int a = cells.of(v);
         const int b = cells.of(w);
-        if (a == b || a == none || b == none) continue;
-        add(a, b);
-        add(b, a);
+        if (a != b && a != none && b != none) edges.push_back({a, b, 1.0});
     }
-    Eigen::SparseMatrix<double> matrix(inner, inner);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(matrix);
-    if (factor.info() != Eigen::Success) return std::nullopt;
-    Eigen::MatrixXd values(cells.count(), loop_count);
-    values << Eigen::MatrixXd::Identity(loop_count, loop_count), factor.solve(pull);
-    if (!values.allFinite()) return std::nullopt;
-    return values;
+    std::vector<char> is_known(cells.count(), 0);
+    std::fill_n(is_known.begin(), loop_count, 1);
+    Eigen::MatrixXd values =
+        Eigen::MatrixXd::Constant(cells.count(), loop_count, std::numeric_limits<double>::quiet_NaN());
+    values.topRows(loop_count).setIdentity();
+    auto found = harmonic_values({edges, std::move(is_known)}, std::move(values));
+    return found && found->allFinite() ? found : std::nullopt;
 }
 
 // Whether a level line runs through a triangle with these values.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <queue>
 
 #include "accept/accept.h"
+#include "mesh/nearest_first.h"
 #include "problem/solution_at.h"
 #include "shape/blemishes.h"
 #include "start/several_outlines.h"
@@ -18,16 +18,13 @@ constexpr int most_rounds = 14;  // 2^-13 D is less than the edges of any patch 
 
 // Half of what it was, or of 2 D, at some vertices; around them no longer than that and the way there.
 void shorten(const Patch& patch, const Points& before, const Indices& vertices, VectorX& wavelengths) {
-    using Reached = std::pair<double, int>;
-    std::priority_queue<Reached, std::vector<Reached>, std::greater<>> reached;
-    for (const int v : vertices) reached.emplace(0.5 * std::min(wavelengths[v], 2.0), v);
-    while (!reached.empty()) {
-        const auto [length, v] = reached.top();
-        reached.pop();
-        if (!(length < wavelengths[v])) continue;
-        wavelengths[v] = length;
-        for (const int w : patch.ring(v).vertices) reached.emplace(length + (before.col(v) - before.col(w)).norm(), w);
+    NearestFirst reached(wavelengths);
+    for (const int v : vertices) reached.lower(v, 0.5 * std::min(wavelengths[v], 2.0));
+    for (int v = reached.next(); v != none; v = reached.next()) {
+        for (const int w : patch.ring(v).vertices)
+            reached.lower(w, reached[v] + (before.col(v) - before.col(w)).norm());
     }
+    wavelengths = std::move(reached).take();
 }
 
 // The first without blemishes, or the last one that is not torn.

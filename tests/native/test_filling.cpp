@@ -10,7 +10,7 @@
 #include "fill/edge_lengths.h"
 #include "fill/equal_edge_mesh.h"
 #include "fill/first_surface.h"
-#include "fill/harmonic_values.h"
+#include "fairness/harmonic_values.h"
 #include "fill/joined_loops.h"
 #include "fill/triangulation.h"
 #include "fill/tube_start.h"
