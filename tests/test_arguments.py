@@ -18,7 +18,6 @@ MASK = np.isin(np.arange(COUNT), PATCH.fixed)
 
 CALLS: dict[str, Callable[[Any], Any]] = {
     "fair": lambda triangles: fairing.fair(PATCH.vertices, triangles),
-    "hierarchy": lambda triangles: fairing.hierarchy(PATCH.vertices, triangles),
     "mean_curvature": lambda triangles: fairing.mean_curvature(PATCH.vertices, triangles),
     "vertex_normals": lambda triangles: fairing.vertex_normals(PATCH.vertices, triangles),
     "cotan_laplacian": lambda triangles: fairing.cotan_laplacian(PATCH.vertices, triangles),

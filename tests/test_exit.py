@@ -56,7 +56,7 @@ small = shapes.cap(3000)
 def work():
     begun.set()
     while True:
-        fairing.hierarchy(small.vertices, small.triangles, fixed=small.fixed)
+        fairing.interpolate(small.vertices, small.triangles, small.fixed, small.vertices[small.fixed])
 
 start(work)
 begun.wait()

@@ -6,7 +6,7 @@
 #include "accept/accept.h"
 #include "api/diagnose.h"
 #include "api/measure.h"
-#include "api/memory.h"
+#include "base/memory.h"
 #include "api/prepared_mesh.h"
 #include "api/shape.h"
 #include "base/errors.h"

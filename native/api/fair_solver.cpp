@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "api/memory.h"
+#include "base/memory.h"
 #include "api/prepared_mesh.h"
 
 namespace fairing {

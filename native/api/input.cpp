@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include "api/held_inside.h"
 #include "base/direction.h"
 #include "base/errors.h"
 #include "base/text.h"
@@ -34,22 +33,34 @@ void check_indices(const MeshInput& input) {
                      {{"vertex", vertex}, {"vertices", count}}});
 }
 
-std::vector<char> mark_fixed(const MeshInput& input) {
+std::vector<char> marks_of(const MeshInput& input, const Indices& vertices, const std::string& name) {
     const auto count = static_cast<int>(input.vertices.cols());
-    std::vector<char> fixed(count, 0);
-    if (!input.fixed) return fixed;
-    for (int v : *input.fixed) {
+    std::vector<char> marks(count, 0);
+    for (const int v : vertices) {
         if (v < 0 || v >= count) {
             throw MeshError({Code::index_range,
-                             "fixed names vertex " + std::to_string(v) + ", outside 0 … " + std::to_string(count - 1),
+                             name + " names vertex " + std::to_string(v) + ", outside 0 … " + std::to_string(count - 1),
                              {v},
                              ElementKind::vertex,
                              {{"vertex", v}, {"vertices", count}}});
         }
-        if (fixed[v]) throw std::invalid_argument("fixed names vertex " + std::to_string(v) + " twice");
-        fixed[v] = 1;
+        if (marks[v] && name == "fixed")
+            throw std::invalid_argument("fixed names vertex " + std::to_string(v) + " twice");
+        marks[v] = 1;
     }
-    return fixed;
+    return marks;
+}
+
+// A vertex whose slope the surface finds is fixed, and has one kind of slope.
+void check_slopes(const GivenRoles& given, const VertexRoles& roles) {
+    for (std::size_t v = 0; v < given.fixed.size(); ++v) {
+        if (!given.crease[v] && !given.smooth[v]) continue;
+        const std::string name = given.crease[v] ? "creases" : "smooth_curves";
+        if (roles.used[v] && !roles.fixed[v])
+            throw std::invalid_argument(name + " names vertex " + std::to_string(v) + ", which is not fixed");
+        if (given.crease[v] && given.smooth[v])
+            throw std::invalid_argument("vertex " + std::to_string(v) + " is named by creases and by smooth_curves");
+    }
 }
 
 // Triangles that nothing moves and that have a corner at infinity or nowhere say nothing about the rest: left out.
@@ -251,7 +262,8 @@ MeshTopology check_topology(const MeshInput& input) {
     MeshTopology mesh;
     Diagnostics& warnings = mesh.topology_warnings;
     Indices kept;
-    const GivenRoles given{mark_fixed(input), marks_of(input, input.held.creases, "creases"),
+    const GivenRoles given{marks_of(input, input.fixed.value_or(Indices{}), "fixed"),
+                           marks_of(input, input.held.creases, "creases"),
                            marks_of(input, input.held.smooth_curves, "smooth_curves"), input.held.fair_border};
     Triangles triangles = drop_collapsed_triangles(input.triangles, kept, warnings);
     triangles = drop_unbounded_triangles(input, triangles, given.fixed, kept, warnings);

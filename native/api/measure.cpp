@@ -19,16 +19,6 @@ namespace fairing {
 
 namespace {
 
-// Visits every piece of the cut mesh as a patch with its positions.
-template <typename Visit>
-void for_each_piece(const CheckedMesh& mesh, const View<Points>& points, Visit visit) {
-    const Pieces pieces(mesh.cut, mesh.roles);
-    for (int k = 0; k < pieces.size(); ++k) {
-        const Patch patch = pieces.patch(k);
-        visit(patch, gather(points, patch.to_input));
-    }
-}
-
 // Planar coordinates of a triangle: columns b − a and c − a in its own plane.
 Eigen::Matrix2d planar_edges(const Points& points, const Eigen::Vector3i& triangle) {
     const Vector3 ab = points.col(triangle[1]) - points.col(triangle[0]);
@@ -104,7 +94,7 @@ Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
 VectorX mean_curvature(const CheckedMesh& mesh, const View<Points>& points, NormalKind kind,
                        NormalsAtBoundary boundary) {
     CurvatureMeans means(mesh.normals, points.cols());
-    for_each_piece(mesh, points,
+    for_each_piece(mesh.cut, mesh.roles, points,
                    [&](const Patch& patch, Points local) { means.add(patch, std::move(local), kind, boundary); });
     return means.all();
 }
@@ -140,7 +130,7 @@ VectorX mean_curvature(const MeshInput& input, NormalKind kind) {
 Points vertex_normals(const MeshInput& input, NormalKind kind) {
     const CheckedMesh mesh = check_mesh(input);
     Points sum = Points::Zero(3, input.vertices.cols());
-    for_each_piece(mesh, input.vertices, [&](const Patch& patch, const Points& local) {
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& local) {
         FaceGeometry faces;
         faces.update(local, patch.triangles);
         const Points boundary = kind == NormalKind::fitted ? one_sided_normals(patch, local)
@@ -182,8 +172,9 @@ MatrixEntries cotan_laplacian(const Points& points, const Triangles& triangles) 
 }
 
 Indices flipped_triangles(const MeshInput& input) {
+    const CheckedMesh mesh = check_mesh(input);
     Indices flipped;
-    for_each_piece(check_mesh(input), input.vertices, [&](const Patch& patch, const Points& local) {
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& local) {
         const Indices found = input_numbers(patch, flipped_triangles(patch, local));
         flipped.insert(flipped.end(), found.begin(), found.end());
     });

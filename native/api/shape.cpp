@@ -11,17 +11,6 @@ namespace fairing {
 
 namespace {
 
-// Calls visit(patch, its points).
-template <typename Visit>
-void for_each_piece(const MeshInput& input, Visit visit) {
-    const CheckedMesh mesh = check_mesh(input);
-    const Pieces pieces(mesh.cut, mesh.roles);
-    for (int k = 0; k < pieces.size(); ++k) {
-        const Patch patch = pieces.patch(k);
-        visit(patch, gather(input.vertices, patch.to_input));
-    }
-}
-
 bool is_surrounded(const Patch& patch, const std::vector<char>& is_around) {
     const auto fixed = fixed_vertices(patch);
     return std::all_of(fixed.begin(), fixed.end(), [&](int v) { return is_around[v]; });
@@ -39,7 +28,8 @@ GirthRange by_input(const Patch& patch, GirthRange range) {
 
 std::optional<GirthRange> girth(const MeshInput& input) {
     std::optional<GirthRange> worst;
-    for_each_piece(input, [&](const Patch& patch, const Points& points) {
+    const CheckedMesh mesh = check_mesh(input);
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& points) {
         const auto own = girth_range(patch, points);
         if (own) worst = worst_of(worst.value_or(GirthRange{}), by_input(patch, *own));
     });
@@ -48,7 +38,8 @@ std::optional<GirthRange> girth(const MeshInput& input) {
 
 Knobs knobs(const MeshInput& input, double before) {
     Knobs all;
-    for_each_piece(input, [&](const Patch& patch, const Points& points) {
+    const CheckedMesh mesh = check_mesh(input);
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& points) {
         const Knobs found = knobs_of(patch, points, before);
         all.extent = std::max(all.extent, found.extent);
         for (const int v : found.tops) all.tops.push_back(patch.to_input[v]);
@@ -60,7 +51,8 @@ std::optional<Flank> flank(const MeshInput& input, const Triangles& around) {
     std::vector<char> is_around(static_cast<std::size_t>(input.vertices.cols()), 0);
     for (const int v : around.reshaped()) is_around[v] = 1;
     std::optional<Flank> first;
-    for_each_piece(input, [&](const Patch& patch, const Points& points) {
+    const CheckedMesh mesh = check_mesh(input);
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& points) {
         if (first || !is_surrounded(patch, is_around)) return;
         first = flank_of(patch, points, {input.vertices, around});
         if (!first) return;
@@ -71,7 +63,8 @@ std::optional<Flank> flank(const MeshInput& input, const Triangles& around) {
 
 Sunken sunken_below(const MeshInput& input, const Points& normals) {
     Sunken deepest;
-    for_each_piece(input, [&](const Patch& patch, const Points& points) {
+    const CheckedMesh mesh = check_mesh(input);
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& points) {
         Sunken found = sunken_of(patch, points,
                                  gather(normals, patch.to_input).rightCols(patch.vertex_count() - patch.free_count));
         if (found.depth <= deepest.depth) return;

@@ -1,6 +1,6 @@
 #include "bindings/convert.h"
 
-#include "api/memory.h"
+#include "base/memory.h"
 #include "base/errors.h"
 
 namespace fairing::bindings {

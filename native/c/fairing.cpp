@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "api/fair.h"
-#include "api/memory.h"
+#include "base/memory.h"
 #include "base/errors.h"
 #include "bindings/words.h"
 #include "boundary/boundary_fit.h"

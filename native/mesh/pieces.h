@@ -29,6 +29,17 @@ private:
     Indices local_;  // cut vertex → its number in its piece
 };
 
+// Calls visit(patch, positions of its vertices) for all pieces.
+template <typename Visit>
+void for_each_piece(const CutMesh& cut, const VertexRoles& roles, const Eigen::Ref<const Points>& points,
+                    const Visit& visit) {
+    const Pieces pieces(cut, roles);
+    for (int k = 0; k < pieces.size(); ++k) {
+        const Patch patch = pieces.patch(k);
+        visit(patch, Points(points(Eigen::all, patch.to_input)));
+    }
+}
+
 // The patches that have free vertices.
 std::vector<Patch> make_patches(const CutMesh& cut, const VertexRoles& roles);
 

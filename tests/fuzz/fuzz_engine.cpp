@@ -120,11 +120,6 @@ void fuzz_vertex_normals(FuzzedDataProvider& bytes) {
     });
 }
 
-void fuzz_hierarchy(FuzzedDataProvider& bytes) {
-    const int levels = bytes.ConsumeIntegralInRange(0, 6);
-    on_any_mesh(bytes, [&](const MeshInput& mesh) { check_levels(mesh_hierarchy(mesh, levels), mesh); });
-}
-
 void fuzz_cotan_laplacian(FuzzedDataProvider& bytes) {
     const RandomMesh given = random_mesh(bytes, true);
     const MeshInput& mesh = given.input;
@@ -182,10 +177,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace fairing::fuzz;
     const Watchdog watchdog;
     FuzzedDataProvider bytes(data, size);
-    switch (bytes.ConsumeIntegralInRange(0, 13)) {
+    switch (bytes.ConsumeIntegralInRange(1, 13)) {
         case 1: fuzz_mean_curvature(bytes); break;
         case 2: fuzz_vertex_normals(bytes); break;
-        case 3: fuzz_hierarchy(bytes); break;
         case 4: fuzz_cotan_laplacian(bytes); break;
         case 5: fuzz_conformal_distortion(bytes); break;
         case 6: fuzz_boundary_loops(bytes); break;

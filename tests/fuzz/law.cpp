@@ -1,6 +1,5 @@
 #include "law.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -18,10 +17,6 @@ std::vector<char> used_vertices(const MeshInput& mesh) {
     std::vector<char> used(static_cast<int>(mesh.vertices.cols()), 0);
     for (int v : mesh.triangles.reshaped()) used[v] = 1;
     return used;
-}
-
-bool includes(const Indices& sorted, const Indices& part) {
-    return std::includes(sorted.begin(), sorted.end(), part.begin(), part.end());
 }
 
 }  // namespace
@@ -68,16 +63,6 @@ void check_same(const FairResult& one, const FairResult& other) {
         require(same_bits(one.vertices, other.vertices, v), "the same input gives the same bits");
     }
     require(one.iterations == other.iterations && one.residual == other.residual, "the same run is reported");
-}
-
-void check_levels(const std::vector<MeshLevel>& levels, const MeshInput& mesh) {
-    require(!levels.empty(), "there is a finest level");
-    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-        require(includes(levels[k + 1].vertices, levels[k].vertices), "levels are nested");
-        require(levels[k].triangles.cols() <= levels[k + 1].triangles.cols(), "levels grow");
-    }
-    require(levels.back().triangles.cols() <= mesh.triangles.cols(), "the finest level is the mesh");
-    for (int v : levels.back().vertices) require(v >= 0 && v < mesh.vertices.cols(), "vertices of levels exist");
 }
 
 }  // namespace fairing::fuzz

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "api/fair.h"
-#include "api/levels.h"
 
 namespace fairing::fuzz {
 
@@ -17,8 +16,5 @@ void check_fair(const FairResult& result, const MeshInput& mesh, const FairOptio
 
 // Bit for bit the same.
 void check_same(const FairResult& one, const FairResult& other);
-
-// Coarse to fine, nested, the finest one whole.
-void check_levels(const std::vector<MeshLevel>& levels, const MeshInput& mesh);
 
 }  // namespace fairing::fuzz

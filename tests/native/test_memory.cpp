@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "api/memory.h"
+#include "base/memory.h"
 
 using namespace fairing;
 
