@@ -104,20 +104,20 @@ std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.
 
 std::span<const int> fixed_vertices(const Patch& patch) { return std::span(patch.to_input).subspan(patch.free_count); }
 
-Lambda make_lambda(const Patch& patch, const Points& reference, const FairOptions& options) {
-    const bool by_rows =
-        options.inner_fairness == InnerFairness::shape_preserving || options.inner_fairness == InnerFairness::custom;
-    if (by_rows) return make_row_weights(patch, reference, options);
-    if (options.inner_fairness == InnerFairness::conformal) return conformal_weights(patch, reference);
-    if (options.inner_fairness == InnerFairness::uniform && !options.neighbours) return UniformWeights{};
+Lambda make_lambda(const Patch& patch, const Points& reference, InnerFairness kind, const FairOptions& options) {
+    const bool by_rows = kind == InnerFairness::shape_preserving || kind == InnerFairness::custom;
+    if (by_rows) return make_row_weights(patch, reference, kind, options);
+    if (kind == InnerFairness::conformal) return conformal_weights(patch, reference);
+    if (kind == InnerFairness::uniform && !options.neighbours) return UniformWeights{};
     InnerWeights weights =
         options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
-    if (options.inner_fairness == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
+    if (kind == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
     return weights;
 }
 
-RowWeights make_row_weights(const Patch& patch, const Points& reference, const FairOptions& options) {
-    if (options.inner_fairness == InnerFairness::custom) {
+RowWeights make_row_weights(const Patch& patch, const Points& reference, InnerFairness kind,
+                            const FairOptions& options) {
+    if (kind == InnerFairness::custom) {
         const LocalNumbers find(patch);
         std::vector<DirectedWeight> local;
         for (const auto& [i, j, weight] : options.custom) {
@@ -125,11 +125,10 @@ RowWeights make_row_weights(const Patch& patch, const Points& reference, const F
         }
         return row_weights(patch, local, "inner_fairness");
     }
-    const bool by_edges =
-        options.inner_fairness == InnerFairness::uniform || options.inner_fairness == InnerFairness::inverse_distance;
-    if (!options.neighbours || !by_edges) return row_weights(patch, reference, options.inner_fairness);
+    const bool by_edges = kind == InnerFairness::uniform || kind == InnerFairness::inverse_distance;
+    if (!options.neighbours || !by_edges) return row_weights(patch, reference, kind);
     InnerWeights weights = uniform_weights(local_edges(patch, *options.neighbours));
-    if (options.inner_fairness == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
+    if (kind == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
     return row_weights(patch, weights, "neighbours");
 }
 

@@ -42,9 +42,10 @@ std::span<const int> fixed_vertices(const Patch& patch);
 
 // λ of one patch, from its own edges, from `neighbours`, from the caller's rows or from the reference (3 × local
 // vertices; not read for uniform ones): symmetric unless shape preserving or custom.
-Lambda make_lambda(const Patch& patch, const Points& reference, const FairOptions& options);
+Lambda make_lambda(const Patch& patch, const Points& reference, InnerFairness kind, const FairOptions& options);
 
 // The same as rows, for every kind.
-RowWeights make_row_weights(const Patch& patch, const Points& reference, const FairOptions& options);
+RowWeights make_row_weights(const Patch& patch, const Points& reference, InnerFairness kind,
+                            const FairOptions& options);
 
 }  // namespace fairing

@@ -33,11 +33,6 @@ constexpr int largest_warm = 50000;
 // Moves can't be told from rounding below: an iteration that waits for less ends by luck or not at all.
 constexpr double least_tolerance = 1e-15;
 
-FairOptions reachable(FairOptions options) {
-    options.solver.tolerance = std::max(options.solver.tolerance, least_tolerance);
-    return options;
-}
-
 void warn_of_even_weights(Diagnostics& warnings) {
     warnings.push_back({Code::flipped_triangles,
                         "the inner fairness asked for turns triangles over; uniform inner fairness was used",
@@ -95,22 +90,17 @@ void hold_border(const std::vector<char>& faired, Problem& problem) {
 
 }  // namespace
 
-CallOptions::CallOptions(FairOptions options, bool keeps)
-    : asked(reachable(std::move(options))), uniform(asked), repeated(keeps) {
-    uniform.inner_fairness = InnerFairness::uniform;
-}
-
-ComponentSolver::ComponentSolver(const Patch& patch, const CallOptions& options)
+ComponentSolver::ComponentSolver(const Patch& patch, const FairOptions& options)
     : patch_(patch), options_(options), skin_(patch), warm_(patch) {}
 
 bool ComponentSolver::keeps() const {
-    return options_.repeated && options_.asked.method == Method::global && patch_.free_count <= largest_warm;
+    return options_.repeated && options_.method == Method::global && patch_.free_count <= largest_warm;
 }
 
 ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress& progress) {
-    const bool wants_skin = options_.asked.detail.share > 0.0;
+    const bool wants_skin = options_.detail.share > 0.0;
     if (!wants_skin) return solve_between(data, outline_as_given(data), progress);
-    skin_.read(data, options_.asked.detail.size, progress);
+    skin_.read(data, options_.detail.size, progress);
     const BaseOutline outline = skin_.found() ? skin_.outline(data) : outline_as_given(data);
     ComponentAnswer answer = solve_between(data, outline, progress);
     if (outline.moved && end_of(answer.solution) != Termination::converged) {
@@ -133,10 +123,11 @@ Points ComponentSolver::first_surface(const ComponentData& data, const Progress&
 
 ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseOutline& outline) {
     const Normalisation unit = checked_unit(patch_, outline.points);
-    const SolverOptions& solver = options_.asked.solver;
+    SolverOptions solver = options_.solver;
+    solver.tolerance = std::max(solver.tolerance, least_tolerance);
     ComponentAnswer answer{unit, {patch_, unit.to_unit(outline.points), outline.normals, {}, solver}, {}, {}, {}};
     answer.problem.options.equation = equation_of(answer.problem, data);
-    answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_.asked);
+    answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_);
     if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic) {
         answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed_vertices(patch_));
     }
@@ -158,8 +149,8 @@ ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseOutl
 ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseOutline& outline,
                                                const Progress& progress) {
     ComponentAnswer answer = posed(data, outline);
-    answer.solution = options().method == Method::paper ? solve_by_paper(answer.problem, progress)
-                                                        : solve_globally(answer, data, progress);
+    answer.solution = options_.method == Method::paper ? solve_by_paper(answer.problem, progress)
+                                                       : solve_globally(answer, data, progress);
     return answer;
 }
 
@@ -168,7 +159,7 @@ Equation ComponentSolver::equation_of(const Problem& problem, const ComponentDat
     if (asked != Equation::automatic) return equation_for(patch_, asked);
     // The paper's method has one equation for tubes, and one surface alone continues a curvature or has tensions.
     const bool harmonic_alone =
-        options_.asked.method == Method::paper || data.curvatures.size() > 0 || data.log_tensions.size() > 0;
+        options_.method == Method::paper || data.curvatures.size() > 0 || data.log_tensions.size() > 0;
     if (harmonic_alone) return equation_for(patch_, Equation::harmonic);
     Outline outline = outline_of(problem);
     const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline);
@@ -179,16 +170,16 @@ Equation ComponentSolver::equation_of(const Problem& problem, const ComponentDat
 
 // λ stays as long as what it is read off does, which one call does not change.
 void ComponentSolver::read_reference(const View<Points>& input, const Normalisation& unit) {
-    const bool reads = reads_reference(options_.asked.inner_fairness);
+    const bool reads = reads_reference(options_.inner_fairness);
     if (read_ && (!reads || !options_.repeated)) return;
-    const bool wanted = reads || options_.asked.method == Method::paper;
+    const bool wanted = reads || options_.method == Method::paper;
     Points reference = wanted ? gather(input, patch_.to_input) : Points();
     if (read_ && reference == given_reference_) return;
     read_ = false;
     if (wanted) reference_ = unit.to_unit(reference);
     reference_warnings_.clear();
     usable_ = !reads || is_usable_reference(patch_, reference_, reference_warnings_);
-    if (options().method == Method::global) lambda_ = make_lambda(patch_, reference_, options());
+    if (options_.method == Method::global) lambda_ = make_lambda(patch_, reference_, fairness(), options_);
     warm_.new_weights();
     if (reads && options_.repeated) given_reference_ = std::move(reference);
     read_ = true;
@@ -207,7 +198,7 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
     base.rightCols(outline.points.cols()) = outline.points;
     answer.dressed = skin_.put_back(data, base);
     if (!answer.dressed->detail.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
-    answer.dressed->detail *= options_.asked.detail.share;
+    answer.dressed->detail *= options_.detail.share;
     warn_of_folded_detail(patch_, answer.dressed->turned_over, answer.warnings);
     answer.solution.seconds["detail"] = skin_.take_seconds() + watch.seconds();
     return answer;
@@ -215,9 +206,9 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
     const Stopwatch watch;
-    Solution solution = solve_paper({problem, options().paper, options().inner_fairness, reference_,
-                                     make_row_weights(patch_, reference_, options())},
-                                    progress);
+    Solution solution = solve_paper(
+        {problem, options_.paper, fairness(), reference_, make_row_weights(patch_, reference_, fairness(), options_)},
+        progress);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
     solution.ways = {{"paper", watch.seconds()}};
     solution.flaw = flaw_of(problem, solution);
@@ -226,11 +217,11 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
-    const Start kind = options().start;
-    const bool meets_normals = options().solver.equation != Equation::minimal;
+    const Start kind = options_.start;
+    const bool meets_normals = options_.solver.equation != Equation::minimal;
     if (kind != Start::least_variation && !(kind == Start::given && meets_normals)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
-    return NearStart{start, options().inner_fairness == InnerFairness::conformal && reference_ == start};
+    return NearStart{start, fairness() == InnerFairness::conformal && reference_ == start};
 }
 
 Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress) {
@@ -242,7 +233,7 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     const std::optional<NearStart> start = given_start(answer, data);
     Solution solution = solve_tangent(problem, start, joins || tenses ? progress.range(0.0, 0.5) : progress);
     if (solution.uniform_weights) warn_of_even_weights(answer.warnings);
-    solution = with_spread_pins(problem, options().pin_radius, std::move(solution), progress.here());
+    solution = with_spread_pins(problem, options_.pin_radius, std::move(solution), progress.here());
     if (tenses) return tensed(problem, std::move(solution), progress.range(0.5, 1.0));
     if (!joins) return solution;
     return joined(problem, std::move(solution), progress.range(0.5, 1.0));
@@ -252,7 +243,7 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
                                         const Progress& progress) {
     std::optional<Solution> near = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     if (!near) near = solve_from(problem, start, progress);
-    Solution solution = near ? std::move(*near) : fairing::solve(problem, options().pin_radius, progress);
+    Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
     if (!keeps()) return solution;
     replaced_.reset();
     if (stands_in(solution.provenance) && end_of(solution) == Termination::converged)
@@ -269,7 +260,7 @@ Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optio
 // The surface that the caller wants to begin with.
 std::optional<Solution> ComponentSolver::solve_from(const Problem& problem, const std::optional<NearStart>& start,
                                                     const Progress& progress) const {
-    switch (options().start) {
+    switch (options_.start) {
         case Start::given: return start ? solve_near(problem, *start, progress.range(0.0, 0.4)) : std::nullopt;
         case Start::least_variation:
             return solve_stand_in(problem, Provenance::least_variation, progress, &start->points);
@@ -287,7 +278,7 @@ std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem,
 
 // Needles across a curvature count as turned over in the reference already.
 std::size_t ComponentSolver::tolerated_folds() const {
-    return reads_reference(options().inner_fairness) ? flipped_by_solution(patch_, reference_).size() : 0;
+    return reads_reference(fairness()) ? flipped_by_solution(patch_, reference_).size() : 0;
 }
 
 }  // namespace fairing

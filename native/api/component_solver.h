@@ -9,16 +9,6 @@
 
 namespace fairing {
 
-// The caller's options, and the same with uniform inner fairness. `repeated`: answers and factorisations are kept for
-// later solves.
-struct CallOptions {
-    CallOptions(FairOptions options, bool keeps);
-
-    FairOptions asked;
-    FairOptions uniform;
-    bool repeated;
-};
-
 struct ComponentAnswer {
     Normalisation unit;
     Problem problem;
@@ -30,7 +20,7 @@ struct ComponentAnswer {
 // Refers to patch and options.
 class ComponentSolver {
 public:
-    ComponentSolver(const Patch& patch, const CallOptions& options);
+    ComponentSolver(const Patch& patch, const FairOptions& options);
 
     // Throws NO_BOUNDARY where the fixed vertices lie in one point, SolverError, Cancelled; what was kept stays usable.
     [[nodiscard]] ComponentAnswer solve(const ComponentData& data, const Progress& progress);
@@ -68,7 +58,8 @@ private:
     // With the detail put back; `outline`: that the answer was solved between.
     [[nodiscard]] ComponentAnswer dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
                                           const Progress& progress);
-    [[nodiscard]] const FairOptions& options() const { return usable_ ? options_.asked : options_.uniform; }
+    // Uniform where the reference is no surface.
+    [[nodiscard]] InnerFairness fairness() const { return usable_ ? options_.inner_fairness : InnerFairness::uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;
     [[nodiscard]] std::optional<NearStart> given_start(const ComponentAnswer& answer, const ComponentData& data) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress);
@@ -83,7 +74,7 @@ private:
     [[nodiscard]] std::size_t tolerated_folds() const;
 
     const Patch& patch_;
-    const CallOptions& options_;
+    const FairOptions& options_;
     bool read_ = false;  // the reference
     // 3 × local vertices, as the caller gave it; empty where λ is not read off it, or no call follows
     Points given_reference_;

@@ -6,10 +6,10 @@
 #include "accept/accept.h"
 #include "api/diagnose.h"
 #include "api/measure.h"
-#include "base/memory.h"
 #include "api/prepared_mesh.h"
 #include "api/shape.h"
 #include "base/errors.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "geometry/outline_angles.h"
@@ -176,7 +176,7 @@ private:
     VectorX solved_sides_;
 };
 
-void prepare_for(const MeshInput& input, const CallOptions& options, std::unique_ptr<PreparedMesh>& prepared) {
+void prepare_for(const MeshInput& input, const FairOptions& options, std::unique_ptr<PreparedMesh>& prepared) {
     const auto count = static_cast<std::size_t>(input.vertices.cols());
     if (prepared && prepared->finite && prepared->mesh.roles.used.size() == count && input.vertices.allFinite()) {
         check_geometry(input, prepared->mesh);
@@ -213,10 +213,10 @@ Points first_surfaces(PreparedMesh& prepared, const ComponentData& data, const P
 
 }  // namespace
 
-FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const CallOptions& options,
+FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const FairOptions& options,
                     std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback, const Preview& preview) {
     const Stopwatch watch;
-    const Threads threads(options.asked.threads);
+    const Threads threads(options.threads);
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
     progress.report(0.0, "topology");
@@ -241,7 +241,7 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
         const Patch& patch = prepared->patches[k];
         const double share = 0.8 * patch.vertex_count() / total;
         const ComponentAnswer answer = prepared->solvers[k].solve(data, progress.range(done, done + share));
-        if (!call) call.emplace(*prepared, input, options.asked);
+        if (!call) call.emplace(*prepared, input, options);
         call->record(patch, answer);
         done += share;
     }
@@ -255,7 +255,7 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
 FairResult fair(MeshInput input, const std::optional<View<Points>>& reference, const FairOptions& options,
                 const ProgressCallback& progress, const Preview& preview) {
     std::unique_ptr<PreparedMesh> prepared;
-    return run_call(input, reference, CallOptions(options, false), prepared, progress, preview);
+    return run_call(input, reference, options, prepared, progress, preview);
 }
 
 }  // namespace fairing

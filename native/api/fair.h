@@ -37,6 +37,7 @@ struct FairOptions {
     DetailOptions detail;
     double pin_radius = 0.0;  // in units of D; 0: pins act in a point
     int threads = 0;          // 0: one on each core; the result doesn't depend on it
+    bool repeated = false;    // answers and factorisations are kept for later solves; FairSolver sets it
 };
 
 struct FairResult {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/memory.h"
 #include "api/prepared_mesh.h"
 
 namespace fairing {
@@ -27,18 +26,20 @@ std::optional<int> vertex_count(const MeshInput& input) {
 
 FairSolver::FairSolver(Triangles triangles, std::optional<Indices> fixed, HeldInside held, FairOptions options)
     : input_{vertices_, std::move(triangles), std::move(fixed), {}, {}, Triangles(3, 0), std::move(held)},
-      options_(std::make_unique<CallOptions>(std::move(options), true)) {
+      options_(std::move(options)) {
+    options_.repeated = true;
     const auto count = vertex_count(input_);
     if (!count) return;
     vertices_ = Points::Zero(3, *count);  // connectivity is the same for any
     input_.vertices = vertices_;
-    prepared_ = prepare(input_, *options_);
+    prepared_ = prepare(input_, options_);
 }
 
 FairSolver::~FairSolver() = default;
 
 void FairSolver::change(FairOptions options) {
-    *options_ = CallOptions(std::move(options), true);
+    options_ = std::move(options);
+    options_.repeated = true;
     if (!prepared_) return;
     for (ComponentSolver& solver : prepared_->solvers) solver.options_changed();
 }
@@ -51,7 +52,7 @@ FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normal
     input_.fixed_normals = std::move(fixed_normals);
     input_.fixed_curvatures = std::move(join.curvatures);
     input_.fixed_tensions = std::move(join.tensions);
-    return run_call(input_, reference, *options_, prepared_, progress, preview);
+    return run_call(input_, reference, options_, prepared_, progress, preview);
 }
 
 }  // namespace fairing

@@ -15,7 +15,6 @@ struct GivenJoin {
 };
 
 struct PreparedMesh;
-struct CallOptions;
 
 // One call at a time. The constructor throws what check_mesh (connectivity) and prepare throw, where the numbering has
 // no great gaps; otherwise the first solve does.
@@ -37,7 +36,7 @@ public:
 private:
     Points vertices_;  // of the last call
     MeshInput input_;  // with its normals
-    std::unique_ptr<CallOptions> options_;
+    FairOptions options_;
     std::unique_ptr<PreparedMesh> prepared_;
 };
 

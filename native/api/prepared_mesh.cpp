@@ -36,7 +36,7 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
 
 }  // namespace
 
-std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions& options) {
+std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const FairOptions& options) {
     auto prepared = std::make_unique<PreparedMesh>();
     prepared->mesh = {check_topology(input), {}, {}, {}};
     // Neither looks at what the other makes. Coordinates are complained about first.

@@ -16,12 +16,12 @@ struct PreparedMesh {
 };
 
 // Throws what check_mesh throws, NO_FREE_VERTICES, NO_BOUNDARY. The options must outlive what comes back.
-std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const CallOptions& options);
+std::unique_ptr<PreparedMesh> prepare(const MeshInput& input, const FairOptions& options);
 
 // One call. `prepared`: of an earlier call with the same triangles, fixed vertices and options, or null; it is made
 // where it is missing or not of this input. `reference`: M0; the input's vertices where it is left out. Releases the
 // input's triangles and the cut mesh where no call follows.
-FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const CallOptions& options,
+FairResult run_call(MeshInput& input, const std::optional<View<Points>>& reference, const FairOptions& options,
                     std::unique_ptr<PreparedMesh>& prepared, const ProgressCallback& callback, const Preview& preview);
 
 }  // namespace fairing

@@ -62,30 +62,20 @@ py::dict to_dict(const FairResult& result) {
     return dict;
 }
 
-FairOptions to_fair_options(const Options& options, const PaperOptions& paper, const FairnessArrays& fairness) {
-    FairOptions result;
-    result.paper = paper;
-    if (fairness.weights) result.custom = to_directed(*fairness.weights);
-    result.solver.equation = equation_words.value(options.equation);
-    result.solver.otherwise = otherwise_words.value(options.otherwise);
-    result.solver.load = options.load;
-    result.bulge = options.bulge;
-    result.method = method_words.value(options.method);
-    result.solver.normals = normal_words.value(options.normals);
-    result.solver.tolerance = options.tolerance;
-    result.solver.max_iterations = options.max_iterations;
-    result.threads = options.threads;
-    result.detail = {options.detail, options.detail_size};
-    result.pin_radius = options.pin_radius;
-    result.start = solve_start_words.value(options.start);
-    result.solver.nested = paper.levels != 1;
-    result.inner_fairness = fairness.weights ? InnerFairness::custom : fairness_words.value(options.inner_fairness);
+FairOptions to_fair_options(const Options& given, const PaperOptions& paper, const FairnessArrays& fairness) {
+    FairOptions options = given.fair;
+    options.paper = paper;
+    options.solver.nested = paper.levels != 1;
+    if (fairness.weights) {
+        options.custom = to_directed(*fairness.weights);
+        options.inner_fairness = InnerFairness::custom;
+    }
     if (fairness.neighbours) {
         const Indices flat = to_indices(*fairness.neighbours);
-        auto& edges = result.neighbours.emplace();
+        auto& edges = options.neighbours.emplace();
         for (std::size_t k = 0; k + 1 < flat.size(); k += 2) edges.push_back({flat[k], flat[k + 1]});
     }
-    return result;
+    return options;
 }
 
 namespace {
@@ -109,7 +99,7 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                     to_optional(fixed_normals, to_points),
                     to_optional(fixed_curvatures, to_vector),
                     outside ? to_triangles(*outside) : Triangles(3, 0),
-                    {options.creases, options.smooth_curves, options.fair_border},
+                    options.held,
                     to_optional(fixed_tensions, to_vector)};
     const auto m0 = to_optional(reference, view_points);
     const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
@@ -124,8 +114,7 @@ public:
     PythonSolver(const IntArray& triangles, const std::optional<IntArray>& fixed,
                  const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
                  const std::pair<Options, PaperOptions>& options)
-        : solver_(to_triangles(triangles), to_optional(fixed, to_indices),
-                  {options.first.creases, options.first.smooth_curves, options.first.fair_border},
+        : solver_(to_triangles(triangles), to_optional(fixed, to_indices), options.first.held,
                   to_fair_options(options.first, options.second, {neighbours, weights})) {}
 
     void change(const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
@@ -163,6 +152,40 @@ private:
     FairSolver solver_;
     std::atomic<bool> busy_ = false;
 };
+
+template <typename Value>
+void read(const py::dict& given, const char* name, Value& value) {
+    if (given.contains(name)) value = given[name].cast<Value>();
+}
+
+template <typename Enum, std::size_t N>
+void read(const py::dict& given, const Words<Enum, N>& words, Enum& value) {
+    const std::string name(words.option);
+    if (given.contains(name)) value = words.value(given[name.c_str()].cast<std::string>());
+}
+
+Options to_options(const py::kwargs& given) {
+    Options options;
+    SolverOptions& solver = options.fair.solver;
+    read(given, equation_words, solver.equation);
+    read(given, otherwise_words, solver.otherwise);
+    read(given, normal_words, solver.normals);
+    read(given, "load", solver.load);
+    read(given, "tolerance", solver.tolerance);
+    read(given, "max_iterations", solver.max_iterations);
+    read(given, method_words, options.fair.method);
+    read(given, fairness_words, options.fair.inner_fairness);
+    read(given, solve_start_words, options.fair.start);
+    read(given, "bulge", options.fair.bulge);
+    read(given, "detail", options.fair.detail.share);
+    read(given, "detail_size", options.fair.detail.size);
+    read(given, "pin_radius", options.fair.pin_radius);
+    read(given, "threads", options.fair.threads);
+    read(given, "creases", options.held.creases);
+    read(given, "smooth_curves", options.held.smooth_curves);
+    read(given, "fair_border", options.held.fair_border);
+    return options;
+}
 
 // An attribute whose values are words.
 template <typename Enum, std::size_t N>
@@ -212,14 +235,7 @@ py::dict all_words() {
 
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
-    py::class_<Options>(module, "Options", py::module_local())
-        .def(py::init<std::string, std::string, double, double, std::string, std::string, std::string, double, int, int,
-                      double, double, std::string, Indices, Indices, bool, double>(),
-             py::kw_only(), py::arg("equation"), py::arg("otherwise"), py::arg("load"), py::arg("bulge"),
-             py::arg("inner_fairness"), py::arg("method"), py::arg("normals"), py::arg("tolerance"),
-             py::arg("max_iterations"), py::arg("threads"), py::arg("detail") = 0.0, py::arg("detail_size") = 0.0,
-             py::arg("start") = "outline", py::arg("creases") = Indices{}, py::arg("smooth_curves") = Indices{},
-             py::arg("fair_border") = false, py::arg("pin_radius") = 0.0);
+    py::class_<Options>(module, "Options", py::module_local()).def(py::init(&to_options));
     bind_paper_options(module);
     py::class_<PythonSolver>(module, "Solver", py::module_local())
         .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,

@@ -137,7 +137,7 @@ public:
         PythonRun run(callback);
         const auto& [bridge, in_rows, joins, spacing, is_even, most] = wishes;
         FillOptions options{to_fair_options(given.first, given.second, {}),
-                            {given.first.creases, given.first.smooth_curves},
+                            given.first.held,
                             joins,
                             bridge,
                             in_rows,

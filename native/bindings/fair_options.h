@@ -6,24 +6,10 @@
 
 namespace fairing::bindings {
 
+// What a caller chooses but arrays.
 struct Options {
-    std::string equation;
-    std::string otherwise;
-    double load;
-    double bulge;
-    std::string inner_fairness;
-    std::string method;
-    std::string normals;
-    double tolerance;
-    int max_iterations;
-    int threads;
-    double detail;
-    double detail_size;
-    std::string start;
-    Indices creases;
-    Indices smooth_curves;
-    bool fair_border;
-    double pin_radius;
+    FairOptions fair;
+    HeldInside held;
 };
 
 // Inner fairness that is given by arrays.

@@ -140,10 +140,10 @@ def load_number(name: str, equation: str, value: Any) -> float:
 
 
 def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:
-    """The word for the engine and, for "custom", the rows (i, j, λ)."""
+    """The word for the engine and rows (i, j, λ), which count instead where there are any."""
     if isinstance(value, str) or value is None:
         return _arguments.choice("inner_fairness", value, INNER_FAIRNESS), None
-    return "custom", _directed_weights(value, count)
+    return "uniform", _directed_weights(value, count)
 
 
 def _directed_weights(value: npt.ArrayLike, count: int) -> FloatArray:
