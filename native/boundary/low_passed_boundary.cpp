@@ -4,15 +4,17 @@
 #include <cmath>
 #include <numbers>
 
+#include <Eigen/SparseCholesky>
+
 #include "geometry/limits.h"
-#include "linear/sparse_cholesky.h"
+#include "linear/elimination.h"
 
 namespace fairing {
 
 namespace {
 
-// The lower triangle of 1 + μ δ²ᵀ δ² of a closed run, δ² x_i = x_{i−1} − 2 x_i + x_{i+1}. A wave of w vertices shrinks
-// by 1 + 16 μ sin⁴(π/w).
+// 1 + μ δ²ᵀ δ² of a closed run, δ² x_i = x_{i−1} − 2 x_i + x_{i+1}. A wave of w vertices shrinks by
+// 1 + 16 μ sin⁴(π/w).
 SparseMatrix low_pass(int count, double wave) {
     const double stiffness = 1.0 / (16.0 * std::pow(std::sin(std::numbers::pi / wave), 4));
     std::vector<Eigen::Triplet<double>> entries;
@@ -25,7 +27,7 @@ SparseMatrix low_pass(int count, double wave) {
     differences.setFromTriplets(entries.begin(), entries.end());
     SparseMatrix result = stiffness * SparseMatrix(differences.transpose() * differences);
     for (int k = 0; k < count; ++k) result.coeffRef(k, k) += 1.0;
-    return result.triangularView<Eigen::Lower>();
+    return result;
 }
 
 // Unit vectors at right angles to the chords of a closed run's neighbours; `otherwise` where nothing is left.
@@ -73,11 +75,10 @@ OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, 
     for (Indices loop : patch.loops()) {
         if (static_cast<double>(loop.size()) <= wave) continue;
         for (int& v : loop) v -= patch.free_count;
-        SparseCholesky factor;
-        if (!factor.factorise(low_pass(static_cast<int>(loop.size()), wave), "boundary", Progress())) continue;
+        const Eigen::SimplicialLDLT<SparseMatrix> factor(low_pass(static_cast<int>(loop.size()), wave));
         const Points given = outline.normals(Eigen::all, loop);
-        const Points points = factor.solve_points(outline.points(Eigen::all, loop));
-        const Points normals = factor.solve_points(given);
+        const Points points = factor.solve(outline.points(Eigen::all, loop).transpose()).transpose();
+        const Points normals = factor.solve(given.transpose()).transpose();
         result.points(Eigen::all, loop) = points;
         result.normals(Eigen::all, loop) = across(points, normals, given);
     }
