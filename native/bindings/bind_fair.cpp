@@ -12,14 +12,6 @@ namespace fairing::bindings {
 
 namespace {
 
-// What no equation has goes first.
-std::string equation_of(const FairResult& result) {
-    if (is_loft(result.provenance)) return "loft";
-    if (result.provenance == Provenance::old_shape) return "smoothed";
-    if (result.provenance == Provenance::first_surface) return "bilaplacian";
-    return equation_words.word(result.equation);
-}
-
 // Rows (i, j, λ).
 std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
     std::vector<DirectedWeight> result;

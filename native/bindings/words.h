@@ -77,4 +77,12 @@ inline constexpr Words<Termination, 4> termination_words{"termination",
                                                            {"stalled", Termination::stalled},
                                                            {"folded", Termination::folded}}}};
 
+// The equation of a result, or what stands in its place.
+inline std::string equation_of(const FairResult& result) {
+    if (is_loft(result.provenance)) return "loft";
+    if (result.provenance == Provenance::old_shape) return "smoothed";
+    if (result.provenance == Provenance::first_surface) return "bilaplacian";
+    return equation_words.word(result.equation);
+}
+
 }  // namespace fairing::bindings

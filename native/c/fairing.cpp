@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "api/fair.h"
-#include "base/memory.h"
 #include "base/errors.h"
+#include "base/memory.h"
 #include "bindings/words.h"
 #include "boundary/boundary_fit.h"
 #include "boundary/surrounding_fit.h"
@@ -144,12 +144,6 @@ void add_boundary(MeshInput& input, const Surroundings& mesh, std::string_view s
     input.fixed = known;
 }
 
-std::string equation_of(const FairResult& found) {
-    if (is_loft(found.provenance)) return "loft";
-    if (found.provenance == Provenance::old_shape) return "smoothed";
-    return bindings::equation_words.word(found.equation);
-}
-
 double largest(const VectorX& values) { return values.size() ? values.maxCoeff() : 0.0; }
 
 const Diagnostic* warning_at(const fairing_result* result, int warning) {
@@ -190,7 +184,7 @@ fairing_status fairing_fair_faces(const double* points, size_t point_count, cons
         };
         auto made = std::make_unique<fairing_result>();
         made->found = fair(std::move(input), {}, wanted, progress ? ProgressCallback(call) : ProgressCallback());
-        made->equation = equation_of(made->found);
+        made->equation = bindings::equation_of(made->found);
         made->termination = bindings::termination_words.word(made->found.termination);
         *result = made.release();
     });
