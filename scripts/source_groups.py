@@ -88,10 +88,9 @@ def main() -> None:
     """Prints a line of CMake for each group."""
     lists = Path(sys.argv[1])
     sources = re.findall(r"^\s+([\w/]+\.cpp)", lists.read_text(encoding="utf-8"), re.MULTILINE)
-    for number, group in enumerate(groups([lists.parent / name for name in dict.fromkeys(sources)])):
-        if len(group) > 1:
-            names = " ".join(path.relative_to(lists.parent).as_posix() for path in group)
-            print(f"set_source_files_properties({names} PROPERTIES UNITY_GROUP {number})")
+    for group in groups([lists.parent / name for name in dict.fromkeys(sources)]):
+        names = " ".join(path.relative_to(lists.parent).as_posix() for path in group)
+        print(f"set_source_files_properties({names} PROPERTIES UNITY_GROUP {group[0].parent.name}_{group[0].stem})")
 
 
 if __name__ == "__main__":
