@@ -1,7 +1,7 @@
 #include "bindings/convert.h"
 
-#include "base/memory.h"
 #include "base/errors.h"
+#include "base/memory.h"
 
 namespace fairing::bindings {
 

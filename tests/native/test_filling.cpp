@@ -6,11 +6,11 @@
 #include <numeric>
 #include <random>
 
+#include "fairness/harmonic_values.h"
 #include "fill/ball_start.h"
 #include "fill/edge_lengths.h"
 #include "fill/equal_edge_mesh.h"
 #include "fill/first_surface.h"
-#include "fairness/harmonic_values.h"
 #include "fill/joined_loops.h"
 #include "fill/triangulation.h"
 #include "fill/tube_start.h"
