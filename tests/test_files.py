@@ -232,6 +232,8 @@ def test_objects_of_a_scene_stay(tmp_path: Path) -> None:
     assert abs(radius(mesh.points - [3, 0, 0]) - 1).max() < 1e-4
     found = fairing.hole_loops(mesh.points, mesh.triangles)
     assert sorted(map(len, found.loops)) == [COLUMNS, COLUMNS] and not found.torn
+    _, (report,) = report_of(tmp_path, "fill", tmp_path / "tube.glb", "--format", ".off", "--longest", 20)
+    assert report["not_written"] == ["object"]
 
 
 def test_nothing_to_fill_is_good(tmp_path: Path) -> None:

@@ -115,6 +115,7 @@ def _print(report: Report, given: Namespace) -> None:
         parts += [f"{report[name]} {name.replace('_', ' ')}" for name in ("outer_borders", "hard_edges")]
         parts.append(f"{report['crossing_triangles']} crossing triangles")
     parts += [report[name] for name in ("reason", "written") if report.get(name)]
+    parts += [f"without {', '.join(report['not_written'])}"] if report.get("not_written") else []
     print(": ".join(parts[:2]) + "".join(f"; {part}" for part in parts[2:]))
 
 

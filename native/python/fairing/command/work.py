@@ -73,7 +73,7 @@ def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespac
         return {"verdict": GOOD, "reason": f"nothing to fill: {error.diagnostic.message}", "written": str(target)}
     report |= _figures(made.result)
     if report["verdict"] != UNUSABLE or given.accept_all:
-        report["not_written"] = write(target, made.mesh)
+        report["not_written"] = sorted({name.strip("\0") for name in write(target, made.mesh)} - {"place"})
         report["written"] = str(target)
     return report
 
