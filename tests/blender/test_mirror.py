@@ -90,3 +90,20 @@ def test_a_new_mesh_is_symmetric_to_the_bit() -> None:
     for vertex in obj.data.vertices:  # each side keeps its own data
         weight = sum(each.weight for each in vertex.groups)
         assert weight == 0.0 if vertex.co.x > 0.2 else weight > 0.9 if vertex.co.x < -0.2 else True
+
+
+@pytest.mark.parametrize("both", [True, False])
+def test_one_hole_stands_for_both(both: bool, capfd: pytest.CaptureFixture[str]) -> None:
+    """Where the other side has no hole, a warning says so."""
+    obj = meshes.remove(meshes.sphere(48), lambda c: (abs(c.x) if both else c.x) > 0.9)
+    obj.data.use_mirror_x = True
+    meshes.edit(obj)
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    bm = bmesh.from_edit_mesh(obj.data)
+    for vertex in bm.verts:
+        vertex.select_set(vertex.is_boundary and vertex.co.x > 0.0)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True) == {"FINISHED"}
+    meshes.leave()
+    with meshes.rebuilt(obj, write=False) as filled:
+        assert not any(edge.is_boundary for edge in filled.edges)
+    assert ("new faces are not symmetric" in "".join(capfd.readouterr())) != both
