@@ -120,7 +120,7 @@ def is_shown(context: bpy.types.Context) -> bool:
     for pair in _last.pairs:
         if pair.object_name not in objects:
             raise Changed(said("not_in_edit_mode", name=pair.object_name))
-    return is_available() and all([_is_after(objects[pair.object_name].data, pair) for pair in _last.pairs])
+    return is_available() and all(_is_after(objects[pair.object_name].data, pair) for pair in _last.pairs)
 
 
 def show(context: bpy.types.Context, result: bool) -> None:
