@@ -6,19 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import matplotlib
 import numpy as np
-from PIL import Image
 
-import webp
 from engine import FloatArray
+from picture_sheet import save_pairs
 from stripes import Layer, View, facing, render
 
 if TYPE_CHECKING:
     from specimens import Specimen
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 
 TILE = 170  # pixels
 AROUND, PATCH = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
@@ -26,22 +21,8 @@ AROUND, PATCH = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
 
 def save(specimens: Sequence[Specimen], path: Path) -> None:
     """Two specimens in each row, four tiles each; nothing is written without specimens."""
-    if not specimens:
-        return
-    lines = (len(specimens) + 1) // 2
-    figure, axes = plt.subplots(lines, 8, figsize=(8 * TILE / 100, lines * (TILE + 16) / 100), squeeze=False)
-    for axis in axes.ravel():
-        axis.axis("off")
-    for k, specimen in enumerate(specimens):
-        row = axes[k // 2, 4 * (k % 2) : 4 * (k % 2) + 4]
-        for axis, image in zip(row, tiles(specimen), strict=True):
-            axis.imshow(image)
-        row[0].set_title(_title(specimen), fontsize=7, loc="left", pad=2)
-    figure.subplots_adjust(0, 0, 1, 0.975, 0.01, 0.1)
-    figure.canvas.draw()
-    picture = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[:, :, :3])  # type: ignore[attr-defined]
-    webp.save(picture, path)
-    plt.close(figure)
+    if specimens:
+        save_pairs([(_title(specimen), tiles(specimen)) for specimen in specimens], path)
 
 
 def _title(specimen: Specimen) -> str:
@@ -57,7 +38,7 @@ def tiles(specimen: Specimen) -> list[FloatArray]:
     near = np.linalg.norm(patch.whole - _centre(specimen), axis=1) < 3 * _reach(specimen)
     around = Layer(patch.whole, patch.outside[near[patch.outside].all(axis=1)], AROUND, striped=True)
     return [
-        render([around, Layer(vertices, patch.triangles, PATCH, striped=True)], view)
+        render([around, Layer(vertices, patch.triangles, PATCH, striped=True)], view, TILE)
         for vertices in (patch.vertices, specimen.vertices)
         for view in _views(specimen)
     ]
@@ -78,4 +59,4 @@ def _views(specimen: Specimen) -> list[View]:
     across = np.cross(mean, [0.3, 0.5, 0.8])
     across /= np.linalg.norm(across)
     centre, reach = _centre(specimen), _reach(specimen)
-    return [facing(direction, centre, reach, TILE) for direction in (mean + 0.2 * across, across + 0.3 * mean)]
+    return [facing(direction, centre, reach) for direction in (mean + 0.2 * across, across + 0.3 * mean)]

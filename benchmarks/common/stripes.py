@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engine import FloatArray
-from meshing import IntArray, face_normals
+from meshing import face_normals
+from rasteriser import FloatArray, IntArray, View, averaged, edge_distances, rasterise
 
 STRIPES = 9.0  # light bands over half a turn of the normal
+FINER = 2  # pixels drawn for one of the picture, each way
 
 
 @dataclass(frozen=True)
@@ -27,25 +28,10 @@ class Layer:
     halves: int = 0
 
 
-@dataclass(frozen=True)
-class View:
-    """Where from: unit vectors right, up and towards the eye; centre and half-width of the window; pixels."""
-
-    right: FloatArray
-    up: FloatArray
-    eye: FloatArray
-    centre: FloatArray
-    reach: float
-    size: int = 320
-
-
-def facing(direction: FloatArray, centre: FloatArray, reach: float, size: int = 320) -> View:
-    """A view against `direction`, z upwards as far as possible."""
+def facing(direction: FloatArray, centre: FloatArray, reach: float) -> View:
+    """A view against `direction`, z upwards as far as possible; reach: half the window's width."""
     eye = direction / np.linalg.norm(direction)
-    helper = np.array([0.0, 0.0, 1.0]) if abs(eye[2]) < 0.9 else np.array([0.0, 1.0, 0.0])
-    right = np.cross(helper, eye)
-    right /= np.linalg.norm(right)
-    return View(right, np.cross(eye, right), eye, centre, reach, size)
+    return View(tuple(centre), tuple(eye), 2.0 * reach, (0.0, 0.0, 1.0) if abs(eye[2]) < 0.9 else (0.0, 1.0, 0.0))
 
 
 def vertex_normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:
@@ -56,71 +42,36 @@ def vertex_normals(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     return np.asarray(sums / np.maximum(np.linalg.norm(sums, axis=1), 1e-300)[:, None])
 
 
-def render(layers: list[Layer], view: View) -> FloatArray:
+def render(layers: list[Layer], view: View, size: int = 320) -> FloatArray:
     """The picture, (size, size, 3) in 0 … 1, of all layers with one depth buffer."""
-    image = np.ones((view.size, view.size, 3))
-    depth = np.full((view.size, view.size), -np.inf)
+    large = FINER * size
+    starts = np.cumsum([0] + [len(layer.vertices) for layer in layers])
+    projected = np.concatenate([view.project(layer.vertices, large) for layer in layers])
+    triangles = np.concatenate([layer.triangles + start for layer, start in zip(layers, starts, strict=False)])
+    normals = np.concatenate([vertex_normals(layer.vertices, layer.triangles) for layer in layers])
+    seen = rasterise(projected, triangles, (large, large))
+    which = seen.triangle[seen.covered]
+    turned = np.einsum("kc,kcd->kd", seen.weights[seen.covered], normals[triangles[which]]) @ view.axes.T
+    away = edge_distances(projected, triangles, seen)
+    colours, first = np.ones((len(which), 3)), 0
     for layer in layers:
-        _draw(layer, view, image, depth)
-    return image
+        mine = (which >= first) & (which < first + len(layer.triangles))
+        colours[mine] = _shaded(layer, turned[mine])
+        if layer.wire:
+            away[(which >= first) & (which < first + layer.halves), 0] = np.inf
+            colours[mine & (away.min(axis=1) < 0.5 * FINER)] *= 0.6
+        first += len(layer.triangles)
+    picture = np.ones((large, large, 3))
+    picture[seen.covered] = colours
+    return averaged(picture, FINER)
 
 
-def _draw(layer: Layer, view: View, image: FloatArray, depth: FloatArray) -> None:
-    moved = layer.vertices - view.centre
-    scale = 0.5 * view.size / view.reach
-    x = 0.5 * view.size + scale * moved @ view.right
-    y = 0.5 * view.size - scale * moved @ view.up
-    z = moved @ view.eye
-    normals = vertex_normals(layer.vertices, layer.triangles)
-    for number, triangle in enumerate(layer.triangles):
-        corners = _Corners(x[triangle], y[triangle], z[triangle], normals[triangle], number < layer.halves)
-        _fill(layer, view, corners, (image, depth))
-
-
-@dataclass(frozen=True)
-class _Corners:
-    """Of one triangle: pixels, depth and normals, each (3, …)."""
-
-    x: FloatArray
-    y: FloatArray
-    z: FloatArray
-    normals: FloatArray
-    half: bool  # of a quad
-
-
-def _fill(layer: Layer, view: View, at: _Corners, buffers: tuple[FloatArray, FloatArray]) -> None:
-    """One triangle: barycentric coordinates of the pixels of its bounding box."""
-    image, depth = buffers
-    x, y, z = at.x, at.y, at.z
-    low = np.maximum(np.floor([x.min(), y.min()]).astype(int), 0)
-    high = np.minimum(np.ceil([x.max(), y.max()]).astype(int) + 1, view.size)
-    twice = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
-    if (high <= low).any() or abs(twice) < 1e-9:
-        return
-    px, py = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
-    b = ((px - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (py - y[0])) / twice
-    c = ((x[1] - x[0]) * (py - y[0]) - (px - x[0]) * (y[1] - y[0])) / twice
-    share = np.stack([1 - b - c, b, c], axis=-1)
-    window = depth[low[1] : high[1], low[0] : high[0]]
-    height = share @ z
-    seen = (share >= -1e-9).all(axis=-1) & (height > window)
-    window[seen] = height[seen]
-    colours = _shaded(layer, share[seen] @ at.normals, view)
-    if layer.wire:
-        sides = np.hypot(x - np.roll(x, 1), y - np.roll(y, 1))
-        heights = abs(twice) / np.roll(sides, 1).clip(1e-9)
-        heights[0] = np.inf if at.half else heights[0]
-        colours[(share[seen].clip(1e-12) * heights).min(axis=-1) < 0.5] *= 0.6
-    image[low[1] : high[1], low[0] : high[0]][seen] = colours
-
-
-def _shaded(layer: Layer, normals: FloatArray, view: View) -> FloatArray:
-    """Colours (k, 3) of pixels with these normals; back faces are dark red."""
+def _shaded(layer: Layer, normals: FloatArray) -> FloatArray:
+    """Colours (k, 3) of pixels with these normals, right, up and towards the eye; back faces are dark red."""
     unit = normals / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
-    front = unit @ view.eye
-    light = 0.35 + 0.65 * np.abs(unit @ (0.8 * view.eye + 0.5 * view.up + 0.33 * view.right)).clip(0, 1)
-    colour = np.where(front[:, None] < 0, np.array([0.55, 0.2, 0.2]), np.array(layer.colour))
+    light = 0.35 + 0.65 * np.abs(unit @ np.array([0.33, 0.5, 0.8])).clip(0, 1)
+    colour = np.where(unit[:, 2:] < 0, np.array([0.55, 0.2, 0.2]), np.array(layer.colour))
     if layer.striped:
-        band = np.sin(2 * STRIPES * np.arcsin(np.clip(unit @ view.up, -1, 1)))
+        band = np.sin(2 * STRIPES * np.arcsin(np.clip(unit[:, 1], -1, 1)))
         colour = colour * np.where(band > 0, 1.0, 0.45)[:, None]
     return np.asarray(colour * light[:, None])

@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw
 
 import cases
-import webp
 from cases import Case
 from engine import FloatArray
+from picture_sheet import Panel, save_sheet
 from stripes import Layer, facing, render
 
 TILE = 330  # pixels
@@ -26,27 +25,23 @@ WAYS: tuple[tuple[str, dict[str, float]], ...] = (
 def write(folder: Path) -> None:
     """One picture for each case."""
     for case in (cases.sphere(6000, 0.25, 3, along_normal=True), *cases.scans(), *cases.orange_skins()):
-        webp.save(sheet(case), folder / f"detail_{case.name.split('-')[0]}.webp")
+        save_sheet(rows(case), folder / f"detail_{case.name.split('-')[0]}.webp")
 
 
-def sheet(case: Case) -> Image.Image:
+def rows(case: Case) -> list[list[Panel]]:
     """Two rows of tiles, labelled."""
     shown = [("before", case.vertices)] + [(name, case.fair(**options).vertices) for name, options in WAYS]
-    picture = Image.new("RGB", (len(shown) * TILE, 2 * TILE + 16), "white")
-    draw = ImageDraw.Draw(picture)
-    for k, (name, points) in enumerate(shown):
-        draw.text((k * TILE + 6, 2), name, fill="black")
-        for line, reach in enumerate((0.75, 0.3)):
-            picture.paste(tile(case, points, reach * case.diameter, close=line == 1), (k * TILE, 16 + line * TILE))
-    return picture
+    return [
+        [(tile(case, points, reach * case.diameter, close=close), name) for name, points in shown]
+        for close, reach in ((False, 0.75), (True, 0.3))
+    ]
 
 
-def tile(case: Case, points: FloatArray, reach: float, *, close: bool) -> Image.Image:
+def tile(case: Case, points: FloatArray, reach: float, *, close: bool) -> FloatArray:
     """Shaded; close up it looks at a piece of the outline."""
     rim = case.vertices[case.outline]
     centre = rim[np.argmax(rim @ np.array([1.0, -0.3, 0.2]))] if close else rim.mean(axis=0)
-    view = facing(case.facing, centre, reach, TILE)
+    view = facing(case.facing, centre, reach)
     near = np.linalg.norm(points - centre, axis=1) < 1.6 * reach  # the rest is outside the tile
     shown = [part[near[part].any(axis=1)] for part in (case.outside, case.inside)]
-    image = render([Layer(points, shown[0], GREY), Layer(points, shown[1], TINT)], view)
-    return Image.fromarray((255 * image.clip(0, 1)).astype(np.uint8))
+    return render([Layer(points, shown[0], GREY), Layer(points, shown[1], TINT)], view, TILE)

@@ -8,7 +8,7 @@ import numpy as np
 
 from holes import FloatArray
 
-TILE = 420
+TILE = 210
 AROUND, NEW = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
 
 

@@ -12,7 +12,8 @@ import fairing
 import real_meshes
 from holes import FloatArray, IntArray
 from looks import AROUND, NEW, TILE, eye_of, reach_of
-from stripes import Layer, View, facing, render
+from rasteriser import View
+from stripes import Layer, facing, render
 
 OLD = (0.95, 0.8, 0.6)
 PATCHES = ("mh_body:nose", "mh_body:ear_left", "demosthenes-low-res:chest")
@@ -32,7 +33,7 @@ class Remade:
         """Before; triangles; quads."""
         patch = self.patch
         points, triangles = self._filled() if self.hole else self._remeshed()
-        view = facing(eye_of(patch), patch.vertices[patch.fixed].mean(axis=0), reach_of(patch), TILE)
+        view = facing(eye_of(patch), patch.vertices[patch.fixed].mean(axis=0), reach_of(patch))
         before = NONE if self.hole else patch.vertices_in_mesh[patch.triangles]
         yield self._picture(Layer(patch.whole, before, OLD, wire=True), view)
         yield self._picture(Layer(points, triangles, NEW, wire=True), view)
@@ -43,9 +44,9 @@ class Remade:
 
     def _picture(self, layer: Layer, view: View) -> FloatArray:
         whole = self.patch.whole
-        near = np.linalg.norm(whole - view.centre, axis=1) < 3 * view.reach
+        near = np.linalg.norm(whole - view.target, axis=1) < 1.5 * view.width
         outside = self.patch.outside[near[self.patch.outside].all(axis=1)]
-        return render([Layer(whole, outside, AROUND, wire=True), layer], view)
+        return render([Layer(whole, outside, AROUND, wire=True), layer], view, TILE)
 
     def _filled(self) -> tuple[FloatArray, IntArray]:
         patch = self.patch

@@ -11,10 +11,10 @@ import fairing
 from blend_study import blend_study
 from cases import Case, corner_case, tetrathing_case
 from linear_bilaplacian import linear_bilaplacian
+from picture_sheet import Panel, save_sheet
 from polygon_mesh import FloatArray
 from rasteriser import View
 from shading import Look, Model, draw
-from sheets import Panel, save_sheet
 from thinned import thinned_tetrathing
 
 PIXELS = 400

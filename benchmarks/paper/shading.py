@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rasteriser import FloatArray, Fragments, IntArray, Mask, View, rasterise
+from rasteriser import FloatArray, Fragments, IntArray, Mask, View, averaged, edge_distances, rasterise
 
 SUPERSAMPLING = 3
 BACKGROUND = np.array([0.93, 0.94, 0.95])
@@ -59,14 +59,7 @@ def draw(model: Model, view: View, pixels: int, look: Look) -> FloatArray:
         chosen = np.roll(on_curve, -1, axis=1) & np.roll(on_curve, 1, axis=1)
         share = _lines(projected, model.triangles, fragments, chosen, 1.2)[:, None]
         picture[seen] = (1 - share) * picture[seen] + share * OUTLINE
-    return _averaged(picture)
-
-
-def _averaged(picture: FloatArray) -> FloatArray:
-    """Means of SUPERSAMPLING² pixels."""
-    s = SUPERSAMPLING
-    height, width = picture.shape[0] // s, picture.shape[1] // s
-    return np.asarray(picture[: height * s, : width * s].reshape(height, s, width, s, 3).mean(axis=(1, 3)))
+    return averaged(picture, SUPERSAMPLING)
 
 
 def _colours(model: Model, view: View, fragments: Fragments, look: Look) -> FloatArray:
@@ -123,12 +116,7 @@ def _lines(
 
     chosen (m, 3): whether the edge opposite each corner counts; all without it.
     """
-    seen = fragments.covered
-    a, b, c = (projected[triangles[:, k], :2] for k in range(3))
-    doubled = np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
-    lengths = np.stack([np.linalg.norm(p - q, axis=1) for p, q in ((b, c), (c, a), (a, b))], axis=1)
-    heights = doubled[:, None] / np.maximum(lengths, 1e-9)
-    away = fragments.weights[seen] * heights[fragments.triangle[seen]]
+    away = edge_distances(projected, triangles, fragments)
     if chosen is not None:
-        away = np.where(chosen[fragments.triangle[seen]], away, np.inf)
+        away = np.where(chosen[fragments.triangle[fragments.covered]], away, np.inf)
     return np.asarray(np.clip(1.5 - away.min(axis=1) / (reach * SUPERSAMPLING), 0, 1))

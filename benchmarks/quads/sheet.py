@@ -6,19 +6,19 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-from PIL import Image, ImageDraw
 
 import fairing
 import holes
 import peers
 import real_meshes
-import webp
 from cases import Hole
 from holes import FloatArray, IntArray
 from judged import Faces
-from stripes import Layer, View, facing, render
+from picture_sheet import save_sheet
+from rasteriser import View
+from stripes import Layer, facing, render
 
-TILE, TITLE = 250, 22
+TILE = 250
 AROUND, NEW = (0.9, 0.9, 0.9), (0.5, 0.75, 1.0)
 PATCHES = (("ict_head", 4805, 4.1), ("mh_body", 1701, 1.02), ("penguin", 82, 0.267))
 NAMES = ("Grid Fill", "QuadriFlow, Preserve Boundary", "Fair Fill, Quads")
@@ -38,14 +38,7 @@ def shown() -> Iterator[Hole]:
 def save(path: Path) -> None:
     """A column for each hole, a row for each way."""
     columns = [list(_tiles(hole)) for hole in shown()]
-    sheet = Image.new("RGB", (TILE * len(columns), (TILE + TITLE) * len(NAMES)), "white")
-    write = ImageDraw.Draw(sheet)
-    for row, name in enumerate(NAMES):
-        write.text((6, row * (TILE + TITLE) + 4), name, "black", font_size=14)
-        for column, tiles in enumerate(columns):
-            picture = Image.fromarray((255 * tiles[row]).astype(np.uint8))
-            sheet.paste(picture, (column * TILE, row * (TILE + TITLE) + TITLE))
-    webp.save(sheet, path)
+    save_sheet([[(tile, name) for tile in row] for name, *row in zip(NAMES, *columns, strict=True)], path)
 
 
 def _tiles(hole: Hole) -> Iterator[FloatArray]:
@@ -68,15 +61,15 @@ def _view(hole: Hole, whole: FloatArray, triangles: IntArray) -> View:
     ahead /= np.linalg.norm(ahead)
     aside = np.cross(ahead, [0.3, 0.5, 0.8])
     reach = 1.25 * float(np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
-    return facing(ahead + 0.6 * aside / np.linalg.norm(aside), whole[np.unique(triangles)].mean(axis=0), reach, TILE)
+    return facing(ahead + 0.6 * aside / np.linalg.norm(aside), whole[np.unique(triangles)].mean(axis=0), reach)
 
 
 def _picture(hole: Hole, view: View, points: FloatArray, faces: Faces) -> FloatArray:
-    near = np.linalg.norm(hole.points - view.centre, axis=1) < 3 * view.reach
+    near = np.linalg.norm(hole.points - view.target, axis=1) < 1.5 * view.width
     layers = [Layer(hole.points, hole.outside[near[hole.outside].all(axis=1)], AROUND, wire=True)]
     quads = np.array([face for face in faces if len(face) == 4], dtype=np.int64).reshape(-1, 4)
     rest = np.array([face for face in faces if len(face) == 3], dtype=np.int64).reshape(-1, 3)
     halves = quads[:, [0, 1, 3, 2, 3, 1]].reshape(-1, 3)
     if len(faces):
         layers.append(Layer(points, np.concatenate([halves, rest]), NEW, wire=True, halves=len(halves)))
-    return render(layers, view)
+    return render(layers, view, TILE)

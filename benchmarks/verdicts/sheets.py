@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw
 
+from picture_sheet import Panel, save_sheet
 from rasteriser import View, rasterise
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-SIZE, TITLE, ROWS = 258, 13, 6
+SIZE, ROWS = 258, 6
 SEEN = 2.1  # widths of a selection that a tile shows
 SMOOTH = 35.0  # degrees up to which faces are shaded as one
 STRIPES = 14.0
@@ -77,7 +77,7 @@ def tiles(vertices: Floats, triangles: Ints, chosen: NDArray[np.bool_], view: Vi
     return [shaded, striped]
 
 
-def row(name: str, data: Any) -> Image.Image:
+def row(name: str, data: Any) -> Panel:
     """Before, after, reflections from the front; then from the side."""
     before, triangles, chosen = data["before"], data["triangles"], data["chosen"]
     if "old" in data:
@@ -92,12 +92,9 @@ def row(name: str, data: Any) -> Image.Image:
             tiles(before, triangles, chosen, view)[0],
             *tiles(data["after"], data["after_triangles"], plain, view),
         ]
-    picture = Image.new("RGB", (SIZE * len(pictures), SIZE + TITLE), "white")
-    picture.paste(Image.fromarray((255 * np.hstack(pictures).clip(0, 1)).astype(np.uint8)), (0, TITLE))
     free = len(np.unique(triangles[chosen])) if chosen.any() else 0
     refused = " REFUSED" if "refusal" in data else ""
-    ImageDraw.Draw(picture).text((2, 0), f"{name} {data['options']} {free} vertices{refused}", fill="black")
-    return picture
+    return np.hstack(pictures), f"{name} {data['options']} {free} vertices{refused}"
 
 
 def _new(data: Any) -> Floats:
@@ -120,8 +117,5 @@ def save(names: list[str], results: Path, folder: Path) -> None:
         rows = []
         for name in there:
             with np.load(results / f"{name}.npz") as data:
-                rows.append(row(name, data))
-        sheet = Image.new("RGB", (rows[0].width, sum(one.height for one in rows)), "white")
-        for k, one in enumerate(rows):
-            sheet.paste(one, (0, k * one.height))
-        sheet.save(path)
+                rows.append([row(name, data)])
+        save_sheet(rows, path)

@@ -72,6 +72,22 @@ def rasterise(projected: FloatArray, triangles: IntArray, shape: tuple[int, int]
     return Fragments(owner.reshape(shape), weights.reshape(height, width, 3))
 
 
+def averaged(picture: FloatArray, times: int) -> FloatArray:
+    """Means of times² pixels."""
+    height, width = picture.shape[0] // times, picture.shape[1] // times
+    kept = picture[: height * times, : width * times].reshape(height, times, width, times, 3)
+    return np.asarray(kept.mean(axis=(1, 3)))
+
+
+def edge_distances(projected: FloatArray, triangles: IntArray, fragments: Fragments) -> FloatArray:
+    """Pixels (k, 3) from the covered pixels to the edge opposite each corner of their triangles."""
+    a, b, c = (projected[triangles[:, k], :2] for k in range(3))
+    doubled = np.abs(_cross(b - a, c - a))
+    lengths = np.stack([np.linalg.norm(p - q, axis=1) for p, q in ((b, c), (c, a), (a, b))], axis=1)
+    heights = doubled[:, None] / np.maximum(lengths, 1e-9)
+    return np.asarray(fragments.weights[fragments.covered] * heights[fragments.triangle[fragments.covered]])
+
+
 def _boxes(corners: FloatArray, shape: tuple[int, int]) -> tuple[IntArray, IntArray]:
     """First pixel (m, 2) and number of pixels (m, 2) of each triangle's box, clipped to the picture."""
     limit = np.array([shape[1], shape[0]])

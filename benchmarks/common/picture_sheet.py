@@ -1,7 +1,8 @@
-"""Contact sheets: pictures in rows with a caption under each, as WebP files."""
+"""Contact sheets: pictures in rows with a caption under each, as WebP or PNG files."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import matplotlib
@@ -17,8 +18,8 @@ PAPER = (255, 255, 255)
 Panel = tuple[FloatArray, str]
 
 
-def save_sheet(rows: list[list[Panel]], path: Path) -> None:
-    """Writes the rows as one WebP; all pictures of a row have the same height."""
+def save_sheet(rows: Sequence[Sequence[Panel]], path: Path) -> None:
+    """Write the rows as one picture; all pictures of a row have the same height."""
     widths = [sum(picture.shape[1] + GAP for picture, _ in row) + GAP for row in rows]
     heights = [max(picture.shape[0] for picture, _ in row) + CAPTION + GAP for row in rows]
     sheet = Image.new("RGB", (max(widths), sum(heights) + GAP), PAPER)
@@ -33,4 +34,13 @@ def save_sheet(rows: list[list[Panel]], path: Path) -> None:
             pen.text(centre, caption, fill=(20, 20, 20), font=font, anchor="mm")
             left += picture.shape[1] + GAP
         top += height
-    webp.save(sheet, path)
+    if path.suffix == ".png":
+        sheet.save(path)
+    else:
+        webp.save(sheet, path)
+
+
+def save_pairs(shown: Iterable[tuple[str, Iterable[FloatArray]]], path: Path) -> None:
+    """Write names and their tiles, which stand side by side, two names in each row."""
+    panels = [(np.hstack(list(tiles)), name) for name, tiles in shown]
+    save_sheet([panels[k : k + 2] for k in range(0, len(panels), 2)], path)
