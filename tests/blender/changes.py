@@ -45,9 +45,6 @@ class Kind:
         return status
 
 
-REGION = Kind()
-
-
 def edited(name: str) -> bytes:
     """A mesh in edit mode: its places, edges and faces, UVs and other shape keys than the active one."""
     mesh, active = bpy.data.objects[name].data, bpy.data.objects[name].active_shape_key
@@ -62,7 +59,7 @@ def edited(name: str) -> bytes:
 class Panel:
     """One."""
 
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, kind: Kind = REGION) -> None:
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, kind: Kind) -> None:
         self.kind, self.redo, home = kind, module("run.redo"), module(f"run.{kind.home}")
         self.is_open = False
         self.waits = 0  # answers that were searched for in the main thread

@@ -1,104 +1,313 @@
-"""Changes in the redo panel: Blender goes on with another surface, and the fair one follows."""
+"""Changes in the redo panel: Blender goes on with the surface before, and the one asked for follows."""
 
 from __future__ import annotations
 
+import gc
 import threading
 import time
 from collections.abc import Iterator
 from types import SimpleNamespace
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
 
 import clocks
 import meshes
-from changes import Panel, in_view
+from changes import Kind, Panel, edited, in_view
 from extension import module
+from test_denoise import every, rough_ball
+from test_fill import open_sphere, select_vertices
+from test_fillet import cube, edge_mask, upright
+from test_fillet import enter as enter_fillet
+from test_from_curves import circles, wired
 
-LONGEST = 0.1  # seconds of the processor that a change may hold Blender up
-WORSE = {"shape": "HARMONIC", "max_iterations": 1}  # of which nothing comes
+
+def _fillet() -> None:
+    obj = cube()
+    enter_fillet(obj, edge_mask(obj, upright))
 
 
-def expected(**options: Any) -> Any:
-    """What a script gets."""
+def _curves() -> None:
+    obj = wired(circles(16))
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    meshes.enter(obj, np.zeros(0, dtype=bool))
+    for edge in bmesh.from_edit_mesh(obj.data).edges:
+        edge.select_set(True)
+    bmesh.update_edit_mesh(obj.data)
+
+
+def _keys() -> None:
     obj, faces = meshes.domed_grid()
-    meshes.fair(obj, faces, **options)
-    meshes.leave()
-    return meshes.positions(obj).astype(np.float32)
+    obj.shape_key_add(name="Basis")
+    points = meshes.positions(obj)
+    points[:, 2] += 0.3 * np.cos(3.0 * points[:, 0])
+    obj.shape_key_add(name="Bent").data.foreach_set("co", points.ravel())
+    meshes.enter(obj, faces)
 
 
-@pytest.fixture
-def panel(monkeypatch: pytest.MonkeyPatch) -> Iterator[Panel]:
-    made = Panel(monkeypatch)
+def _denoise() -> None:
+    obj = rough_ball()
+    meshes.enter(obj, every(obj))
+
+
+KINDS = {
+    "region": Kind(refused={"shape": "HARMONIC", "max_iterations": 1}),
+    "fill": Kind(
+        "fair_fill", "fill", lambda: select_vertices(open_sphere(), lambda _: True), {}, {"spacing": 1.5},
+        {"quads": True}, {"max_vertices": 1},
+    ),
+    "fillet": Kind(
+        "fair_fillet", "fillet", _fillet, {"width": 0.3}, {"width": 0.4}, {"profile": 0.5}, {"max_vertices": 1},
+    ),
+    "curves": Kind(
+        "fair_from_curves", "from_curves", _curves, {}, {"spacing": 1.5}, {"quads": True}, {"max_vertices": 1},
+    ),
+    "new mesh": Kind(
+        first={"mesh": "NEW"}, second={"spacing": 1.5}, third={"quads": True}, refused={"max_vertices": 1},
+    ),
+    "all keys": Kind(enter=_keys, first={"all_keys": True}),
+    "denoise": Kind("fair_denoise", "denoise", _denoise, {}, {"amount": 0.5}, {"size": 0.5}),
+}  # fmt: skip
+REFUSED = [name for name, kind in KINDS.items() if kind.refused]
+WRITERS = {
+    "fill": ("mesh.filled", "add_to_edit_mesh"),
+    "fillet": ("mesh.remeshed", "write_edit_mesh"),
+    "curves": ("mesh.spanned", "add_to_edit_mesh"),
+    "new mesh": ("mesh.remeshed", "write_edit_mesh"),
+}
+
+
+@pytest.fixture(params=KINDS)
+def panel(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[Panel]:
+    made = Panel(monkeypatch, KINDS[request.param])
     yield made
     made.end()
 
 
-def test_the_last_result_at_once_and_the_fair_one_in_the_same_step_of_undo(panel: Panel) -> None:
-    begin = clocks.clocks()
-    panel.leave_panel(shape="LEAST_VARIATION")
-    spent, passed = (now - then for now, then in zip(clocks.clocks(), begin, strict=True))
-    assert spent < LONGEST
-    assert passed < clocks.STUCK
-    assert panel.follows
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
-    panel.change()
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
-    assert "another one is shown meanwhile" in panel.report.reason
-    panel.settle()
-    found = panel.positions()
-    assert (panel.report.verdict, panel.report.reason) == ("GOOD", "")
-    assert np.abs(found - panel.first_run).max() > 1e-6
-    bpy.ops.ed.undo()
-    np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
-    bpy.ops.ed.redo()
-    np.testing.assert_array_equal(panel.positions(), found)
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+@pytest.fixture
+def region(monkeypatch: pytest.MonkeyPatch) -> Iterator[Panel]:
+    """Of Fair Region alone, for what is the same code for all."""
+    made = Panel(monkeypatch, KINDS["region"])
+    yield made
+    made.end()
 
 
-def check_one_step(panel: Panel) -> None:
+def expected(panel: Panel, **options: Any) -> bytes:
+    """What a script gets, in a file of its own; with all keys what a change comes to that is waited for.
+
+    A script's other keys differ from those in a last bit.
+    """
+    bpy.ops.wm.read_homefile(use_empty=True)
+    bpy.context.tool_settings.mesh_select_mode = (False, False, True)
+    panel.kind.enter()
+    bpy.ops.ed.undo_push(message="Begin")
+    changed = panel.kind is KINDS["all keys"]
+    assert panel.kind.run(**({} if changed else options)) == {"FINISHED"}
+    if changed:
+        panel.redo.has_events = lambda _context: False
+        panel.leave_panel(**options)
+    assert not panel.follows
+    return edited(bpy.context.object.name)
+
+
+def check_one_step(panel: Panel, **options: Any) -> None:
     """The answer is that of a run that waits, and one step of undo takes it and what was shown away."""
     panel.settle()
-    found = panel.positions()
+    found = panel.now
+    assert found != panel.first
+    assert panel.kind is not KINDS["region"] or panel.report.verdict == "GOOD"
+    assert "kept" not in panel.report.reason
+    assert "meanwhile" not in panel.report.reason
     bpy.ops.ed.undo()
-    np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+    assert panel.now == panel.original
+    bpy.ops.ed.redo()
+    assert panel.now == found
+    assert found == expected(panel, **options)
+
+
+def test_the_result_before_at_once_and_the_answer_in_the_same_step_of_undo(panel: Panel) -> None:
+    begin = clocks.clocks()
+    panel.leave_panel(**panel.kind.second)
+    clocks.assert_was_quick(begin)
+    assert not panel.waits
+    assert panel.follows
+    assert panel.now == panel.first
+    assert "another one is shown meanwhile" in panel.report.reason
+    panel.change()
+    assert panel.now == panel.first
+    check_one_step(panel, **panel.kind.second)
 
 
 def test_of_several_changes_the_last_one_counts(panel: Panel) -> None:
-    for shape in ("LEAST_VARIATION", "HARMONIC", "MINIMAL_ENERGY"):
-        panel.change(shape=shape)
+    panel.change(**panel.kind.second)
+    assert panel.now == panel.first
+    panel.change(**panel.kind.third)
+    assert panel.now == panel.first
+    check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
+
+
+def test_a_change_after_an_answer_shows_that_answer(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
     panel.settle()
-    found = panel.positions()
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="MINIMAL_ENERGY"))
+    second = panel.now
+    panel.change(**panel.kind.third)
+    assert panel.now == second
+    check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
 
 
 @pytest.mark.parametrize("prompt", [10.0, 0.0])
-def test_a_small_selection_is_answered_at_once_or_else_followed(
+def test_a_small_one_is_answered_at_once_or_else_followed(
     panel: Panel, prompt: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(panel.redo, "PROMPT", prompt)
-    monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1000)
-    panel.change(shape="LEAST_VARIATION")
+    monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1_000_000)
+    panel.change(**panel.kind.second)
     assert panel.follows == (prompt == 0.0)
-    panel.settle()
-    assert panel.report.verdict == "GOOD"
-    found = panel.positions()
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+    check_one_step(panel, **panel.kind.second)
 
 
 def test_scripts_wait_in_a_window_too(panel: Panel) -> None:
-    panel.change(shape="LEAST_VARIATION")
-    panel.settle()
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
+    bpy.ops.ed.undo()
+    assert panel.kind.run() == {"FINISHED"}
     assert not panel.follows
     assert not panel.threads()
+    assert panel.now == panel.first
+
+
+@pytest.mark.parametrize("what", ["move", "mode", "delete", "cancel", "extrude", "script"])
+def test_what_changes_the_mesh_meanwhile_keeps_what_is_shown(panel: Panel, what: str) -> None:
+    panel.change(**panel.kind.second)
+    if what == "move":
+        bpy.ops.transform.translate("EXEC_DEFAULT", True, value=(0.0, 0.0, 0.1))
+    elif what == "mode":
+        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="OBJECT")
+    elif what == "delete":
+        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="OBJECT")
+        bpy.data.objects.remove(bpy.data.objects[panel.name])
+    elif what == "extrude":
+        bpy.ops.mesh.extrude_region("EXEC_DEFAULT", True)
+    elif what == "script":  # without an operator: it is not the last one that tells
+        mesh = bpy.data.objects[panel.name].data
+        next(iter(bmesh.from_edit_mesh(mesh).verts)).co.z += 1.0
+        bmesh.update_edit_mesh(mesh)
+    else:
+        assert bpy.ops.mesh.fair_cancel() == {"FINISHED"}
+    there = panel.now if what in ("move", "cancel", "extrude", "script") else None
+    panel.settle()
+    assert panel.report.verdict == "LOOK"
+    assert "Another surface was kept" in panel.report.reason
+    if there is not None:
+        assert panel.now == there
+    if what == "mode":
+        bpy.ops.object.mode_set(mode="EDIT")
+        assert panel.now == panel.first
+    if what == "cancel":
+        panel.change(**panel.kind.third)
+        check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
+
+
+def test_a_selection_meanwhile_stays(panel: Panel) -> None:
+    """New faces stay as they were; where vertices move alone, the answer comes as a step of its own."""
+    panel.change(**panel.kind.second)
+    bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
+    panel.settle()
+    moves = panel.kind in (KINDS["region"], KINDS["denoise"])
+    assert bpy.data.objects[panel.name].data.count_selected_items()[0] == 0
+    assert (panel.now == panel.first) != moves
+    assert ("Another surface was kept" in panel.report.reason) != moves
+    if moves:
+        bpy.ops.ed.undo()
+        assert panel.now == panel.first
+        bpy.ops.ed.redo()
+        assert panel.now == expected(panel, **panel.kind.second)
+
+
+def test_undo_meanwhile_ends_it(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    bpy.ops.ed.undo()
+    assert not panel.follows
+    panel.settle()
+    assert panel.now == panel.original
+    assert not panel.report.written
+    bpy.ops.ed.redo()
+    assert panel.now == panel.first
+
+
+def test_undo_before_the_first_look_ends_it(panel: Panel) -> None:
+    panel.leave_panel(**panel.kind.second)
+    bpy.ops.ed.undo()
+    assert not panel.follows
+    bpy.ops.ed.redo()
+    panel.settle()
+    assert panel.now == panel.first
+
+
+def test_another_file_ends_it(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    panel.open()
+    bpy.ops.wm.read_homefile(use_empty=True)
+    assert not panel.follows
+    assert not panel.look()
+    assert not panel.threads()
+    assert not panel.report.reason
+
+
+def test_another_run_ends_it(panel: Panel) -> None:
+    panel.change(**panel.kind.second)
+    bpy.ops.ed.undo()
+    assert panel.kind.run(**panel.kind.third) == {"FINISHED"}
+    assert not panel.follows
+    panel.settle()
+    assert panel.now == expected(panel, **panel.kind.third)
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+@pytest.mark.parametrize("panel", REFUSED, indirect=True)
+def test_what_is_refused_leaves_the_result_before(panel: Panel, at_once: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the panel where it is, for another change."""
+    monkeypatch.setattr(panel.redo, "PROMPT", 10.0)
+    if at_once:
+        monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1_000_000_000)
+    panel.change(**panel.kind.refused)
+    assert panel.follows != at_once
+    panel.settle()
+    assert panel.report.verdict == "UNUSABLE"
+    assert at_once or "The surface before was kept" in panel.report.reason
+    assert panel.now == panel.first
+    operator = bpy.context.window_manager.operators[-1]
+    for name in panel.kind.refused:
+        operator.properties.property_unset(name)
+    again = {**panel.kind.first, **panel.kind.third}
+    panel.change(**again)
+    check_one_step(panel, **again)
+
+
+@pytest.mark.parametrize("part", ["nothing", "all"])
+@pytest.mark.parametrize(("panel", "writer"), WRITERS.items(), indirect=["panel"])
+def test_what_blender_can_not_have_leaves_the_result_before(
+    panel: Panel, writer: tuple[str, str], part: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Refused with nothing or all of it written."""
+    home, name = module(writer[0]), writer[1]
+    write = getattr(home, name)
+
+    def refuses(*arguments: Any) -> Any:
+        if part == "all":
+            write(*arguments)
+        raise ValueError("a fault of a test")
+
+    panel.change(**panel.kind.second)
+    with monkeypatch.context() as spoilt:
+        spoilt.setattr(home, name, refuses)
+        panel.settle()
+    assert gc.isenabled()
+    assert panel.report.reason == "a fault of a test. The surface before was kept"
+    assert panel.now == panel.first
+    panel.change(**panel.kind.third)
+    check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
 
 
 class MESH_OT_macro_of_a_test(bpy.types.Macro):
@@ -109,110 +318,76 @@ class MESH_OT_macro_of_a_test(bpy.types.Macro):
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
 
-def test_a_run_that_is_a_step_of_a_macro_is_followed_too(panel: Panel) -> None:
+def test_a_run_that_is_a_step_of_a_macro_is_followed_too(region: Panel) -> None:
     # Registered for good: Blender keeps what was run, and asks its type.
     bpy.utils.register_class(MESH_OT_macro_of_a_test)
     MESH_OT_macro_of_a_test.define("MESH_OT_fair_region")
     bpy.ops.ed.undo()
     assert bpy.ops.mesh.macro_of_a_test("EXEC_DEFAULT", True) == {"FINISHED"}
-    assert not panel.follows  # it is a script that calls
-    panel.change(shape="LEAST_VARIATION")
-    assert panel.follows
-    check_one_step(panel)
-
-
-def test_what_is_selected_meanwhile_stays_selected(panel: Panel) -> None:
-    """The fair surface then comes as a step of its own."""
-    panel.change(shape="LEAST_VARIATION")
-    bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="SELECT")
-    panel.settle()
-    found = panel.positions()
-    assert panel.report.verdict == "GOOD"
-    mesh = bpy.data.objects[panel.name].data
-    assert mesh.count_selected_items()[2] == module("mesh.selecting").face_count(mesh)
+    assert not region.follows  # it is a script that calls
+    region.change(shape="LEAST_VARIATION")
+    assert region.follows
+    region.settle()
+    found = region.positions()
     bpy.ops.ed.undo()
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
-    bpy.ops.ed.redo()
-    np.testing.assert_array_equal(panel.positions(), found)
+    assert region.now == region.original
     meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+    obj, faces = meshes.domed_grid()
+    meshes.fair(obj, faces, shape="LEAST_VARIATION")
+    meshes.leave()
+    np.testing.assert_array_equal(found, meshes.positions(obj).astype(np.float32))
 
 
-@pytest.mark.parametrize("what", ["move", "mode", "delete", "cancel"])
-def test_what_changes_the_mesh_meanwhile_keeps_what_is_shown(panel: Panel, what: str) -> None:
-    panel.change(shape="LEAST_VARIATION")
-    if what == "move":
-        bpy.ops.transform.translate("EXEC_DEFAULT", True, value=(0.0, 0.0, 0.1))
-    elif what == "mode":
-        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="OBJECT")
-    elif what == "delete":
-        bpy.ops.object.mode_set("EXEC_DEFAULT", True, mode="OBJECT")
-        bpy.data.objects.remove(bpy.data.objects[panel.name])
-    else:
-        assert bpy.ops.mesh.fair_cancel() == {"FINISHED"}
-    there = panel.positions() if what in ("move", "cancel") else None
-    panel.settle()
-    assert panel.report.verdict == "LOOK"
-    assert "Another surface was kept" in panel.report.reason
-    if there is not None:
-        np.testing.assert_array_equal(panel.positions(), there)
-
-
-def test_nothing_happens_while_vertices_are_being_moved(panel: Panel, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_happens_while_vertices_are_being_moved(region: Panel, monkeypatch: pytest.MonkeyPatch) -> None:
     """Undo would take the mesh away from the operator that is under way. Its end lets the fair surface in."""
-    panel.change(shape="LEAST_VARIATION")
-    panel.open()
+    region.change(shape="LEAST_VARIATION")
+    region.open()
     with monkeypatch.context() as moved:
-        moved.setattr(panel.redo, "is_being_edited", lambda _context: True)
+        moved.setattr(region.redo, "is_being_edited", lambda _context: True)
         for _ in range(20):
-            assert panel.look()
+            assert region.look()
             time.sleep(0.01)
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
-    assert not panel.redo.is_being_edited(bpy.context)
-    panel.settle()
-    found = panel.positions()
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+    assert region.now == region.first
+    assert not region.redo.is_being_edited(bpy.context)
+    check_one_step(region, shape="LEAST_VARIATION")
 
 
-def test_nothing_is_written_while_a_field_may_be_pulled(panel: Panel, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_written_while_a_field_may_be_pulled(region: Panel, monkeypatch: pytest.MonkeyPatch) -> None:
     """Undo would take the field away."""
-    operator, down = panel.redo.MESH_OT_fair_follow, [True]
-    monkeypatch.setattr(panel.redo, "is_held", lambda: down[0])
-    panel.change(shape="LEAST_VARIATION")
-    stand = SimpleNamespace(_following=panel.redo._following())
-    panel.open()
-    assert panel.redo._following().run.wait(clocks.STUCK)
+    operator, down = region.redo.MESH_OT_fair_follow, [True]
+    monkeypatch.setattr(region.redo, "is_held", lambda: down[0])
+    region.change(shape="LEAST_VARIATION")
+    stand = SimpleNamespace(_following=region.redo._following())
+    region.open()
+    assert region.redo._following().run.wait(clocks.STUCK)
 
     def heard(kind: str) -> set[str]:
         with in_view():
             return set(operator.modal(stand, bpy.context, event(kind, "NOTHING")))
 
     assert all(heard(kind) == {"PASS_THROUGH"} for kind in ("MOUSEMOVE", "A", "TIMER"))
-    assert panel.follows
+    assert region.follows
     down[0] = False
     assert heard("A") == {"PASS_THROUGH"}
     assert heard("TIMER") == heard("A") == {"CANCELLED", "PASS_THROUGH"}
-    found = panel.positions()
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="LEAST_VARIATION"))
+    check_one_step(region, shape="LEAST_VARIATION")
 
 
 @pytest.mark.parametrize(("kind", "value"), [("LEFTMOUSE", "PRESS"), ("LEFTMOUSE", "RELEASE"), ("A", "PRESS")])
-def test_the_mouse_button_is_asked_about(panel: Panel, kind: str, value: str) -> None:
+def test_the_mouse_button_is_asked_about(region: Panel, kind: str, value: str) -> None:
     stand = SimpleNamespace(asks=True)
-    assert panel.redo.MESH_OT_fair_follow.invoke(stand, bpy.context, event(kind, value)) == {"CANCELLED"}
-    assert panel.redo._Hand.is_down == ((kind, value) == ("LEFTMOUSE", "PRESS"))
+    assert region.redo.MESH_OT_fair_follow.invoke(stand, bpy.context, event(kind, value)) == {"CANCELLED"}
+    assert region.redo._Hand.is_down == ((kind, value) == ("LEFTMOUSE", "PRESS"))
 
 
 def event(kind: str, value: str) -> Any:
     return SimpleNamespace(type=kind, value=value)
 
 
-def test_the_tools_arrows_wait_until_no_thread_is_left(panel: Panel) -> None:
+def test_the_tools_arrows_wait_until_no_thread_is_left(region: Panel) -> None:
     """One that searches for a live region, say: Blender crashes where it runs beside an operator of a timer."""
     gizmos, run = module("show.gizmos"), module("core.runner").Run
-    panel.change(shape="LEAST_VARIATION")
+    region.change(shape="LEAST_VARIATION")
     leave = threading.Event()
     other = run(lambda _progress: leave.wait())
     gizmos._wanted.append(bpy.context.window)
@@ -220,10 +395,10 @@ def test_the_tools_arrows_wait_until_no_thread_is_left(panel: Panel) -> None:
     try:
         for _ in range(5):
             assert gizmos._run_again() == gizmos.SOON
-            panel.open()
+            region.open()
             time.sleep(0.01)
         assert other.cancelled
-        np.testing.assert_array_equal(panel.positions(), panel.first_run)
+        assert region.now == region.first
     finally:
         leave.set()
     assert other.wait(clocks.STUCK)
@@ -231,68 +406,18 @@ def test_the_tools_arrows_wait_until_no_thread_is_left(panel: Panel) -> None:
     while gizmos._run_again() is not None:
         assert time.perf_counter() < end
         time.sleep(0.01)
-    assert not panel.threads()
-    panel.is_open = True
-    panel.settle()
-    found = panel.positions()
-    meshes.leave()
-    np.testing.assert_array_equal(found, expected(shape="MINIMAL_ENERGY"))
+    assert not region.threads()
+    region.is_open = True
+    check_one_step(region, shape="MINIMAL_ENERGY")
 
 
-def test_undo_meanwhile_ends_it(panel: Panel) -> None:
-    panel.change(shape="LEAST_VARIATION")
-    bpy.ops.ed.undo()
-    assert not panel.follows
-    panel.settle()
-    np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
-    assert not panel.report.written
-
-
-def test_another_file_ends_it(panel: Panel) -> None:
-    panel.change(shape="LEAST_VARIATION")
-    panel.open()
-    bpy.ops.wm.read_homefile(use_empty=True)
-    assert not panel.follows
-    assert not panel.look()
-    assert not panel.report.reason
-
-
-def test_another_run_ends_it(panel: Panel) -> None:
-    panel.change(shape="LEAST_VARIATION")
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True) == {"FINISHED"}
-    assert not panel.follows
-    assert panel.report.verdict == "GOOD"
-
-
-@pytest.mark.parametrize("at_once", [True, False])
-def test_what_is_not_usable_leaves_the_result_before(
-    panel: Panel, at_once: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """And the panel where it is, for another change."""
-    monkeypatch.setattr(panel.redo, "PROMPT", 10.0)
-    if at_once:
-        monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1000)
-    panel.change(**WORSE)
-    assert panel.follows != at_once
-    panel.settle()
-    assert panel.report.verdict == "UNUSABLE"
-    assert at_once or "The surface before was kept" in panel.report.reason
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
-    panel.change(max_iterations=20)
-    panel.settle()
-    assert panel.report.verdict == "GOOD"
-    np.testing.assert_allclose(panel.positions(), panel.first_run, atol=1e-5)
-    bpy.ops.ed.undo()
-    np.testing.assert_array_equal(panel.positions(), panel.before.astype(np.float32))
-
-
-def test_what_is_refused_after_another_selection_leaves_what_is_shown(panel: Panel) -> None:
-    panel.change(**WORSE)
+def test_what_is_refused_after_another_selection_leaves_what_is_shown(region: Panel) -> None:
+    region.change(**region.kind.refused)
     bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="SELECT")
-    panel.settle()
-    assert panel.report.verdict == "UNUSABLE"
-    assert "The surface before was kept" in panel.report.reason
-    np.testing.assert_array_equal(panel.positions(), panel.first_run)
+    region.settle()
+    assert region.report.verdict == "UNUSABLE"
+    assert "The surface before was kept" in region.report.reason
+    assert region.now == region.first
 
 
 @pytest.mark.parametrize(("mode", "source"), [("SCULPT", "MASK"), ("OBJECT", "VERTEX_GROUP")])
