@@ -72,7 +72,7 @@ class FairOptions:
     feather: float = 0.0  # width of the band outside in which the change fades out: a part of the patch's size
     factor_group: str = ""  # name of a vertex group whose weights scale the way of each vertex, outside too
     factor_mask: str = "IGNORED"  # USED: the sculpt mask scales it
-    boundary_normals: str = "AUTOMATIC"  # SURROUNDING, but along walls INSIDE or a film's
+    boundary_normals: str = "AUTOMATIC"  # INSIDE along hard edges of the boundary, SURROUNDING elsewhere
     continuity: str = "G1"  # G2: the curvature of the faces outside is continued, too
     position_group: str = ""  # name of a vertex group, along which the boundary's position alone is kept
     curvature_group: str = ""  # name of a vertex group, along which the curvature outside is continued, too

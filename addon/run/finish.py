@@ -12,7 +12,6 @@ from ..core.options import FairOptions
 from ..core.outcome import Fairing
 from ..core.report import GRADE_NAMES, Report, make_report, summary
 from ..core.symmetry import NOT_SYMMETRIC
-from ..core.verdict import KEEP_DETAIL
 from ..core.words import said
 from ..host.status import redraw_sidebars
 from ..translations import translated
@@ -67,6 +66,7 @@ class Asked(AskedInEditMode):
         store(context.window_manager.fairing_report, report)
         last_run.remember(self.tasks, outcomes, self.options, report)
         if not report.written:
+            last_run.select_spots(context)
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         compare.remember(self.tasks, outcomes)
@@ -85,8 +85,6 @@ class Asked(AskedInEditMode):
 def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:
     """Leave what the last run has left, offer this change no more, and report how it would have come out."""
     last_run.select_region(context)
-    if way == KEEP_DETAIL and not compare.is_shown(context):  # it began with the shape before
-        compare.show(context, result=True)
     shown = context.window_manager.fairing_report
     shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
     outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))

@@ -18,6 +18,7 @@
 #include "method/pinned.h"
 #include "method/solve.h"
 #include "problem/free_slopes.h"
+#include "start/automatic_equation.h"
 #include "start/swept_start.h"
 
 namespace fairing {
@@ -67,6 +68,11 @@ double load_in_units(const Patch& patch, const Points& fixed_points, double diam
     if (options.solver.load != 0.0) load = options.solver.load * std::pow(diameter, 3);
     if (options.bulge != 0.0) load += 8.0 * options.bulge / std::pow(outline_radius(patch, fixed_points), 3);
     return load;
+}
+
+// By the boundary loops alone.
+Equation chosen_for(const Problem& problem) {
+    return automatic_equation(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
 }
 
 // Open borders that become fair do so as curves; the surface then moves them along its normals.
@@ -150,15 +156,16 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
 
 Equation ComponentSolver::equation_of(const Problem& problem, const ComponentData& data) {
     const Equation asked = problem.options.equation;
-    chooses_ = false;
     if (asked != Equation::automatic) return equation_for(patch_, asked);
     // The paper's method has one equation for tubes, and one surface alone continues a curvature or has tensions.
     const bool harmonic_alone =
         options_.method == Method::paper || data.curvatures.size() > 0 || data.log_tensions.size() > 0;
-    const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline_of(problem));
-    const Equation chosen = equation_for(patch_, stays && !harmonic_alone ? chosen_->equation : Equation::harmonic);
-    chooses_ = !harmonic_alone && !stays && chosen == Equation::harmonic;
-    return chosen;
+    if (harmonic_alone) return equation_for(patch_, Equation::harmonic);
+    Outline outline = outline_of(problem);
+    const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline);
+    const Equation chosen = stays ? chosen_->equation : chosen_for(problem);
+    if (keeps()) chosen_ = Chosen{std::move(outline), chosen};
+    return equation_for(patch_, chosen);
 }
 
 // λ stays as long as what it is read off does, which one call does not change.
@@ -232,14 +239,12 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     return joined(problem, std::move(solution), progress.range(0.5, 1.0));
 }
 
-Solution ComponentSolver::solve_tangent(Problem& problem, const std::optional<NearStart>& start,
+Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
-    std::optional<Solution> near = keeps() && !chooses_ ? solve_near_last(problem, progress) : std::nullopt;
+    std::optional<Solution> near = keeps() ? solve_near_last(problem, progress) : std::nullopt;
     if (!near) near = solve_from(problem, start, progress);
-    if (!near && chooses_) near = solve_automatically(problem, options_.pin_radius, progress);
     Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
     if (!keeps()) return solution;
-    chosen_ = Chosen{outline_of(problem), problem.options.equation};
     replaced_.reset();
     if (stands_in(solution.provenance) && end_of(solution) == Termination::converged)
         replaced_ = Replaced{outline_of(problem), solution.provenance};

@@ -1,19 +1,12 @@
 #include "c/fairing.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <exception>
 #include <memory>
-#include <new>
-#include <stdexcept>
 
-#include "api/fair.h"
-#include "base/errors.h"
-#include "base/memory.h"
 #include "bindings/words.h"
 #include "boundary/boundary_fit.h"
 #include "boundary/surrounding_fit.h"
+#include "c/shared.h"
 #include "mesh/loops.h"
 
 struct fairing_result {  // NOLINT(readability-identifier-naming): as the header calls it
@@ -25,81 +18,7 @@ struct fairing_result {  // NOLINT(readability-identifier-naming): as the header
 namespace {
 
 using namespace fairing;
-
-void copy_text(std::span<char> target, std::string_view text) {
-    std::size_t count = std::min(text.size(), target.size() - 1);
-    // No character of several bytes is cut.
-    while (count < text.size() && count > 0 && (static_cast<unsigned char>(text[count]) & 0xC0U) == 0x80U) --count;
-    std::memcpy(target.data(), text.data(), count);
-    target[count] = '\0';
-}
-
-void fill_error(fairing_error* error, std::string_view code, std::string_view message) {
-    if (!error) return;
-    *error = {};
-    copy_text(error->code, code);
-    copy_text(error->message, message);
-}
-
-void fill_error(fairing_error* error, const Diagnostic& diagnostic) {
-    if (!error) return;
-    fill_error(error, code_name(diagnostic.code), diagnostic.message);
-    const std::size_t count = std::min(diagnostic.elements.size(), std::size(error->elements));
-    std::copy_n(diagnostic.elements.begin(), count, error->elements);
-    error->element_count = static_cast<int>(count);
-    error->of_triangles = diagnostic.kind == ElementKind::triangle;
-}
-
-// Runs the work; what it throws becomes a status.
-template <typename Work>
-fairing_status guarded(fairing_error* error, const Work& work) {
-    try {
-        fill_error(error, "", "");
-        work();
-        return FAIRING_OK;
-    } catch (const MeshError& thrown) {
-        fill_error(error, thrown.diagnostic());
-        return FAIRING_MESH_ERROR;
-    } catch (const Cancelled& thrown) {
-        fill_error(error, "", thrown.what());
-        return FAIRING_CANCELLED;
-    } catch (const SolverError& thrown) {
-        fill_error(error, "", thrown.what());
-        return FAIRING_SOLVER_ERROR;
-    } catch (const MemoryShortage& thrown) {
-        fill_error(error, "", thrown.what());
-        return FAIRING_NO_MEMORY;
-    } catch (const std::bad_alloc&) {
-        fill_error(error, "", "not enough memory");
-        return FAIRING_NO_MEMORY;
-    } catch (const std::invalid_argument& thrown) {
-        fill_error(error, "", thrown.what());
-        return FAIRING_BAD_ARGUMENT;
-    } catch (const std::exception& thrown) {
-        fill_error(error, "", thrown.what());
-        return FAIRING_INTERNAL_ERROR;
-    }
-}
-
-void require(bool holds, const char* message) {
-    if (!holds) throw std::invalid_argument(message);
-}
-
-FairOptions to_options(const fairing_options& given) {
-    require(given.equation && given.side && given.inner_fairness, "options: begin with fairing_default_options()");
-    require(std::isfinite(given.bulge), "options.bulge: a finite number is needed");
-    require(given.tolerance > 0.0 && given.tolerance < 1.0, "options.tolerance: between 0 and 1 is needed");
-    require(given.threads >= 0, "options.threads: 0 or more is needed");
-    FairOptions options;
-    options.solver.equation = bindings::equation_words.value(given.equation);
-    options.solver.otherwise = given.stand_in ? Otherwise::least_variation : Otherwise::stop;
-    options.solver.tolerance = given.tolerance;
-    options.bulge = given.bulge;
-    options.inner_fairness = bindings::fairness_words.value(given.inner_fairness);
-    options.pin_radius = 0.1;  // as fair() of the Python package
-    options.threads = given.threads;
-    return options;
-}
+using namespace fairing::c;
 
 // Those that are selected, or those that aren't; MeshError where a vertex doesn't exist.
 Triangles chosen(std::span<const int> triangles, const unsigned char* selected, bool wanted) {
@@ -108,18 +27,6 @@ Triangles chosen(std::span<const int> triangles, const unsigned char* selected, 
         if ((selected[t] != 0) == wanted) flat.insert(flat.end(), &triangles[3 * t], &triangles[3 * t] + 3);
     }
     return Eigen::Map<const Triangles>(flat.data(), 3, static_cast<Eigen::Index>(flat.size() / 3));
-}
-
-void check_indices(std::span<const int> triangles, std::size_t point_count) {
-    Diagnostic wrong{
-        Code::index_range, "triangles: some name a vertex that does not exist", {}, ElementKind::triangle, {}};
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const bool exists = triangles[k] >= 0 && static_cast<std::size_t>(triangles[k]) < point_count;
-        const int triangle = static_cast<int>(k / 3);
-        if (!exists && (wrong.elements.empty() || wrong.elements.back() != triangle))
-            wrong.elements.push_back(triangle);
-    }
-    if (!wrong.elements.empty()) throw MeshError(wrong);
 }
 
 SurroundingNormals slopes(const Surroundings& mesh, const Indices& outline, std::string_view side) {
@@ -144,8 +51,6 @@ void add_boundary(MeshInput& input, const Surroundings& mesh, std::string_view s
     input.fixed = known;
 }
 
-double largest(const VectorX& values) { return values.size() ? values.maxCoeff() : 0.0; }
-
 const Diagnostic* warning_at(const fairing_result* result, int warning) {
     const bool exists = result && warning >= 0 && warning < static_cast<int>(result->found.warnings.size());
     return exists ? &result->found.warnings[static_cast<std::size_t>(warning)] : nullptr;
@@ -168,8 +73,9 @@ fairing_status fairing_fair_faces(const double* points, size_t point_count, cons
     return guarded(error, [&] {
         require(points && triangles && selected && result, "points, triangles, selected and result: none may be NULL");
         *result = nullptr;
+        require(!options || options->size == sizeof(fairing_options),
+                "options.size: sizeof(fairing_options) is needed");
         const fairing_options given = options ? *options : fairing_default_options();
-        require(given.size == sizeof(fairing_options), "options.size: sizeof(fairing_options) is needed");
         const FairOptions wanted = to_options(given);
         const std::span<const int> flat(triangles, 3 * triangle_count);
         check_indices(flat, point_count);
@@ -179,11 +85,8 @@ fairing_status fairing_fair_faces(const double* points, size_t point_count, cons
         require(inside.cols() > 0, "selected: no triangle is selected");
         MeshInput input{all, inside, {}, {}, {}, outside};
         add_boundary(input, {all, inside, outside}, given.side);
-        const auto call = [&](double fraction, std::string_view stage) {
-            return progress(fraction, std::string(stage).c_str(), user) != 0;
-        };
         auto made = std::make_unique<fairing_result>();
-        made->found = fair(std::move(input), {}, wanted, progress ? ProgressCallback(call) : ProgressCallback());
+        made->found = fair(std::move(input), {}, wanted, calling(progress, user));
         made->equation = bindings::equation_of(made->found);
         made->termination = bindings::termination_words.word(made->found.termination);
         *result = made.release();

@@ -25,7 +25,7 @@ extern "C" {
 
 /* The version of this header's interface: it grows where functions or fields come, fairing_interface() of a library
  * that is older is less. */
-#define FAIRING_INTERFACE 1
+#define FAIRING_INTERFACE 2
 
 FAIRING_API int fairing_interface(void);
 FAIRING_API const char* fairing_version(void); /* of the engine, such as "0.1.0" */
@@ -80,6 +80,54 @@ FAIRING_API fairing_status fairing_fair_faces(const double* points, size_t point
                                               fairing_result** result, fairing_error* error);
 
 FAIRING_API void fairing_free(fairing_result* result); /* NULL is allowed */
+
+/* How holes are filled. Begin with fairing_default_fill_options(). */
+typedef struct fairing_fill_options {
+    size_t size;             /* sizeof(fairing_fill_options) */
+    fairing_options surface; /* `side` does not count */
+    double spacing;          /* of new edges; 0: as long as the boundary's */
+    int bridge;              /* one surface joins all loops */
+    int longest;             /* without loops: more edges than that stay open; 0: none do */
+    double longest_length;   /* likewise by length */
+    int max_vertices;        /* more new ones are refused; 0: what is out of proportion */
+} fairing_fill_options;
+
+FAIRING_API fairing_fill_options fairing_default_fill_options(void);
+
+typedef struct fairing_filling fairing_filling;
+
+/* Fills holes, or joins boundary loops, with the fairest surfaces that continue the triangles around them. Each is as
+ * if it were the only one; what can't be filled stays open, with its reason.
+ *
+ * loops: vertices of all loops, one after the other, either way around; loop_sizes: loop_count of them. loop_count 0:
+ * all holes, but not the outside of a sheet. FAIRING_MESH_ERROR where none can be filled. The filling belongs to the
+ * caller: fairing_free_filling(). */
+FAIRING_API fairing_status fairing_fill(const double* points, size_t point_count, const int* triangles,
+                                        size_t triangle_count, const int* loops, const size_t* loop_sizes,
+                                        size_t loop_count, const fairing_fill_options* options,
+                                        fairing_progress progress, void* user, fairing_filling** filling,
+                                        fairing_error* error);
+
+FAIRING_API void fairing_free_filling(fairing_filling* filling); /* NULL is allowed */
+
+/* The new points (x y z of each), and triangles of the old points' numbers and, behind these, the new ones'. */
+FAIRING_API const double* fairing_new_points(const fairing_filling* filling, size_t* count);
+FAIRING_API const int* fairing_new_triangles(const fairing_filling* filling, size_t* count);
+
+/* One hole: the part of the new points and triangles that is its surface, or why it stays open. */
+typedef struct fairing_hole {
+    const int* loop; /* vertices around it, the surface on their left; of several loops one after the other */
+    size_t loop_size;
+    size_t first_point, point_count, first_triangle, triangle_count;
+    int converged;
+    const char* equation;  /* that holds; NULL where it stays open */
+    double worst_join;     /* degrees; a kink is visible from about 12 on */
+    const char* left_code; /* why it stays open; NULL where it is filled */
+    const char* left_message;
+} fairing_hole;
+
+FAIRING_API size_t fairing_hole_count(const fairing_filling* filling);
+FAIRING_API fairing_hole fairing_hole_at(const fairing_filling* filling, size_t hole); /* all 0 where there is none */
 
 /* What came out. Pointers live as long as the result; texts are UTF-8. */
 FAIRING_API const double* fairing_points(

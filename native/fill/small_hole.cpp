@@ -77,6 +77,8 @@ VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face) {
 bool takes_hub(const LoopShape& loop, const Vector3& hub) {
     constexpr int fewest = 5;
     constexpr int most = 8;
+    constexpr double longest_spoke =
+        1.45;  // of the mean edge: 1.31 in a regular octagon, 1.41 in a square of eight edges
     if (loop.size() < fewest || loop.size() > most) return false;
     const Vector3 normal = loop.normals.rowwise().sum();
     const double mean = loop.perimeter() / loop.size();
@@ -85,7 +87,7 @@ bool takes_hub(const LoopShape& loop, const Vector3& hub) {
         const Vector3 next = loop.points.col((k + 1) % loop.size()) - hub;
         const Vector3 area = spoke.cross(next);
         const double edge = (next - spoke).norm();
-        if (!(spoke.norm() <= split_length * mean) || !(area.dot(normal) > 0.0)) return false;
+        if (!(spoke.norm() <= longest_spoke * mean) || !(area.dot(normal) > 0.0)) return false;
         const double largest = std::max({spoke.norm() * next.norm(), edge * next.norm(), edge * spoke.norm()});
         if (!(area.norm() >= std::sin(bad_angle * degree) * largest)) return false;
     }

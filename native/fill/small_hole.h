@@ -18,8 +18,7 @@ Triangles face_over(const BoundaryLoop& loop, const Triangles& around);
 // Degrees at each vertex of the loop between its normal and that of the face over it, area by area.
 VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face);
 
-// Whether a fan around the hub is a good mesh over a loop of five to eight edges: a hub in the middle of a regular
-// polygon of eight edges has spokes of 1.31 edges, below the 4/3 beyond which edges are split.
+// Whether a fan around the hub is a good mesh over a loop of five to eight edges.
 bool takes_hub(const LoopShape& loop, const Vector3& hub);
 
 // Between a loop and its hub.

@@ -144,6 +144,44 @@ static void test_bad_input(void) {
     fairing_free(NULL);
 }
 
+/* The tube without its middle: bridged, and each of its four borders filled by itself. */
+static void test_fill(void) {
+    static int around[3 * TRIANGLES];
+    int loops[2 * COLUMNS];
+    const size_t sizes[2] = {COLUMNS, COLUMNS};
+    size_t count = 0, points_made = 0, triangles_made = 0;
+    for (int t = 0; t < TRIANGLES; ++t)
+        if (!selected[t]) memcpy(&around[3 * count++], &triangles[3 * t], 3 * sizeof(int));
+    for (int k = 0; k < COLUMNS; ++k) loops[k] = 5 * COLUMNS + k, loops[COLUMNS + k] = 11 * COLUMNS + k;
+    fairing_fill_options options = fairing_default_fill_options();
+    fairing_filling* filling = NULL;
+    fairing_error error;
+    options.bridge = 1;
+    CHECK(fairing_fill(points, POINTS, around, count, loops, sizes, 2, &options, NULL, NULL, &filling, &error) ==
+          FAIRING_OK);
+    const double* made = fairing_new_points(filling, &points_made);
+    CHECK(points_made > 50 && fairing_new_triangles(filling, &triangles_made) && triangles_made > points_made);
+    for (size_t v = 0; v < points_made; ++v) CHECK(fabs(hypot(made[3 * v], made[3 * v + 1]) - 1) < 1e-3);
+    CHECK(fairing_hole_count(filling) == 1 && fairing_hole_at(filling, 0).loop_size == 2 * COLUMNS);
+    CHECK(fairing_hole_at(filling, 0).converged && fairing_hole_at(filling, 0).left_code == NULL);
+    CHECK(fairing_hole_at(filling, 1).loop == NULL);
+    fairing_free_filling(filling);
+    CHECK(fairing_fill(points, POINTS, around, count, NULL, NULL, 0, NULL, NULL, NULL, &filling, &error) == FAIRING_OK);
+    CHECK(fairing_hole_count(filling) == 4);
+    for (size_t k = 0; k < 4; ++k) CHECK(fairing_hole_at(filling, k).equation != NULL);
+    fairing_free_filling(filling);
+    CHECK(fairing_fill(points, POINTS, around, count, NULL, NULL, 0, NULL, cancel, NULL, &filling, &error) ==
+          FAIRING_CANCELLED);
+    options.longest = 3;
+    CHECK(fairing_fill(points, POINTS, around, count, NULL, NULL, 0, &options, NULL, NULL, &filling, &error) ==
+          FAIRING_MESH_ERROR);
+    CHECK(strcmp(error.code, "NO_BOUNDARY") == 0);
+    options.size = 4;
+    CHECK(fairing_fill(points, POINTS, around, count, NULL, NULL, 0, &options, NULL, NULL, &filling, &error) ==
+          FAIRING_BAD_ARGUMENT);
+    fairing_free_filling(NULL);
+}
+
 int main(void) {
     CHECK(fairing_interface() == FAIRING_INTERFACE);
     CHECK(strlen(fairing_version()) >= 5);
@@ -152,6 +190,7 @@ int main(void) {
     test_options();
     test_warnings();
     test_bad_input();
+    test_fill();
     printf("%s\n", failures ? "failed" : "passed");
     return failures != 0;
 }
