@@ -14,12 +14,6 @@ namespace fairing::bindings {
 
 namespace {
 
-// Where a solve on a finer mesh of the same surface begins.
-Start start_after(Provenance provenance) {
-    if (provenance == Provenance::least_variation) return Start::least_variation;
-    return is_loft(provenance) ? Start::loft : Start::given;
-}
-
 py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& loops,
                      const std::vector<DoubleArray>& normals, bool bridge, const std::string& equation,
                      const py::object& callback) {
@@ -35,7 +29,6 @@ py::dict fill_arrays(const DoubleArray& vertices, const std::vector<IntArray>& l
     dict["vertices"] = from_points(result.vertices);
     dict["triangles"] = from_triangles(result.triangles);
     dict["converged"] = result.converged;
-    dict["start"] = solve_start_words.word(start_after(result.provenance));
     return dict;
 }
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -64,19 +63,6 @@ def _turned(points: FloatArray, quads: IntArray) -> IntArray:
     is_shorter = lengths[:, 0] < (1 - 1e-6) * lengths[:, 1]
     result: IntArray = np.where(is_shorter[:, None], np.roll(quads, -1, axis=1), quads)
     return result
-
-
-def with_pairs(values: dict[str, Any], points: FloatArray) -> dict[str, Any]:
-    """The fields of a result with its ``pairs``: where no pattern made them, as many as the triangles give."""
-    if "pairs" in values:
-        return values
-    triangles = values["triangles"]
-    edges = [np.column_stack([curve[:-1], curve[1:]]) for curve in values.get("curves", ())]
-    for band in values.get("bands", ()):
-        edges += [np.column_stack([row[:-1], row[1:]]) for row in band]
-    kept = np.concatenate([np.empty((0, 2), np.int32), *edges])
-    _, pairs, _ = _core.paired_quads(np.concatenate([points, values["vertices"]]), triangles, kept)
-    return {**values, "pairs": pairs}
 
 
 def quads_of(triangles: IntArray, pairs: IntArray) -> PairedQuads:
