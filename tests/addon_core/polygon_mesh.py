@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from core.arrays import Floats, Mask
+from core.arrays import Floats, Ints, Mask
 from core.region import MeshArrays
 
 Polygons = Sequence[Sequence[int]]
@@ -54,6 +54,23 @@ def grid(size: int, half: float, shape: Callable[[Floats], Floats] = lambda poin
     quads = grid_quads(size)
     centres = flat[np.array(quads)].mean(axis=1)
     return polygon_mesh(shape(flat), quads, np.abs(centres).max(axis=1) < half)
+
+
+def hexagon(rings: int) -> tuple[Floats, Ints]:
+    """A flat hexagon of equilateral triangles, its rim first and counter-clockwise from the positive x-axis."""
+    span = range(-rings, rings + 1)
+    places = [(i, j) for i in span for j in span if abs(i + j) <= rings]
+    flat = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
+    ring = np.array([max(abs(i), abs(j), abs(i + j)) for i, j in places])
+    order = np.lexsort([np.arctan2(flat[:, 1], flat[:, 0]) % (2 * np.pi), -ring])
+    number = {places[old]: k for k, old in enumerate(order.tolist())}
+    triangles = [
+        [number[(i, j)], number[b], number[c]]
+        for i, j in places
+        for b, c in (((i + 1, j), (i, j + 1)), ((i + 1, j - 1), (i + 1, j)))
+        if b in number and c in number
+    ]
+    return flat[order], np.array(triangles)
 
 
 def on_sphere(points: Floats) -> Floats:

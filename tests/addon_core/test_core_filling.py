@@ -20,7 +20,7 @@ from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.sentences import MeshRefusal
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
-from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
+from polygon_mesh import grid_points, grid_quads, hexagon, on_sphere, polygon_mesh
 
 SIZE = 8
 
@@ -203,7 +203,7 @@ def test_the_outside_of_a_sheet_is_refused() -> None:
 
 def judged(points: Floats, join: Join, **of_result: object) -> Verdict:
     """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
-    flat, triangles, rim = disc(3)
+    (flat, triangles), rim = hexagon(3), 18
     sheet = polygon_mesh(flat, triangles.tolist(), np.zeros(len(triangles), dtype=bool))
     empty = replace(sheet, triangles=sheet.triangles[:0])
     usual = {"converged": True, "termination": "converged", "equation": "harmonic", "loops": (np.arange(rim),)}
@@ -213,7 +213,7 @@ def judged(points: Floats, join: Join, **of_result: object) -> Verdict:
 
 
 def test_what_has_not_converged_is_unusable() -> None:
-    points, _, rim = disc(3)
+    (points, _), rim = hexagon(3), 18
     reported = judged(points, Join(nothing(), np.empty(0)), converged=False, termination="stalled")
     assert reported.grade == UNUSABLE
     assert reported.reason == f"No fair surface was found for a boundary of {rim} edges"
@@ -227,7 +227,7 @@ def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
 
 
 def test_a_fold_is_unusable_and_a_substitute_worth_a_look() -> None:
-    points, _, _ = disc(3)
+    points, _ = hexagon(3)
     assert judged(points, joined()).grade == GOOD
     verdict = judged(points, joined(), equation="loft")
     assert (verdict.grade, "the loft that joins them is a stand-in" in verdict.reason) == (LOOK, True)
@@ -239,7 +239,7 @@ def test_a_fold_is_unusable_and_a_substitute_worth_a_look() -> None:
 
 
 def test_a_kink_is_worth_a_look_where_it_is_seen() -> None:
-    points, _, _ = disc(3)
+    points, _ = hexagon(3)
     verdict = judged(points, joined(30.0))
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [2])
     assert "1 vertex of the boundary, of 30°" in verdict.reason
@@ -289,23 +289,6 @@ def test_a_loop_that_is_no_border_is_refused_in_the_meshs_numbers() -> None:
     with pytest.raises(MeshRefusal, match="no loop of border edges") as error:
         fill(mesh, np.eye(4), inner, FillOptions())
     assert set(error.value.elements.tolist()) <= set(inner[0].tolist())
-
-
-def disc(rings: int = 6) -> tuple[Floats, Ints, int]:
-    """A flat hexagon of equilateral triangles, its rim first; number of the rim's vertices."""
-    places = [
-        (i, j) for i in range(-rings, rings + 1) for j in range(-rings, rings + 1) if abs(i + j) <= rings
-    ]  # fmt: skip
-    places.sort(key=lambda p: -max(abs(p[0]), abs(p[1]), abs(p[0] + p[1])))
-    number = {place: k for k, place in enumerate(places)}
-    triangles = [
-        [number[(i, j)], number[b], number[c]]
-        for i, j in places
-        for b, c in (((i + 1, j), (i, j + 1)), ((i + 1, j - 1), (i + 1, j)))
-        if b in number and c in number
-    ]
-    points = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
-    return points, np.array(triangles), 6 * rings
 
 
 def test_small_holes_in_one_call_are_as_each_by_itself() -> None:

@@ -86,17 +86,6 @@ def test_a_lasso_that_left_faces_out() -> None:
     assert not left_out_faces(replace(chosen(inside), hidden=hole)).any()
 
 
-def folded_rim() -> MeshArrays:
-    """A sphere's side with a fold pressed into its surroundings at one place of the outline."""
-    mesh = grid(20, 0.6, on_sphere)
-    points = mesh.positions.copy()
-    centre = points[21 * 10 + 16]  # on the outline, in the middle of its right side
-    near = np.linalg.norm(points - centre, axis=1) < 0.13
-    near &= points[:, 0] > centre[0] - 0.02
-    points[near] += 0.12 * np.random.default_rng(4).normal(size=(np.count_nonzero(near), 3))
-    return replace(mesh, positions=points)
-
-
 def test_a_selection_on_one_side_gets_its_image() -> None:
     one = where(lambda c: (np.abs(c[0] - 0.5) < 0.3) & (np.abs(c[1]) < 0.5))
     mesh = replace(chosen(one, grid(SIZE, 0.0, on_sphere)), mirror_x=True)

@@ -8,25 +8,14 @@ import pytest
 from core.arrays import Floats, Ints, Mask
 from core.nearest_source import nearest_sources, owners
 from core.unwrapping import RimUVs, Surface, Unwrapped, unwrapped
+from polygon_mesh import hexagon
 
 RINGS = 8
 
 
 def disc() -> Surface:
     """A flat hexagon of equilateral triangles, its rim first and counter-clockwise from the positive x-axis."""
-    span = range(-RINGS, RINGS + 1)
-    places = [(i, j) for i in span for j in span if abs(i + j) <= RINGS]
-    flat = np.array([(i + 0.5 * j, np.sqrt(0.75) * j, 0.0) for i, j in places])
-    ring = np.array([max(abs(i), abs(j), abs(i + j)) for i, j in places])
-    order = np.lexsort([np.arctan2(flat[:, 1], flat[:, 0]) % (2 * np.pi), -ring])
-    number = {places[old]: k for k, old in enumerate(order.tolist())}
-    triangles = [
-        [number[(i, j)], number[b], number[c]]
-        for i, j in places
-        for b, c in (((i + 1, j), (i, j + 1)), ((i + 1, j - 1), (i + 1, j)))
-        if b in number and c in number
-    ]
-    return Surface(flat[order], np.array(triangles), (np.arange(6 * RINGS),))
+    return Surface(*hexagon(RINGS), (np.arange(6 * RINGS),))
 
 
 def tube(columns: int = 12, rows: int = 8, height: float = 3.0) -> Surface:

@@ -251,22 +251,6 @@ def test_a_surface_through_the_mesh_is_written_on_demand_only() -> None:
     assert len(obj.data.polygons) > old
 
 
-def test_one_step_of_undo_takes_it_back() -> None:
-    obj = open_sphere()
-    name = obj.name
-    meshes.select(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    bpy.ops.ed.undo_push(message="open")
-    select_vertices(obj, lambda _: True)
-    bpy.ops.ed.undo_push(message="selected")
-    before = len(bmesh.from_edit_mesh(obj.data).faces)
-    assert fill() == {"FINISHED"}
-    assert len(bmesh.from_edit_mesh(obj.data).faces) > before
-    bpy.ops.ed.undo()
-    found = bpy.data.objects[name]
-    assert bpy.context.mode == "EDIT_MESH"
-    assert len(bmesh.from_edit_mesh(found.data).faces) == before
-
-
 def test_live_region_does_not_grow() -> None:
     obj = open_sphere()
     layer = obj.data.attributes.new("fair_live", "INT", "FACE")

@@ -130,23 +130,6 @@ def test_materials_and_textures_follow_from_each_side() -> None:
     assert kinds == {0, 1}
 
 
-def test_undo_and_redo_are_exact() -> None:
-    obj = cube()
-    enter(obj, edge_mask(obj, upright))
-    try:
-        bpy.ops.ed.undo_push()
-        before = snapshot()
-        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH)
-        after = snapshot()
-        assert after != before
-        bpy.ops.ed.undo()
-        assert snapshot() == before
-        bpy.ops.ed.redo()
-        assert snapshot() == after
-    finally:
-        meshes.leave()
-
-
 def snapshot() -> Any:
     """The mesh in edit mode to the bit, with its selection."""
     bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)

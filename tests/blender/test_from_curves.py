@@ -193,21 +193,6 @@ def test_an_open_end_is_shown() -> None:
     assert [vertex.co.x for vertex in obj.data.vertices if vertex.select] == [2.0]
 
 
-def test_one_step_of_undo_takes_it_back() -> None:
-    obj = wired(circles())
-    bpy.context.preferences.edit.use_global_undo = True
-    name, before = obj.name, meshes.positions(obj)
-    meshes.enter(obj, np.zeros(0, dtype=bool))
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.ed.undo_push(message="before")
-    assert bpy.ops.mesh.fair_from_curves("EXEC_DEFAULT", True) == {"FINISHED"}
-    bpy.ops.ed.undo()
-    meshes.leave()
-    obj = bpy.data.objects[name]
-    assert not len(obj.data.polygons)
-    assert np.array_equal(meshes.positions(obj), before)
-
-
 def test_rough_curves_get_a_thin_plate_and_a_word(capfd: pytest.CaptureFixture[str]) -> None:
     obj = wired(circles())
     rough = meshes.positions(obj)

@@ -44,20 +44,6 @@ def test_all_but_free_positions_keep_their_bits() -> None:
     np.testing.assert_array_equal(changed, meshes.free_vertices(obj, faces))
 
 
-def test_undo_and_redo_restore_exactly() -> None:
-    obj, faces = meshes.domed_grid()
-    before = meshes.in_edit_mode_once(obj, faces)
-    meshes.edit(obj)
-    bpy.ops.ed.undo_push(message="before")
-    assert meshes.run() == {"FINISHED"}
-    fair = meshes.contents_in_edit_mode()
-    assert meshes.moved(before, fair).any()
-    bpy.ops.ed.undo()
-    assert meshes.contents_in_edit_mode() == before
-    bpy.ops.ed.redo()
-    assert meshes.contents_in_edit_mode() == fair
-
-
 def test_hidden_faces_stay() -> None:
     obj, faces = meshes.domed_grid()
     hidden = meshes.faces_where(obj, lambda c: c.x > 0.3)

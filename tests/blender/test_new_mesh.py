@@ -134,22 +134,6 @@ def test_options_that_need_the_old_vertices_are_refused(properties: Any, text: s
     assert len(obj.data.polygons) == count
 
 
-def test_one_step_of_undo_takes_it_back() -> None:
-    obj, chosen = dented()
-    name = obj.name
-    meshes.select(obj, chosen)
-    bpy.ops.ed.undo_push(message="open")
-    meshes.edit(obj)
-    bpy.ops.ed.undo_push(message="selected")
-    before = len(obj.data.polygons)
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", spacing=0.5) == {"FINISHED"}
-    assert len(bmesh.from_edit_mesh(obj.data).faces) > before
-    bpy.ops.ed.undo()
-    found = bpy.data.objects[name]
-    assert bpy.context.mode == "EDIT_MESH"
-    assert len(bmesh.from_edit_mesh(found.data).faces) == before
-
-
 def test_another_key_than_the_basis_changes_alone() -> None:
     """New vertices of the Basis lie where the old surface was."""
     obj, chosen = dented()

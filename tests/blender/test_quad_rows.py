@@ -76,22 +76,6 @@ def _ring_length(edge: Any) -> int:
         count += 1
 
 
-def test_one_step_of_undo_takes_them_back() -> None:
-    obj = pipe()
-    bpy.context.preferences.edit.use_global_undo = True
-    before = meshes.contents(obj)
-    name = obj.name
-    select_border(obj, lambda place: abs(place.z) < 1.2)
-    bpy.ops.ed.undo_push(message="selected")
-    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, quads=True) == {"FINISHED"}
-    bpy.ops.ed.undo()
-    meshes.leave()
-    after = meshes.contents(bpy.data.objects[name])
-    assert {key: before[key] for key in ("sizes", "POINT position")} == {
-        key: after[key] for key in ("sizes", "POINT position")
-    }
-
-
 def test_a_refusal_leaves_every_bit() -> None:
     obj = pipe()
     select_border(obj, lambda place: abs(place.z) < 1.2)

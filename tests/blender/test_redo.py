@@ -141,6 +141,22 @@ def test_the_result_before_at_once_and_the_answer_in_the_same_step_of_undo(panel
     check_one_step(panel, **panel.kind.second)
 
 
+@pytest.mark.parametrize("is_other", [False, True])
+def test_undo_and_redo_of_a_run_are_exact(panel: Panel, is_other: bool) -> None:
+    """With the first options and with others, quads say: everything that the mesh has."""
+    bpy.ops.ed.undo()
+    assert panel.now == panel.original
+    before = meshes.contents_in_edit_mode(panel.name)
+    assert panel.kind.run(**(panel.kind.third if is_other else {})) == {"FINISHED"}
+    found = meshes.contents_in_edit_mode(panel.name)
+    assert found != before
+    bpy.ops.ed.undo()
+    assert bpy.context.mode == "EDIT_MESH"
+    assert meshes.contents_in_edit_mode(panel.name) == before
+    bpy.ops.ed.redo()
+    assert meshes.contents_in_edit_mode(panel.name) == found
+
+
 def test_of_several_changes_the_last_one_counts(panel: Panel) -> None:
     panel.change(**panel.kind.second)
     assert panel.now == panel.first
