@@ -2,214 +2,164 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <optional>
-#include <utility>
+#include <memory>
+#include <numeric>
+#include <set>
 
 #include "api/old_surface.h"
+#include "api/prepared_fillet.h"
 #include "fillet/limits.h"
+#include "fillet/row_cut.h"
+#include "geometry/nearest_point.h"
+#include "geometry/target_surface.h"
 
 namespace fairing {
 
-struct FilletSurface::Solved {
-    Solved(Points points, Triangles triangles, Indices fixed, Points normals)
-        : vertices(std::move(points)),
-          input{vertices, std::move(triangles), std::move(fixed), std::move(normals)},
-          mesh(check_mesh(input)),
-          patches(patches_with_vertices(mesh)),
-          old(input, mesh, patches.front()),
-          target(old.patch, old.points, old.normals) {}
+namespace {
 
-    [[nodiscard]] PlacesOnFillet given_back(const std::vector<SurfacePoint>& where) const {
-        PlacesOnFillet result;
-        const auto count = static_cast<Eigen::Index>(where.size());
-        Points places(3, count);
-        result.weights.resize(3, count);
-        for (Eigen::Index k = 0; k < count; ++k) {
-            const SurfacePoint& at = where[static_cast<std::size_t>(k)];
-            const auto corners = old.patch.triangles.col(at.triangle);
-            places.col(k) =
-                is_smooth(at.triangle) ? target.position(at) : Vector3(old.points(Eigen::all, corners) * at.weights);
-            result.triangle.push_back(old.patch.input_triangle[at.triangle]);
-            result.weights.col(k) = at.weights;
+constexpr double most_wide = 175.0;  // degrees: short of a quad that is not convex
+constexpr double resolution = 0.5;   // of the spacing: how finely the line is sought
+
+// The surface as curved triangles.
+class SmoothSurface {
+public:
+    explicit SmoothSurface(const SolvedFillet& surface)
+        : surface_(surface),
+          input_{surface.vertices, surface.triangles, surface.fixed, surface.normals},
+          mesh_(check_mesh(input_)),
+          patches_(patches_with_vertices(mesh_)),
+          at_(static_cast<std::size_t>(surface.triangles.cols()), {none, none}),
+          beneath_(surface.before, surface.triangles, all(surface.triangles.cols())) {
+        for (const Patch& patch : patches_) {
+            const int number = static_cast<int>(parts_.size());
+            parts_.push_back(std::make_unique<Part>(input_, mesh_, patch));
+            for (int t = 0; t < patch.triangle_count(); ++t) at_[patch.input_triangle[t]] = {number, t};
         }
-        result.places = old.unit.from_unit(places);
-        return result;
+    }
+
+    [[nodiscard]] NearestPlace under(const Vector3& before) const { return beneath_.to(before); }
+
+    [[nodiscard]] Vector3 place(const NearestPlace& under) const {
+        const auto [number, t] = at_[under.triangle];
+        if (number == none)
+            return surface_.vertices(Eigen::all, surface_.triangles.col(under.triangle)) * under.weights;
+        const Part& part = *parts_[number];
+        const auto corners = part.old.patch.triangles.col(t);
+        Vector3 weights;  // in the patch's order of corners
+        for (int k = 0; k < 3; ++k) {
+            const int v = part.old.patch.to_input[corners[k]];
+            for (int c = 0; c < 3; ++c) {
+                if (surface_.triangles(c, under.triangle) == v) weights[k] = under.weights[c];
+            }
+        }
+        const Vector3 flat = part.old.points(Eigen::all, corners) * weights;
+        return part.old.unit.from_unit(Points(is_smooth(part, t) ? part.target.position({t, weights}) : flat));
+    }
+
+private:
+    struct Part {
+        Part(const MeshInput& input, const CheckedMesh& mesh, const Patch& patch)
+            : old(input, mesh, patch), target(old.patch, old.points, old.normals) {}
+        const OldSurface old;
+        const TargetSurface target;
+    };
+
+    static Indices all(Eigen::Index count) {
+        Indices numbers(static_cast<std::size_t>(count));
+        std::iota(numbers.begin(), numbers.end(), 0);
+        return numbers;
     }
 
     // Whether the normals at a triangle's corners are of one side with its own: at walls that meet they are means, over
     // which it must not be curved.
-    [[nodiscard]] bool is_smooth(int triangle) const {
-        const Vector3 own = target.face_normal(triangle);
-        const auto corners = old.patch.triangles.col(triangle);
+    static bool is_smooth(const Part& part, int triangle) {
+        const Vector3 own = part.target.face_normal(triangle);
+        const auto corners = part.old.patch.triangles.col(triangle);
         return std::all_of(corners.begin(), corners.end(),
-                           [&](int v) { return old.normals.col(v).dot(own) > std::cos(corner_angle); });
+                           [&](int v) { return part.old.normals.col(v).dot(own) > std::cos(corner_angle); });
     }
 
-    const Points vertices;
-    const MeshInput input;
-    const CheckedMesh mesh;
-    const std::vector<Patch> patches;
-    const OldSurface old;
-    const TargetSurface target;
+    const SolvedFillet& surface_;
+    const MeshInput input_;
+    const CheckedMesh mesh_;
+    const std::vector<Patch> patches_;
+    std::vector<std::unique_ptr<const Part>> parts_;
+    std::vector<std::array<int, 2>> at_;  // of each triangle: its patch, and its number there
+    const NearestTriangles beneath_;
 };
 
-namespace {
-
-// A section's way through one triangle.
-struct Crossed {
-    int triangle;
-    Vector3 from, to;  // weights
-    double length;
-};
-
-class Sectioning {
-public:
-    Sectioning(const Patch& patch, const Points& points) : patch_(patch), points_(points) {
-        for (int e = 0; e < patch_.edge_count(); ++e) {
-            if (patch_.edge_triangles[e][1] == none) border_.push_back(e);
-        }
+// Of each point of a line: whether an edge that counts comes to it, or a vertex is there.
+std::vector<char> needed_outside(const SeamMesh& mesh, const LevelLine& line, const WantedRows& wanted) {
+    std::map<int, VertexPair> ends;
+    const auto sorted = [](int a, int b) { return VertexPair{std::min(a, b), std::max(a, b)}; };
+    for (int h = 0; h < mesh.half_edge_count(); ++h) ends[mesh.edge[h]] = sorted(mesh.tail(h), mesh.head(h));
+    std::set<VertexPair> counted;
+    for (const auto& [a, b] : wanted.counted.value_or(std::vector<VertexPair>{})) counted.insert(sorted(a, b));
+    std::vector<char> result;
+    for (const LinePoint& point : line.points) {
+        const bool counts = point.edge != none && (!wanted.counted || counted.contains(ends.at(point.edge)));
+        result.push_back(point.vertex != none || counts ? 1 : 0);
     }
+    return result;
+}
 
-    // None where the plane leaves the surface elsewhere than near its end.
-    [[nodiscard]] std::optional<std::vector<Crossed>> way(const Section& section) const {
-        const auto is_above = [&](int v) { return height(section, v) >= 0.0; };
-        int edge = first_edge(section);
-        if (edge == none) return std::nullopt;
-        std::vector<Crossed> result;
-        int t = patch_.edge_triangles[edge][0];
-        while (static_cast<int>(result.size()) <= patch_.triangle_count()) {
-            int out = none;
-            for (const int e : patch_.triangle_edges.col(t)) {
-                if (e != edge && is_above(patch_.edge_ends[e][0]) != is_above(patch_.edge_ends[e][1])) out = e;
-            }
-            if (out == none) return std::nullopt;
-            const Vector3 from = weights(section, t, edge);
-            const Vector3 to = weights(section, t, out);
-            result.push_back({t, from, to, (place(t, to) - place(t, from)).norm()});
-            const auto [left, right] = patch_.edge_triangles[out];
-            if (right == none) break;
-            t = left == t ? right : left;
-            edge = out;
-        }
-        const double off = (place(result.back().triangle, result.back().to) - section.end).norm();
-        const double chord = (section.end - section.start).norm();
-        double length = 0.0;
-        for (const Crossed& each : result) length += each.length;
-        if (off > most_off * chord || length > most_long * chord) return std::nullopt;
-        return result;
+void put_on(const SmoothSurface& surface, const FilletInput& given, const PreparedFillet& made, const RowMesh& mesh,
+            FilletRows& rows) {
+    const auto count = static_cast<Eigen::Index>(mesh.places.size());
+    rows.places.resize(3, count);
+    rows.on_solved.resize(3, count);
+    rows.on_given.resize(3, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        const RowMesh::Place& at = mesh.places[static_cast<std::size_t>(k)];
+        const Vector3 before = made.mesh.place(at.triangle, at.weights);
+        const NearestPlace under = surface.under(before);
+        const GivenPlace origin = given_place(given, made, at.triangle, before);
+        rows.places.col(k) = surface.place(under);
+        rows.solved.push_back(under.triangle);
+        rows.on_solved.col(k) = under.weights;
+        rows.given.push_back(origin.triangle);
+        rows.on_given.col(k) = origin.weights;
     }
+}
 
-private:
-    static constexpr double most_off = 0.1;   // of its chord: an end that far off is another one
-    static constexpr double most_long = 1.7;  // chords: a way that turns by 180° has 1.57
-
-    [[nodiscard]] double height(const Section& section, int v) const {
-        return (Vector3(points_.col(v)) - section.start).dot(section.normal);
+FilletRows made_rows(const FilletInput& given, const WantedRows& wanted, const SolvedFillet& solved) {
+    PreparedFillet made(given);
+    LevelLine found = level_line(made.mesh, made.distance, resolution * given.spacing, snap * given.spacing);
+    join_at_walls(made.mesh, given.spacing, found);
+    const SmoothSurface surface(solved);
+    const RowSizes sizes{made.least_width, wanted.spacing};
+    const SeamWalks walks(made.mesh, made.distance, found);
+    const std::vector<char> must = needed_outside(made.mesh, found, wanted);
+    const RowStrips strips = row_strips(made.mesh, walks, found, must, sizes);
+    RowLine line(made.mesh, walks, found, must);
+    const RowMesh mesh = row_mesh(
+        made.mesh, walks, strips, sizes, [&](const Vector3& before) { return surface.place(surface.under(before)); },
+        line);
+    FilletRows rows{cut_along_line(made, line.line()), mesh.quads, {}, {}, {}, {}, {}};
+    const Indices dropped = line.dropped();
+    check_border(rows.cut.mesh, dropped, rows.quads);
+    put_on(surface, given, made, mesh, rows);
+    Points vertices(3, given.vertices.cols() + rows.cut.mesh.points.cols() + rows.places.cols());
+    vertices << given.vertices, rows.cut.mesh.points, rows.places;
+    for (const Quad& quad : rows.quads) {
+        if (widest_angle(quad, vertices) > most_wide) throw NoRows();
     }
-    [[nodiscard]] Vector3 place(int t, const Vector3& weights) const {
-        return points_(Eigen::all, patch_.triangles.col(t)) * weights;
-    }
-    // Where the plane crosses an edge of a triangle.
-    [[nodiscard]] Vector3 weights(const Section& section, int t, int edge) const {
-        const auto [a, b] = patch_.edge_ends[edge];
-        const double at_a = height(section, a);
-        const double share = at_a / (at_a - height(section, b));
-        Vector3 result = Vector3::Zero();
-        for (int k = 0; k < 3; ++k) {
-            if (patch_.triangles(k, t) == a) result[k] = 1.0 - share;
-            if (patch_.triangles(k, t) == b) result[k] = share;
-        }
-        return result;
-    }
-    [[nodiscard]] int first_edge(const Section& section) const {
-        int best = none;
-        double least = std::numeric_limits<double>::infinity();
-        for (const int e : border_) {
-            const auto [a, b] = patch_.edge_ends[e];
-            if ((height(section, a) >= 0.0) == (height(section, b) >= 0.0)) continue;
-            const int t = patch_.edge_triangles[e][0];
-            const double off = (place(t, weights(section, t, e)) - section.start).norm();
-            if (off < least) {
-                least = off;
-                best = e;
-            }
-        }
-        return best;
-    }
-
-    const Patch& patch_;
-    const Points& points_;
-    Indices border_;
-};
-
-// Places that part a way into `rows` ways of one length.
-void part(const std::vector<Crossed>& way, int rows, std::vector<SurfacePoint>& where) {
-    double total = 0.0;
-    for (const Crossed& each : way) total += each.length;
-    double passed = 0.0;
-    auto at = way.begin();
-    for (int k = 1; k < rows; ++k) {
-        const double wanted = total * k / rows;
-        while (std::next(at) != way.end() && passed + at->length < wanted) passed += (at++)->length;
-        const double share = at->length > 0.0 ? std::clamp((wanted - passed) / at->length, 0.0, 1.0) : 0.0;
-        where.push_back({at->triangle, at->from + share * (at->to - at->from)});
-    }
+    drop_points(vertices, dropped, rows.cut.mesh);
+    finish_cut(given, made, rows.cut);
+    return rows;
 }
 
 }  // namespace
 
-FilletSurface::FilletSurface(Points vertices, Triangles triangles, Indices fixed, Points normals)
-    : solved_(std::make_unique<const Solved>(std::move(vertices), std::move(triangles), std::move(fixed),
-                                             std::move(normals))) {}
-
-FilletSurface::~FilletSurface() = default;
-
-PlacesOnFillet FilletSurface::sections(const std::vector<Section>& sections, int rows) const {
-    const Sectioning sectioning(solved_->old.patch, solved_->old.points);
-    const Normalisation& unit = solved_->old.unit;
-    std::vector<SurfacePoint> where;
-    std::vector<char> found;
-    for (const Section& each : sections) {
-        const auto way = sectioning.way({unit.to_unit(each.start), unit.to_unit(each.end), each.normal});
-        found.push_back(way ? 1 : 0);
-        if (way)
-            part(*way, rows, where);
-        else
-            where.resize(where.size() + static_cast<std::size_t>(rows - 1));
+std::optional<FilletRows> fillet_rows(const FilletInput& input, const WantedRows& wanted, const SolvedFillet& surface,
+                                      const ProgressCallback& callback) {
+    const Progress progress(callback);
+    const Checkpoints checkpoints(progress);
+    try {
+        return made_rows(input, wanted, surface);
+    } catch (const NoRows&) {
+        return std::nullopt;
     }
-    PlacesOnFillet result = solved_->given_back(where);
-    result.found = std::move(found);
-    return result;
-}
-
-PlacesOnFillet FilletSurface::relaxed(const QuadPattern& pattern, const Points& given, int sweeps) const {
-    const Patch& patch = solved_->old.patch;
-    Points points = solved_->old.unit.to_unit(given);
-    Points centres(3, patch.triangle_count());
-    for (int t = 0; t < patch.triangle_count(); ++t)
-        centres.col(t) = solved_->old.points(Eigen::all, patch.triangles.col(t)).rowwise().mean();
-    Points normals = Points::Zero(3, points.cols());
-    std::vector<SurfacePoint> where(static_cast<std::size_t>(points.cols()));
-    const auto put = [&](Eigen::Index v, const Vector3& wanted, int start) {
-        SurfacePoint& at = where[static_cast<std::size_t>(v)];
-        at = solved_->target.project(wanted, start);
-        normals.col(v) = solved_->target.face_normal(at.triangle);
-        if (v >= pattern.boundary_count)
-            points.col(v) = solved_->old.points(Eigen::all, patch.triangles.col(at.triangle)) * at.weights;
-    };
-    for (Eigen::Index v = 0; v < points.cols(); ++v) {
-        Eigen::Index nearest = 0;
-        (centres.colwise() - Vector3(points.col(v))).colwise().squaredNorm().minCoeff(&nearest);
-        put(v, points.col(v), static_cast<int>(nearest));
-    }
-    SquareSteps steps(pattern);
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-        const Points wanted = steps.wanted(points, normals);
-        for (Eigen::Index v = pattern.boundary_count; v < points.cols(); ++v)
-            put(v, wanted.col(v), where[static_cast<std::size_t>(v)].triangle);
-    }
-    return solved_->given_back(where);
 }
 
 }  // namespace fairing

@@ -1,45 +1,40 @@
-// Places for rows of quads on a fillet's surface.
+// Quads in rows along the seams of a fillet.
 #pragma once
 
-#include <memory>
+#include <optional>
 
-#include "api/fair.h"
-#include "quads/shapes.h"
+#include "api/fillet.h"
+#include "fillet/row_mesh.h"
 
 namespace fairing {
 
-// A plane through a point of the boundary, to be followed to another one.
-struct Section {
-    Vector3 start;
-    Vector3 end;
-    Vector3 normal;
+// A fillet's surface, solved on triangles.
+struct SolvedFillet {
+    Points vertices;
+    Triangles triangles;
+    Indices fixed;
+    Points normals;  // 3 × fixed
+    Points before;   // where each vertex was on the mesh
 };
 
-struct PlacesOnFillet {
-    Points places;            // on curved triangles over the surface's,
-    Indices triangle;         // the one under each,
-    Points weights;           // and its barycentric coordinates there
-    std::vector<char> found;  // of each section: whether it leads to its end
+struct WantedRows {
+    double spacing;                                  // about the length of edges across the seams
+    std::optional<std::vector<VertexPair>> counted;  // edges of the mesh that are no diagonals: the others get no
+                                                     // vertices. Default: all
 };
 
-// The only component of a mesh.
-class FilletSurface {
-public:
-    // Throws what check_mesh throws, and NO_FREE_VERTICES.
-    FilletSurface(Points vertices, Triangles triangles, Indices fixed, Points normals);
-    ~FilletSurface();
-    FilletSurface(const FilletSurface&) = delete;
-    FilletSurface& operator=(const FilletSurface&) = delete;
-
-    // `rows` − 1 places on each section, which part it into ways of one length.
-    [[nodiscard]] PlacesOnFillet sections(const std::vector<Section>& sections, int rows) const;
-    // The vertices of a pattern, of which the new ones are moved on the surface so that its quads become squares, or
-    // rectangles at least.
-    [[nodiscard]] PlacesOnFillet relaxed(const QuadPattern& pattern, const Points& points, int sweeps) const;
-
-private:
-    struct Solved;
-    std::unique_ptr<const Solved> solved_;
+struct FilletRows {
+    FilletCut cut;            // along the quads' border
+    std::vector<Quad> quads;  // of the mesh's vertices, the cut's points, and new ones:
+    Points places;            // these, on the surface,
+    Indices solved;           // the triangles of the surface that they lie on,
+    Points on_solved;         // and their weights there;
+    Indices given;            // the triangles of the mesh beneath them,
+    Points on_given;          // and their weights there
 };
+
+// None where no rows fit. Throws Cancelled, and what check_mesh throws of the surface.
+std::optional<FilletRows> fillet_rows(const FilletInput& input, const WantedRows& wanted, const SolvedFillet& surface,
+                                      const ProgressCallback& progress);
 
 }  // namespace fairing

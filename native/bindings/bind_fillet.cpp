@@ -5,6 +5,7 @@
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "fillet/profile.h"
+#include "fillet/solid_sides.h"
 
 namespace fairing::bindings {
 
@@ -34,74 +35,7 @@ FilletInput input_of(const DoubleArray& vertices, const IntArray& triangles, con
             spacing};
 }
 
-// Vertex, edge and triangle of each point, places, ways along edges; segments.
-LevelLine line_of(const py::tuple& arrays) {
-    const auto numbers = arrays[0].cast<std::vector<std::array<int, 3>>>();
-    const auto places = arrays[1].cast<std::vector<std::array<double, 3>>>();
-    const auto along = arrays[2].cast<std::vector<double>>();
-    LevelLine line;
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        const auto [vertex, edge, triangle] = numbers[k];
-        line.points.push_back({Vector3(places[k].data()), vertex, edge, along[k], triangle, Vector3::Zero()});
-    }
-    for (const auto& [from, to, triangle] : arrays[3].cast<std::vector<std::array<int, 3>>>())
-        line.segments.push_back({from, to, triangle});
-    return line;
-}
-
-py::dict line_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::tuple<Pairs, Pairs>& edges,
-                     const std::tuple<DoubleArray, DoubleArray>& widths, double spacing, const py::object& callback) {
-    PythonRun run(callback);
-    const FilletInput input = input_of(vertices, triangles, edges, widths, spacing);
-    const FilletLine found =
-        run.without_gil([&](const ProgressCallback& progress) { return fillet_line(input, progress); });
-    const std::size_t count = found.line.points.size();
-    Points places(3, static_cast<Eigen::Index>(count));
-    std::vector<std::array<int, 3>> numbers;
-    std::vector<double> along;
-    Pairs feet;
-    std::vector<double> foot_along;
-    std::vector<char> corner;
-    for (std::size_t k = 0; k < count; ++k) {
-        const LinePoint& point = found.line.points[k];
-        places.col(static_cast<Eigen::Index>(k)) = point.place;
-        numbers.push_back({point.vertex, point.edge, point.triangle});
-        along.push_back(point.along);
-        feet.push_back(found.feet[k].half_edge);
-        foot_along.push_back(found.feet[k].along);
-        corner.push_back(found.feet[k].corner ? 1 : 0);
-    }
-    std::vector<std::array<int, 3>> segments;
-    segments.reserve(found.line.segments.size());
-    for (const LineSegment& segment : found.line.segments)
-        segments.push_back({segment.from, segment.to, segment.triangle});
-    std::vector<std::array<int, 5>> walls;
-    walls.reserve(found.walls.size());
-    for (const ReachedWall& wall : found.walls)
-        walls.push_back({wall.edge, wall.tail, wall.head, wall.triangle, wall.corner});
-    py::dict dict;
-    dict["places"] = from_points(places);
-    dict["numbers"] = py::cast(numbers);
-    dict["along"] = py::cast(along);
-    dict["ends"] = from_pairs(found.ends);
-    dict["feet"] = from_pairs(feet);
-    dict["foot_along"] = py::cast(foot_along);
-    dict["corner"] = from_flags(corner);
-    dict["segments"] = py::cast(segments);
-    dict["seams"] = from_pairs(found.seams);
-    dict["walls"] = py::cast(walls);
-    return dict;
-}
-
-py::dict cut_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::tuple<Pairs, Pairs>& edges,
-                    const std::tuple<DoubleArray, DoubleArray>& widths, double spacing,
-                    const std::optional<py::tuple>& line, const py::object& callback) {
-    PythonRun run(callback);
-    const FilletInput input = input_of(vertices, triangles, edges, widths, spacing);
-    std::optional<LevelLine> along;
-    if (line) along = line_of(*line);
-    const FilletCut cut =
-        run.without_gil([&](const ProgressCallback& progress) { return cut_fillet(input, along, progress); });
+py::dict from_cut(const FilletCut& cut) {
     py::dict dict;
     dict["points"] = from_points(cut.mesh.points);
     dict["triangles"] = from_triangles(cut.mesh.triangles);
@@ -114,50 +48,58 @@ py::dict cut_arrays(const DoubleArray& vertices, const IntArray& triangles, cons
     dict["normals"] = from_points(cut.normals);
     dict["curvatures"] = from_vector(cut.curvatures);
     dict["corners"] = from_indices(cut.corners);
-    dict["swallowed"] = from_indices(cut.swallowed);
+    py::list eaten;
+    for (const EatenPart& part : cut.eaten)
+        eaten.append(py::make_tuple(from_indices(part.vertices), part.widest, part.held));
+    dict["eaten"] = eaten;
     return dict;
 }
 
-py::dict from_places(const PlacesOnFillet& found) {
+py::dict cut_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::tuple<Pairs, Pairs>& edges,
+                    const std::tuple<DoubleArray, DoubleArray>& widths, double spacing, const py::object& callback) {
+    PythonRun run(callback);
+    const FilletInput input = input_of(vertices, triangles, edges, widths, spacing);
+    return from_cut(run.without_gil([&](const ProgressCallback& progress) { return cut_fillet(input, progress); }));
+}
+py::array wrong_side_array(const DoubleArray& vertices, const IntArray& triangles, const Pairs& edges, double width,
+                           const DoubleArray& before, const DoubleArray& after, const py::object& callback) {
+    PythonRun run(callback);
+    const Points points = to_points(vertices);
+    const FilletPlaces places{to_points(before), to_points(after)};
+    return from_indices(run.without_gil([&](const ProgressCallback& progress) {
+        const Progress reported(progress);
+        const Checkpoints checkpoints(reported);
+        return on_wrong_side(points, to_triangles(triangles), edges, width, places);
+    }));
+}
+
+// None where no rows fit. `surface`: vertices, triangles, fixed, normals, before.
+py::object rows_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::tuple<Pairs, Pairs>& edges,
+                       const std::tuple<DoubleArray, DoubleArray>& widths, const std::tuple<double, double>& spacings,
+                       const std::optional<Pairs>& counted,
+                       const std::tuple<DoubleArray, IntArray, IntArray, DoubleArray, DoubleArray>& surface,
+                       const py::object& callback) {
+    PythonRun run(callback);
+    const FilletInput input = input_of(vertices, triangles, edges, widths, std::get<0>(spacings));
+    const WantedRows wanted{std::get<1>(spacings), counted};
+    const SolvedFillet solved{to_points(std::get<0>(surface)), to_triangles(std::get<1>(surface)),
+                              to_indices(std::get<2>(surface)), to_points(std::get<3>(surface)),
+                              to_points(std::get<4>(surface))};
+    const std::optional<FilletRows> rows =
+        run.without_gil([&](const ProgressCallback& progress) { return fillet_rows(input, wanted, solved, progress); });
+    if (!rows) return py::none();
     py::dict dict;
-    dict["places"] = from_points(found.places);
-    dict["triangle"] = from_indices(found.triangle);
-    dict["weights"] = from_points(found.weights);
-    dict["found"] = from_flags(found.found);
-    return dict;
-}
-
-std::unique_ptr<FilletSurface> surface_of(const DoubleArray& vertices, const IntArray& triangles, const IntArray& fixed,
-                                          const DoubleArray& normals) {
-    PythonRun run;
-    return run.without_gil([&](const ProgressCallback&) {
-        return std::make_unique<FilletSurface>(to_points(vertices), to_triangles(triangles), to_indices(fixed),
-                                               to_points(normals));
-    });
-}
-
-py::dict sections_of(const FilletSurface& surface, const DoubleArray& starts, const DoubleArray& ends,
-                     const DoubleArray& normals, int rows) {
-    PythonRun run;
-    const Points from = to_points(starts);
-    const Points to = to_points(ends);
-    const Points normal = to_points(normals);
-    std::vector<Section> sections;
-    sections.reserve(static_cast<std::size_t>(from.cols()));
-    for (Eigen::Index k = 0; k < from.cols(); ++k) sections.push_back({from.col(k), to.col(k), normal.col(k)});
-    return from_places(run.without_gil([&](const ProgressCallback&) { return surface.sections(sections, rows); }));
-}
-
-py::dict relaxed_of(const FilletSurface& surface, const std::vector<std::array<int, 4>>& quads,
-                    const DoubleArray& points, int held, int sweeps) {
-    PythonRun run;
-    const Points from = to_points(points);
-    QuadPattern pattern;
-    pattern.boundary_count = held;
-    pattern.vertex_count = static_cast<int>(from.cols());
-    pattern.quads = quads;
-    return from_places(
-        run.without_gil([&](const ProgressCallback&) { return surface.relaxed(pattern, from, sweeps); }));
+    py::array_t<int> quads({static_cast<py::ssize_t>(rows->quads.size()), py::ssize_t{4}});
+    for (std::size_t k = 0; k < rows->quads.size(); ++k)
+        std::copy_n(rows->quads[k].data(), 4, quads.mutable_data() + 4 * k);
+    dict["cut"] = from_cut(rows->cut);
+    dict["quads"] = quads;
+    dict["places"] = from_points(rows->places);
+    dict["solved"] = from_indices(rows->solved);
+    dict["on_solved"] = from_points(rows->on_solved);
+    dict["given"] = from_indices(rows->given);
+    dict["on_given"] = from_points(rows->on_given);
+    return std::move(dict);
 }
 
 py::array drawn_arrays(const DoubleArray& points, const IntArray& triangles, const IntArray& fixed,
@@ -173,16 +115,14 @@ py::array drawn_arrays(const DoubleArray& points, const IntArray& triangles, con
 }  // namespace
 
 void bind_fillet(py::module_& module) {
+    module.def("on_wrong_side", &wrong_side_array, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),
+               py::arg("width"), py::arg("before"), py::arg("after"), py::arg("progress"));
     module.def("drawn_to", &drawn_arrays, py::arg("points"), py::arg("triangles"), py::arg("fixed"), py::arg("target"),
                py::arg("pull"));
-    py::class_<FilletSurface>(module, "FilletSurface", py::module_local())
-        .def(py::init(&surface_of), py::arg("vertices"), py::arg("triangles"), py::arg("fixed"), py::arg("normals"))
-        .def("sections", &sections_of, py::arg("starts"), py::arg("ends"), py::arg("normals"), py::arg("rows"))
-        .def("relaxed", &relaxed_of, py::arg("quads"), py::arg("points"), py::arg("held"), py::arg("sweeps"));
-    module.def("fillet_line", &line_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),
-               py::arg("widths"), py::arg("spacing"), py::arg("progress"));
+    module.def("fillet_rows", &rows_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),
+               py::arg("widths"), py::arg("spacings"), py::arg("counted"), py::arg("surface"), py::arg("progress"));
     module.def("cut_fillet", &cut_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),
-               py::arg("widths"), py::arg("spacing"), py::arg("line"), py::arg("progress"));
+               py::arg("widths"), py::arg("spacing"), py::arg("progress"));
 }
 
 }  // namespace fairing::bindings

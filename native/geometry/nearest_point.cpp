@@ -58,7 +58,7 @@ public:
     }
     [[nodiscard]] int triangle() const { return triangle_; }
     [[nodiscard]] const Vector3& weights() const { return weights_; }
-    [[nodiscard]] Vector3 offset() const { return p_ - foot_; }
+    [[nodiscard]] const Vector3& foot() const { return foot_; }
 
 private:
     Vector3 p_;
@@ -140,25 +140,42 @@ Vector3 nearest_weights(const Vector3& p, const Corners& corners) {
     return has_area && weights.minCoeff() >= 0.0 ? weights : border_weights(p, corners);
 }
 
-VectorX signed_distances(const Points& at, const Points& points, const Triangles& triangles) {
-    std::vector<int> numbers(static_cast<std::size_t>(triangles.cols()));
-    std::iota(numbers.begin(), numbers.end(), 0);
-    std::vector<Box> boxes;
-    for (const int t : numbers) {
-        Box box;
-        for (const int v : triangles.col(t)) box.extend(Vector3(points.col(v)));
-        boxes.push_back(box);
+struct NearestTriangles::Boxes {
+    Boxes(const Points& points, const Triangles& triangles, const Indices& chosen) {
+        std::vector<Box> boxes;
+        for (const int t : chosen) {
+            Box box;
+            for (const int v : triangles.col(t)) box.extend(Vector3(points.col(v)));
+            boxes.push_back(box);
+        }
+        tree.init(chosen.begin(), chosen.end(), boxes.begin(), boxes.end());
     }
-    const Tree tree(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
+    Tree tree;
+};
+
+NearestTriangles::NearestTriangles(const Points& points, const Triangles& triangles, const Indices& chosen)
+    : points_(points), triangles_(triangles), boxes_(std::make_unique<const Boxes>(points, triangles, chosen)) {}
+
+NearestTriangles::~NearestTriangles() = default;
+
+NearestPlace NearestTriangles::to(const Vector3& p) const {
+    Nearest nearest(p, points_, triangles_);
+    Eigen::BVMinimize(boxes_->tree, nearest);
+    return {nearest.triangle(), nearest.weights(), nearest.foot()};
+}
+
+VectorX signed_distances(const Points& at, const Points& points, const Triangles& triangles) {
+    Indices all(static_cast<std::size_t>(triangles.cols()));
+    std::iota(all.begin(), all.end(), 0);
+    const NearestTriangles nearest(points, triangles, all);
     const SideNormals sides(points, triangles);
     VectorX result(at.cols());
     for (Eigen::Index k = 0; k < at.cols(); ++k) {
-        Nearest nearest(at.col(k), points, triangles);
-        Eigen::BVMinimize(tree, nearest);
-        const Vector3 face = area_of(nearest.corners_of(nearest.triangle()));
-        const Vector3 normal = sides.at(triangles.col(nearest.triangle()), nearest.weights(), face);
-        const Vector3 offset = nearest.offset();
-        result[k] = std::copysign(offset.norm(), offset.dot(normal));
+        const NearestPlace found = nearest.to(at.col(k));
+        const auto corners = triangles.col(found.triangle);
+        const Vector3 face = area_of({points.col(corners[0]), points.col(corners[1]), points.col(corners[2])});
+        const Vector3 offset = at.col(k) - found.foot;
+        result[k] = std::copysign(offset.norm(), offset.dot(sides.at(corners, found.weights, face)));
     }
     return result;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "base/types.h"
 
@@ -16,6 +17,29 @@ Vector3 plane_weights(const Vector3& p, const Corners& corners);
 Vector3 border_weights(const Vector3& p, const Corners& corners);
 // Of the nearest point of the triangle.
 Vector3 nearest_weights(const Vector3& p, const Corners& corners);
+
+struct NearestPlace {
+    int triangle;
+    Vector3 weights;  // barycentric
+    Vector3 foot;
+};
+
+// Finds the nearest point of some triangles.
+class NearestTriangles {
+public:
+    // `chosen`: their numbers, one at least. Keeps references to the arrays.
+    NearestTriangles(const Points& points, const Triangles& triangles, const Indices& chosen);
+    ~NearestTriangles();
+    NearestTriangles(const NearestTriangles&) = delete;
+    NearestTriangles& operator=(const NearestTriangles&) = delete;
+    [[nodiscard]] NearestPlace to(const Vector3& p) const;
+
+private:
+    struct Boxes;
+    const Points& points_;
+    const Triangles& triangles_;
+    std::unique_ptr<const Boxes> boxes_;
+};
 
 // Distance of each column of `at` to the triangle surface: positive on the side from which triangles are
 // counter-clockwise. The side is that of the normal at the nearest point, on an edge or a corner the sum of the normals

@@ -71,11 +71,6 @@ class Solver:
         preview: Callable[[_Floats], object] | None,
     ) -> dict[str, Any]: ...
 
-class FilletSurface:
-    def __init__(self, vertices: _Floats, triangles: _Ints, fixed: _Ints, normals: _Floats) -> None: ...
-    def sections(self, starts: _Floats, ends: _Floats, normals: _Floats, rows: int) -> dict[str, Any]: ...
-    def relaxed(self, quads: list[list[int]], points: _Floats, held: int, sweeps: int) -> dict[str, Any]: ...
-
 def fair(
     vertices: _Floats,
     triangles: _Ints,
@@ -143,21 +138,22 @@ def chain_end(chain: _Floats) -> tuple[_Floats, _Floats]: ...
 def visible_join(
     vertices: _Floats, inside: _Ints, outside: _Ints, outline: _Ints, before: _Floats | None
 ) -> tuple[_Floats, float, _Ints]: ...
-def fillet_line(
+def fillet_rows(
     vertices: _Floats,
     triangles: _Ints,
     edges: tuple[list[list[int]], list[list[int]]],
     widths: tuple[_Floats, _Floats],
-    spacing: float,
+    spacings: tuple[float, float],
+    counted: list[list[int]] | None,
+    surface: tuple[_Floats, _Ints, _Ints, _Floats, _Floats],
     progress: Callable[[float, str], bool | None] | None,
-) -> dict[str, Any]: ...
+) -> dict[str, Any] | None: ...
 def cut_fillet(
     vertices: _Floats,
     triangles: _Ints,
     edges: tuple[list[list[int]], list[list[int]]],
     widths: tuple[_Floats, _Floats],
     spacing: float,
-    line: tuple[Any, ...] | None,
     progress: Callable[[float, str], bool | None] | None,
 ) -> dict[str, Any]: ...
 def denoised(
@@ -168,6 +164,15 @@ def denoised(
     threads: int,
     progress: Callable[[float, str], bool | None] | None,
 ) -> _Floats: ...
+def on_wrong_side(
+    vertices: _Floats,
+    triangles: _Ints,
+    edges: list[list[int]],
+    width: float,
+    before: _Floats,
+    after: _Floats,
+    progress: Callable[[float, str], bool | None] | None,
+) -> _Ints: ...
 def drawn_to(points: _Floats, triangles: _Ints, fixed: _Ints, target: _Floats, pull: _Floats) -> _Floats: ...
 def fill_loops(
     vertices: _Floats,

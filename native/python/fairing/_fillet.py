@@ -10,15 +10,14 @@ import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
 from fairing._adopted import taken
-from fairing._found_line import NoRowsError
 from fairing._groups import Options
 from fairing._new_mesh import FilletResult
 from fairing._patch import refuse_made_here
 from fairing._proportion import Limit
-from fairing._rounded import Given, Made, Wishes, result_of, solved
+from fairing._rounded import Given, Made, Wishes, nearest, result_of, solved
 from fairing._rows import FACES, no_rows, quads_of
 from fairing._rows_along_seams import in_rows
-from fairing._types import Diagnostic, FloatArray, IntArray, MeshError, SolverError
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 from fairing._watch import Progress, Watch
 
 _ROWS = 4  # edges across each side of a fillet by default: 90° then bend by less than 12° from row to row
@@ -95,7 +94,9 @@ def fillet(
     ------
     MeshError
         NO_SEAM; SEAM_ON_BORDER; NONMANIFOLD_EDGE (a seam of three triangles and more); INCONSISTENT_WINDING beside a
-        seam; WIDTH_TOO_LARGE (nothing would be left of a part between seams, whose vertices are the ``elements``);
+        seam; NONMANIFOLD_VERTEX (one lies on another one's edge within the fillet); WIDTH_TOO_LARGE (nothing would be
+        left of a part between seams, whose vertices are the ``elements``, or the surface would leave the solid beside
+        a convex seam, or enter it beside a concave one; ``figures["widest"]``, where that is known, is what fits);
         OUT_OF_PROPORTION; and those of :func:`fairing.fair`.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
@@ -122,14 +123,15 @@ def fillet(
     finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
     wishes = Wishes(finer, shape, both, ends, given, watch)
     mesh = Given(points, corners, seams)
-    cut = mesh.cut(wishes, None, watch.part(0, 0.2))
-    if len(cut["swallowed"]):
-        raise _too_wide(cut["swallowed"], both, seams)
+    cut = mesh.cut(wishes, watch.part(0, 0.2))
+    _refuse_eaten([part for part in cut["eaten"] if not part[2]], wishes, seams)
+    _seams.refuse_vertices_on_edges(points, corners, cut["parent"])
     watch.lap("cut")
     try:
         made = solved(mesh, cut, wishes)
     except MeshError as error:
         raise _named(error, len(points)) from error
+    _refuse_outside(mesh, made, wishes)
     if not wants_rows:
         return result_of(mesh, made, wishes)
     return _with_quads(mesh, made, wishes, length, counted)
@@ -148,12 +150,13 @@ def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
 
 def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:
     """Quads in rows; where there are none, pairs of triangles."""
-    try:
-        made, pairs = in_rows(mesh, made, wishes, length, counted)
-    except (NoRowsError, MeshError, SolverError):
+    rows = in_rows(mesh, made, wishes, length, counted, None)
+    if rows:
+        made, pairs = rows
+    else:
         if length > wishes.spacing:
             wishes = replace(wishes, spacing=length)
-            made = solved(mesh, mesh.cut(wishes, None, None), wishes)
+            made = solved(mesh, mesh.cut(wishes, None), wishes)
         _, pairs, _ = _core.paired_quads(made.vertices, made.triangles, np.empty((0, 2), np.int32))
         warning = no_rows(mesh.seams.ravel(), "seams")
         made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
@@ -179,8 +182,34 @@ def _refuse_large(
     Limit.of(usual, most).check(wanted, seams.ravel())
 
 
-def _too_wide(vertices: IntArray, widths: tuple[FloatArray, FloatArray], seams: IntArray) -> MeshError:
-    widest = max(float(side[seams].max()) for side in widths)
-    text = "width: nothing would be left of a part between seams; a smaller width is needed, or one of its seams less"
-    figures = {"width": widest, "vertices": float(len(vertices))}
-    return MeshError(Diagnostic("WIDTH_TOO_LARGE", text, vertices, "vertex", figures))
+def _refuse_eaten(parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray) -> None:
+    if parts:
+        vertices = np.unique(np.concatenate([part[0] for part in parts]))
+        raise _too_wide("nothing would be left of a part between seams", vertices, parts, wishes, seams)
+
+
+def _refuse_outside(mesh: Given, made: Made, wishes: Wishes) -> None:
+    """Rounded convex edges stay inside the solid, concave ones outside."""
+    count = len(mesh.points)
+    before = np.einsum("kc,kcd->kd", made.weights, mesh.points[mesh.triangles[made.old]])
+    used = np.unique(made.triangles[made.triangles >= count]) - count
+    edges = [*mesh.seams.tolist(), *wishes.walls.tolist()]
+    widest = max(float(side[mesh.seams].max()) for side in wishes.widths)
+    after = made.vertices[count:][used]
+    wrong = _core.on_wrong_side(mesh.points, mesh.triangles, edges, widest, before[used], after, None)
+    if len(wrong):
+        ends = np.unique(mesh.seams)
+        near = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
+        raise _too_wide("the fillet would leave the shape that it rounds", near, made.cut["eaten"], wishes, mesh.seams)
+
+
+def _too_wide(
+    what: str, where: IntArray, parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray
+) -> MeshError:
+    """parts: that the fillet takes whole; a width that fits leaves something of each."""
+    text = f"width: {what}; a smaller width is needed, or one of its seams less"
+    figures = {"width": max(float(side[seams].max()) for side in wishes.widths), "vertices": float(len(where))}
+    if parts:
+        figures["widest"] = min(part[1] for part in parts)
+        text += f"; a fillet of less than {figures['widest']:.4g} fits"
+    return MeshError(Diagnostic("WIDTH_TOO_LARGE", text, where.astype(np.int32), "vertex", figures))

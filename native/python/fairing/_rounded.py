@@ -40,10 +40,10 @@ class Given:
     triangles: IntArray
     seams: IntArray
 
-    def cut(self, wishes: Wishes, line: Any, progress: Progress | None) -> dict[str, Any]:
-        """Cut along the line that suits triangles, or along one given."""
+    def cut(self, wishes: Wishes, progress: Progress | None) -> dict[str, Any]:
+        """Cut along the line that suits triangles."""
         edges = self.seams.tolist(), wishes.walls.tolist()
-        return _core.cut_fillet(self.points, self.triangles, edges, wishes.widths, wishes.spacing, line, progress)
+        return _core.cut_fillet(self.points, self.triangles, edges, wishes.widths, wishes.spacing, progress)
 
 
 @dataclass(frozen=True)
@@ -152,14 +152,14 @@ def _drawn(fair: Patch, before: FloatArray, seams: IntArray, wishes: Wishes) -> 
         drawn[used] = target[used]
         return drawn
     ends = np.unique(seams)
-    near = _nearest(before[used], before[ends])
+    near = nearest(before[used], before[ends])
     width = 0.5 * (wishes.widths[0][ends] + wishes.widths[1][ends])[near]
     pull = np.zeros(len(at))
     pull[used] = (4 * profile / ((1 - profile) * width)) ** 4
     return _core.drawn_to(at, fair.triangles, fair.fixed, target, pull)
 
 
-def _nearest(places: FloatArray, ends: FloatArray) -> IntArray:
+def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
     """(k,) the nearest of the ends (s, 3), in blocks of places."""
     block = max(1, 2_000_000 // len(ends))
     found = [

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments
+from fairing import _arguments, _core
 from fairing._hard_edges import hard_edges
 from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 
@@ -40,6 +40,20 @@ def keys_of(edges: IntArray) -> npt.NDArray[np.int64]:
     ends = np.sort(edges.astype(np.int64).reshape(-1, 2), axis=1)
     keys: npt.NDArray[np.int64] = ends[:, 0] * LARGE + ends[:, 1]
     return keys
+
+
+def refuse_vertices_on_edges(points: FloatArray, faces: IntArray, parent: IntArray) -> None:
+    """MeshError where border vertices of triangles that a cut changes lie on the border's edges."""
+    edges, uses = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_counts=True)
+    border = edges[uses == 1]
+    on_edges = _core.touching_edges(border, points)[0] if len(border) else border
+    changed = faces[np.bincount(parent, minlength=len(faces)) > 1]
+    found = on_edges[np.isin(on_edges, changed).any(axis=1)]
+    if len(found):
+        a, b, vertex = found[0].tolist()
+        text = f"vertex {vertex} lies on the border edge {a}-{b}: dissolve it, or split that edge there and merge"
+        figures = {"on_edge" if len(found) == 1 else "on_edges": float(len(found))}
+        raise MeshError(Diagnostic("NONMANIFOLD_VERTEX", text, found.ravel().astype(np.int32), "vertex", figures))
 
 
 def _check_sides(seams: IntArray, faces: IntArray) -> None:

@@ -1,0 +1,35 @@
+// What all calls about a fillet begin with.
+#pragma once
+
+#include "api/fillet.h"
+#include "fillet/side_normals.h"
+
+namespace fairing {
+
+// A mesh without what stops a cut at its seams: edges of no length, whose ends go apart, and caps.
+struct PreparedFillet {
+    explicit PreparedFillet(const FilletInput& given);
+    PreparedFillet(const PreparedFillet&) = delete;
+    PreparedFillet& operator=(const PreparedFillet&) = delete;
+
+    FilletInput input;
+    Indices plane;  // of each triangle: one given in whose plane it is
+    SeamMesh mesh;
+    SeamDistance distance;
+    SideNormals sides;
+    double least_width;
+};
+
+// A place on one of the triangles given.
+struct GivenPlace {
+    int triangle;
+    Vector3 weights;
+};
+GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place);
+
+// Without its last fields, from the pieces' weights on.
+FilletCut cut_along_line(const PreparedFillet& made, LevelLine line);
+// Finds these.
+void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut);
+
+}  // namespace fairing
