@@ -114,7 +114,7 @@ FILLET: Table = (
         "Quads",
         "Quads in rows along the seam that continue the edges outside from side to side. Where the sides have no "
         "pairs, pairs of triangles",
-        False,
+        True,
         VERTICES,
     ),
     Option(

@@ -45,7 +45,7 @@ class FilletOptions:
     profile: float = 0.0  # -1 flat … 1 sharp
     continuity: str = "G1"
     spacing: float = 0.0  # length of new edges; 0: a quarter of the least width
-    quads: bool = False
+    quads: bool = True
     width_group: str = ""  # a vertex group whose weights the widths are multiplied by
     max_vertices: int = 0
     limit_total: int = 0

@@ -24,8 +24,9 @@ double radius(const SeamMesh& mesh, const Piece& piece, const Vector3& middle) {
     return result;
 }
 
-// Distances change by no more than the way: pieces that can't hold the largest one are left, the others are quartered.
-double farthest(const SeamMesh& mesh, const SeamDistance& distance, const Indices& triangles) {
+// Distances change by no more than the way: pieces that can't hold the largest one, or none above `thin`, are left, the
+// others are quartered.
+double farthest(const SeamMesh& mesh, const SeamDistance& distance, const Indices& triangles, double thin) {
     double best = 0.0;
     std::vector<Piece> open;
     for (const int t : triangles) open.push_back({t, {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()}});
@@ -37,7 +38,7 @@ double farthest(const SeamMesh& mesh, const SeamDistance& distance, const Indice
             const Vector3 middle = (a + b + c) / 3.0;
             const double found = distance.reaches(piece.triangle) ? distance.at(piece.triangle, middle).distance : 0.0;
             best = std::max(best, found);
-            if (found + radius(mesh, piece, middle) <= (1.0 + accuracy) * best) continue;
+            if (found + radius(mesh, piece, middle) <= std::max((1.0 + accuracy) * best, thin)) continue;
             const Vector3 ab = 0.5 * (a + b);
             const Vector3 bc = 0.5 * (b + c);
             const Vector3 ca = 0.5 * (c + a);
@@ -66,7 +67,7 @@ std::vector<EatenPart> eaten_parts(const SeamMesh& mesh, const SeamDistance& dis
         if (!open.contains(parts.root(t))) eaten[parts.root(t)].push_back(t);
     }
     std::map<int, double> widest;
-    for (const auto& [part, triangles] : eaten) widest[part] = farthest(mesh, distance, triangles);
+    for (const auto& [part, triangles] : eaten) widest[part] = farthest(mesh, distance, triangles, thin);
     std::map<int, std::set<int>> beside;
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || mesh.twin[h] == none) continue;

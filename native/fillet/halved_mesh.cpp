@@ -13,12 +13,18 @@ constexpr double steepest = 1.5;  // values change by at most that times the way
 
 }  // namespace
 
-HalvedMesh::Key HalvedMesh::key(int a, int b) {
-    return (static_cast<Key>(std::min(a, b)) << 32U) | static_cast<Key>(std::max(a, b));
+HalvedMesh::Key HalvedMesh::key(const Piece& piece, int side) const {
+    const auto [low, high] = std::minmax(piece.nodes[side], piece.nodes[(side + 1) % 3]);
+    const int edge = piece.edges[side];
+    return {low, high, edge != none && sides_[edge] > 2 ? piece.triangle : none};
 }
 
 HalvedMesh::HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, double resolution)
     : mesh_(mesh), distance_(distance) {
+    for (const int edge : mesh.edge) {
+        if (edge >= std::ssize(sides_)) sides_.resize(edge + 1, 0);
+        ++sides_[edge];
+    }
     Indices node_of(mesh.sheet_count, none);
     for (int t = 0; t < mesh.triangles.cols(); ++t) {
         if (!distance.reaches(t)) continue;
@@ -53,11 +59,11 @@ HalvedMesh::HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, doubl
 // By length and then by the nodes' numbers, so that both sides of an edge agree.
 int HalvedMesh::longest_side(const Piece& piece) const {
     int best = 0;
-    std::pair<double, Key> largest{-1.0, 0};
+    std::pair<double, Key> largest{-1.0, {}};
     for (int k = 0; k < 3; ++k) {
         const int a = piece.nodes[k];
         const int b = piece.nodes[(k + 1) % 3];
-        const std::pair<double, Key> size{(nodes_[a].place - nodes_[b].place).squaredNorm(), key(a, b)};
+        const std::pair<double, Key> size{(nodes_[a].place - nodes_[b].place).squaredNorm(), key(piece, k)};
         if (size > largest) {
             largest = size;
             best = k;
@@ -82,8 +88,7 @@ bool HalvedMesh::is_cut(const Piece& piece) const {
 
 void HalvedMesh::insert(const Piece& piece, int number) {
     for (int k = 0; k < 3; ++k) {
-        const auto [place, is_new] =
-            beside_.try_emplace(key(piece.nodes[k], piece.nodes[(k + 1) % 3]), std::array<int, 2>{none, none});
+        const auto [place, is_new] = beside_.try_emplace(key(piece, k), std::array<int, 2>{none, none});
         std::array<int, 2>& sides = place->second;
         if (sides[0] == none || sides[0] == number)
             sides[0] = number;
@@ -93,8 +98,7 @@ void HalvedMesh::insert(const Piece& piece, int number) {
 }
 
 int HalvedMesh::across(int piece, int side) const {
-    const Piece& from = pieces_[piece];
-    const auto& sides = beside_.at(key(from.nodes[side], from.nodes[(side + 1) % 3]));
+    const auto& sides = beside_.at(key(pieces_[piece], side));
     return sides[0] == piece ? sides[1] : sides[0];
 }
 
@@ -104,35 +108,30 @@ void HalvedMesh::halve(int piece) {
     while (!path.empty()) {
         const int last = path.back();
         const int side = longest_side(pieces_[last]);
-        const int a = pieces_[last].nodes[side];
-        const int b = pieces_[last].nodes[(side + 1) % 3];
+        const Key own = key(pieces_[last], side);
         const int other = across(last, side);
-        if (other != none) {
-            const Piece& beyond = pieces_[other];
-            const int longest = longest_side(beyond);
-            if (key(beyond.nodes[longest], beyond.nodes[(longest + 1) % 3]) != key(a, b)) {
-                path.push_back(other);
-                continue;
-            }
+        if (other != none && key(pieces_[other], longest_side(pieces_[other])) != own) {
+            path.push_back(other);
+            continue;
         }
-        split(a, b);
+        split(own);
         path.pop_back();
         if (last == piece) return;
     }
 }
 
-void HalvedMesh::split(int a, int b) {
-    const auto found = beside_.find(key(a, b));
+void HalvedMesh::split(const Key& side) {
+    const auto found = beside_.find(side);
     const std::array<int, 2> sides = found->second;
     beside_.erase(found);
     const int node = static_cast<int>(nodes_.size());
-    nodes_.push_back({0.5 * (nodes_[a].place + nodes_[b].place), 1.0, none, none});
+    nodes_.push_back({0.5 * (nodes_[side[0]].place + nodes_[side[1]].place), 1.0, none, none});
     bool first = true;
     for (const int p : sides) {
         if (p == none) continue;
         const Piece whole = pieces_[p];
         int k = 0;
-        while (key(whole.nodes[k], whole.nodes[(k + 1) % 3]) != key(a, b)) ++k;
+        while (key(whole, k) != side) ++k;
         const int next = (k + 1) % 3;
         const int last = (k + 2) % 3;
         const Vector3 weights = 0.5 * (whole.weights[k] + whole.weights[next]);
@@ -149,8 +148,8 @@ void HalvedMesh::split(int a, int b) {
         added.weights[k] = weights;
         added.edges[last] = none;
         const int number = static_cast<int>(pieces_.size());
-        for (int& side : beside_.at(key(whole.nodes[next], whole.nodes[last]))) {
-            if (side == p) side = number;
+        for (int& owner : beside_.at(key(whole, next))) {
+            if (owner == p) owner = number;
         }
         const Piece half = kept;
         pieces_.push_back(added);

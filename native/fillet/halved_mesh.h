@@ -35,19 +35,26 @@ public:
     void snap(double vertices, double others);
 
 private:
-    using Key = std::uint64_t;
-    [[nodiscard]] static Key key(int a, int b);
+    using Key = std::array<int, 3>;  // two nodes, and the triangle on edges of three and more, which may share both
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            const auto pair = (static_cast<std::uint64_t>(key[0]) << 32U) | static_cast<std::uint32_t>(key[1]);
+            return std::hash<std::uint64_t>()(pair ^ (static_cast<std::uint64_t>(key[2]) << 16U));
+        }
+    };
+    [[nodiscard]] Key key(const Piece& piece, int side) const;
     [[nodiscard]] int longest_side(const Piece& piece) const;
     [[nodiscard]] bool is_cut(const Piece& piece) const;
     void insert(const Piece& piece, int number);
     void halve(int piece);
-    void split(int a, int b);
+    void split(const Key& side);
 
     const SeamMesh& mesh_;
     const SeamDistance& distance_;
     std::vector<Node> nodes_;
     std::vector<Piece> pieces_;
-    std::unordered_map<Key, std::array<int, 2>> beside_;
+    std::unordered_map<Key, std::array<int, 2>, Hash> beside_;
+    Indices sides_;  // of each edge of the mesh: how many triangles it has
 };
 
 }  // namespace fairing

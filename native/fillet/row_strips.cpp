@@ -194,7 +194,9 @@ private:
             const WalkLine& from = lines_[w];
             const int corners = static_cast<int>(from.first.size());
             const int start = from.last[begin];
-            strip.sides[side] = part(from, start, from.first[(begin + count) % corners]);
+            const int end = from.first[(begin + count) % corners];
+            if (start == end && corners != count) throw NoRows();
+            strip.sides[side] = part(from, start, end);
             const int spots = static_cast<int>(from.line.spots.size());
             for (int k = 1; k < count; ++k) inner[side].push_back((from.first[begin + k] - start + spots) % spots);
             if (side == left) continue;
