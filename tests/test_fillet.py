@@ -260,6 +260,49 @@ def test_a_width_that_leaves_nothing_of_a_part_is_refused_with_the_part() -> Non
     assert set(vertices[refused("WIDTH_TOO_LARGE", vertices, triangles, width=1.2), 2]) == {0.0, 6.0}  # both lids
 
 
+def slotted() -> tuple[FloatArray, IntArray]:
+    """A block of 3 × 3 × 2 with a slot 1 wide and 1 deep along y."""
+    outline = np.array([(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=np.float64)
+    caps = np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4), (0, 5, 7), (5, 6, 7)])
+    around = np.arange(8)
+    after = (around + 1) % 8
+    vertices = np.concatenate([np.insert(outline, 1, depth, axis=1) for depth in (0.0, 3.0)])
+    walls = [np.column_stack([around, after + 8, after]), np.column_stack([around, around + 8, after + 8])]
+    return vertices, np.concatenate([caps, caps[:, ::-1] + 8, *walls])
+
+
+@pytest.mark.parametrize("width", [0.49, 0.5, 0.51])
+def test_fillets_that_would_close_a_slot_are_refused(width: float) -> None:
+    """At .5 nothing is left of its floor, its walls and the lands beside it: a surface over it would be a balloon."""
+    vertices, triangles = slotted()
+    refused("WIDTH_TOO_LARGE", vertices, triangles, width=width)
+    result = fairing.fillet(vertices, triangles, width=0.4)
+    assert result.vertices[:, 2].max() <= 2.0 + 1e-6
+
+
+def test_a_width_that_is_too_large_tells_what_fits() -> None:
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.fillet(*slotted(), width=0.55)
+    assert caught.value.diagnostic.figures["widest"] == pytest.approx(0.5, rel=0.02)
+
+
+def test_a_vertex_on_an_edge_is_named() -> None:
+    """One of a box's edges has a vertex in its middle, on one side only: it has two triangles nowhere."""
+    vertices, triangles = solids.box(1)
+    row = next(k for k, t in enumerate(triangles) if np.ptp(vertices[t], axis=0)[0] == 0)
+    a, b, c = next(
+        x
+        for x in (np.roll(triangles[row], k) for k in range(3))
+        if np.count_nonzero(np.ptp(vertices[x[:2]], axis=0)) == 1
+    )
+    split = np.array([(a, len(vertices), c), (len(vertices), b, c)])
+    vertices = np.concatenate([vertices, [vertices[[a, b]].mean(axis=0)]])
+    where = refused(
+        "NONMANIFOLD_VERTEX", vertices, np.concatenate([np.delete(triangles, row, axis=0), split]), width=0.1
+    )
+    assert set(where.tolist()) == {a, b, len(vertices) - 1}
+
+
 def test_other_bad_seams_are_refused_with_their_places() -> None:
     vertices, triangles = solids.sphere(12, 6)
     refused("NO_SEAM", vertices, triangles, width=0.1)

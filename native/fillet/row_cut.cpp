@@ -48,6 +48,7 @@ public:
             previous_[to] = from;
         }
         for (int t = 0; t < cut.triangles.cols(); ++t) {
+            corners_.emplace_back(cut.triangles.col(t));
             if (cut.inside[t] != 0) continue;
             for (const int v : cut.triangles.col(t)) {
                 if (at_.contains(v)) at_[v].insert(t);
@@ -55,28 +56,38 @@ public:
         }
     }
 
-    void drop(int p) {
-        const auto before = previous_.find(p);
-        const auto after = next_.find(p);
-        if (before == previous_.end() || after == next_.end()) throw NoRows();
-        const int a = before->second;
-        const int b = after->second;
-        const double to_a = worst(p, a);
-        const double to_b = worst(p, b);
-        if (std::max(to_a, to_b) < flat) throw NoRows();
-        close(p, to_a >= to_b ? a : b);
-        next_[a] = b;
-        previous_[b] = a;
-        next_.erase(p);
-        previous_.erase(p);
+    // A point, and those that go right after it, with all pieces at them: what they cover is meshed anew.
+    void drop(int first) {
+        if (!next_.contains(first)) return;  // with one before
+        while (at_.contains(previous(first))) first = previous(first);
+        std::set<int> star;
+        const int before = previous(first);
+        int after = first;
+        std::set<int> group;
+        for (; at_.contains(after); after = next(after)) {
+            star.insert(at_[after].begin(), at_[after].end());
+            group.insert(after);
+        }
+        const Indices rim = around(star, group);
+        const int parent = cut_.parent[*star.begin()];
+        for (const int t : star) remove(t);
+        for (const auto& piece : meshed(rim)) add(piece, parent);
+        for (int p = first; p != after;) {
+            const int following = next(p);
+            next_.erase(p);
+            previous_.erase(p);
+            p = following;
+        }
+        next_[before] = after;
+        previous_[after] = before;
     }
 
     void finish() {
         std::vector<Eigen::Vector3i> corners;
         SplitMesh made{cut_.points, {}, {}, {}, cut_.seams, {}};
-        for (int t = 0; t < cut_.triangles.cols(); ++t) {
-            if (gone_.contains(t)) continue;
-            corners.emplace_back(cut_.triangles.col(t));
+        for (std::size_t t = 0; t < corners_.size(); ++t) {
+            if (gone_.contains(static_cast<int>(t))) continue;
+            corners.push_back(corners_[t]);
             made.parent.push_back(cut_.parent[t]);
             made.inside.push_back(cut_.inside[t]);
         }
@@ -86,47 +97,97 @@ public:
     }
 
 private:
-    [[nodiscard]] bool has(int t, int v) const { return (cut_.triangles.col(t).array() == v).any(); }
-    [[nodiscard]] std::array<Vector3, 3> places(int t, int from, int to) const {
-        std::array<Vector3, 3> at;
-        for (int k = 0; k < 3; ++k) {
-            const int v = cut_.triangles(k, t);
-            at[static_cast<std::size_t>(k)] = vertices_.col(v == from ? to : v);
-        }
-        return at;
+    [[nodiscard]] int next(int p) const { return follower(next_, p); }
+    [[nodiscard]] int previous(int p) const { return follower(previous_, p); }
+    static int follower(const std::map<int, int>& of, int p) {
+        const auto found = of.find(p);
+        if (found == of.end()) throw NoRows();
+        return found->second;
     }
 
-    [[nodiscard]] double worst(int p, int to) const {
-        double least = 1.0;
-        for (const int t : at_.at(p)) {
-            if (has(t, to)) continue;
-            const auto old = places(t, p, p);
-            least = std::min(least, roundness(places(t, p, to), (old[1] - old[0]).cross(old[2] - old[0]).normalized()));
+    void add(const Eigen::Vector3i& piece, int parent) {
+        const int t = static_cast<int>(corners_.size());
+        corners_.push_back(piece);
+        cut_.parent.push_back(parent);
+        cut_.inside.push_back(0);
+        for (const int v : piece) {
+            if (at_.contains(v)) at_[v].insert(t);
         }
-        return least;
+    }
+    void remove(int t) {
+        gone_.insert(t);
+        for (const int v : corners_[t]) {
+            if (at_.contains(v)) at_[v].erase(t);
+        }
     }
 
-    void close(int p, int to) {
-        for (const int t : at_.at(p)) {
-            if (has(t, to)) {
-                gone_.insert(t);
-                for (auto& [v, own] : at_) {
-                    if (v != p) own.erase(t);
+    // The border of a star without the points that go, from the line's next point on to the one before.
+    [[nodiscard]] Indices around(const std::set<int>& star, const std::set<int>& group) const {
+        std::vector<VertexPair> sides;
+        for (const int t : star) {
+            for (int k = 0; k < 3; ++k) sides.push_back({corners_[t][k], corners_[t][(k + 1) % 3]});
+        }
+        const Border border = border_of(sides);
+        const auto begin = std::find_if(border.begin(), border.end(), [&](const auto& side) {
+            return group.contains(side.first) && !group.contains(side.second);
+        });
+        if (begin == border.end()) throw NoRows();
+        Indices rim{begin->second};
+        std::size_t inner = 0;
+        for (int v = border.at(begin->second); v != begin->second; v = border.at(v)) {
+            if (group.contains(v))
+                ++inner;
+            else if (inner > 0)
+                throw NoRows();  // two ways
+            else
+                rim.push_back(v);
+        }
+        if (rim.size() + inner != border.size()) throw NoRows();
+        return rim;
+    }
+
+    // Of all ways to cut a polygon into triangles that whose flattest one is roundest.
+    [[nodiscard]] std::vector<Eigen::Vector3i> meshed(const Indices& rim) const {
+        const int count = static_cast<int>(rim.size());
+        Vector3 up = Vector3::Zero();
+        for (int k = 1; k + 1 < count; ++k) up += (at(rim[k]) - at(rim[0])).cross(at(rim[k + 1]) - at(rim[0]));
+        up.normalize();
+        struct Best {
+            double roundness;
+            int middle;
+        };
+        std::vector<std::vector<Best>> best(count, std::vector<Best>(count, {2.0, none}));
+        for (int width = 2; width < count; ++width) {
+            for (int i = 0; i + width < count; ++i) {
+                Best& own = best[i][i + width] = {-2.0, none};
+                for (int k = i + 1; k < i + width; ++k) {
+                    const double found = std::min({best[i][k].roundness, best[k][i + width].roundness,
+                                                   roundness({at(rim[i]), at(rim[k]), at(rim[i + width])}, up)});
+                    if (found > own.roundness) own = {found, k};
                 }
-                continue;
             }
-            for (int k = 0; k < 3; ++k) {
-                if (cut_.triangles(k, t) == p) cut_.triangles(k, t) = to;
-            }
-            if (at_.contains(to)) at_[to].insert(t);
         }
-        at_[p].clear();
+        if (best.front().back().roundness < flat) throw NoRows();
+        std::vector<Eigen::Vector3i> found;
+        std::vector<VertexPair> open{{0, count - 1}};
+        while (!open.empty()) {
+            const auto [i, j] = open.back();
+            open.pop_back();
+            const int k = best[i][j].middle;
+            if (k == none) continue;
+            found.emplace_back(rim[i], rim[k], rim[j]);
+            open.push_back({i, k});
+            open.push_back({k, j});
+        }
+        return found;
     }
+    [[nodiscard]] Vector3 at(int v) const { return vertices_.col(v); }
 
     const Points& vertices_;
     SplitMesh& cut_;
     std::map<int, std::set<int>> at_;  // of each point that goes: the pieces outside
     std::map<int, int> next_, previous_;
+    std::vector<Eigen::Vector3i> corners_;
     std::set<int> gone_;
 };
 

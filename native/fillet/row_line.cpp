@@ -7,41 +7,46 @@ namespace fairing {
 
 namespace {
 
-// The vertices that a way over walls passes from an edge on to a vertex, which comes last; and the half-edges there.
-std::vector<WallPoint> steps_to(const SeamMesh& mesh, int edge, int vertex) {
+// The vertices that a way over walls passes from a point on to a vertex, which comes last; and the half-edges there.
+std::vector<WallPoint> steps_to(const SeamMesh& mesh, const LinePoint& point, int vertex) {
     std::map<int, WallPoint> before{{vertex, {none, none, 0.0}}};
     std::multimap<int, int> walls;
     int first = none;
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.twin[h] != none) continue;
-        if (mesh.edge[h] == edge) first = h;
+        if (mesh.edge[h] == point.edge) first = h;
         walls.emplace(mesh.tail(h), h);
         walls.emplace(mesh.head(h), h);
     }
-    if (first == none) throw NoRows();
-    const auto is_reached = [&](int v) { return v == mesh.tail(first) || v == mesh.head(first); };
+    if (first == none && point.vertex == none) throw NoRows();
+    const auto is_reached = [&](int v) {
+        return v == point.vertex || (first != none && (v == mesh.tail(first) || v == mesh.head(first)));
+    };
     Indices waiting{vertex};
     for (std::size_t k = 0; k < waiting.size() && !is_reached(waiting[k]); ++k) {
         const auto [begin, end] = walls.equal_range(waiting[k]);
         for (auto it = begin; it != end; ++it) {
             const int h = it->second;
             const int other = mesh.tail(h) + mesh.head(h) - waiting[k];
-            if (mesh.edge[h] != edge && before.try_emplace(other, WallPoint{waiting[k], h, 0.0}).second)
+            if ((first == none || mesh.edge[h] != point.edge) &&
+                before.try_emplace(other, WallPoint{waiting[k], h, 0.0}).second)
                 waiting.push_back(other);
         }
     }
     const auto found = std::find_if(waiting.begin(), waiting.end(), is_reached);
     if (found == waiting.end()) throw NoRows();
-    std::vector<WallPoint> steps{{*found, first, 0.0}};
-    while (steps.back().vertex != vertex) steps.push_back(before.at(steps.back().vertex));
+    std::vector<WallPoint> steps;
+    if (point.vertex == none) steps.push_back({*found, first, 0.0});
+    for (int at = *found; at != vertex; at = steps.back().vertex) steps.push_back(before.at(at));
+    if (steps.empty()) throw NoRows();
     return steps;
 }
 
 }  // namespace
 
 std::vector<WallPoint> RowLine::wall_way(const Spot& spot, int vertex, int parts) const {
-    if (spot.point == none || line_.points[spot.point].edge == none) throw NoRows();
-    const std::vector<WallPoint> steps = steps_to(mesh_, line_.points[spot.point].edge, vertex);
+    if (spot.point == none) throw NoRows();
+    const std::vector<WallPoint> steps = steps_to(mesh_, line_.points[spot.point], vertex);
     std::vector<Vector3> places{spot.place};
     std::vector<double> ways{0.0};
     for (const WallPoint& step : steps) {

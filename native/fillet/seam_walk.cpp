@@ -162,37 +162,38 @@ void SeamWalks::add_chain(const Indices& chain, const Indices& segments, bool cl
         if (own != none && walk != own) throw NoRows();
         own = walk;
     }
-    SeamWalk& walk = walks_[own];
-    const double length = walk.ways.back();
+    const double length = walks_[own].ways.back();
     const int count = static_cast<int>(chain.size());
     int first = 0;
     for (double& way : at) way = closed && way > (1.0 - same) * length ? 0.0 : way;
-    for (int k = 1; k < count && closed; ++k) {
-        if (at[k] < at[k - 1] - 0.5 * length) first = k;
-    }
-    Indices points;
-    Indices links;
-    std::vector<double> ways;
-    double turns = 0.0;  // the walk's begin is its end as well
+    const auto begins_anew = [&](int k) { return at[k] < at[(k + count - 1) % count] - 0.5 * length; };
+    while (closed && first < count - 1 && !begins_anew(first)) ++first;
+    if (!begins_anew(first)) first = 0;
+    SeamWalk part;
     for (int k = 0; k < count; ++k) {
         const int from = (first + k) % count;
-        points.push_back(chain[from]);
-        links.push_back(from < static_cast<int>(segments.size()) ? segments[from] : none);
-        if (!ways.empty() && at[from] + turns < ways.back() - 0.5 * length) turns = length;
-        ways.push_back(ways.empty() ? at[from] : std::max(at[from] + turns, ways.back()));
-        if (ways.back() > at[from] + turns + same * length) throw NoRows();
+        if (k > 0 && begins_anew(from)) {  // over the walk's begin, which is its end
+            insert(part, walks_[own]);
+            part = {};
+        }
+        part.points.push_back(chain[from]);
+        part.segments.push_back(from < static_cast<int>(segments.size()) ? segments[from] : none);
+        part.at.push_back(part.at.empty() ? at[from] : std::max(at[from], part.at.back()));
+        if (part.at.back() > at[from] + same * length) throw NoRows();
     }
-    if (ways.back() > (1.0 + same) * length) {
-        for (double& way : ways) way = std::max(way - length, 0.0);
-    }
-    const double middle = 0.5 * (ways.front() + ways.back());
+    insert(part, walks_[own]);
+}
+
+void SeamWalks::insert(const SeamWalk& part, SeamWalk& walk) {
+    const double near = same * walk.ways.back();
+    const double middle = 0.5 * (part.at.front() + part.at.back());
     const auto place = std::lower_bound(walk.at.begin(), walk.at.end(), middle) - walk.at.begin();
-    const bool clear = (place == 0 || walk.at[place - 1] <= ways.front() + same * length) &&
-                       (place == std::ssize(walk.at) || walk.at[place] >= ways.back() - same * length);
-    if (!clear) throw NoRows();
-    walk.points.insert(walk.points.begin() + place, points.begin(), points.end());
-    walk.segments.insert(walk.segments.begin() + place, links.begin(), links.end());
-    walk.at.insert(walk.at.begin() + place, ways.begin(), ways.end());
+    if ((place > 0 && walk.at[place - 1] > part.at.front() + near) ||
+        (place < std::ssize(walk.at) && walk.at[place] < part.at.back() - near))
+        throw NoRows();
+    walk.points.insert(walk.points.begin() + place, part.points.begin(), part.points.end());
+    walk.segments.insert(walk.segments.begin() + place, part.segments.begin(), part.segments.end());
+    walk.at.insert(walk.at.begin() + place, part.at.begin(), part.at.end());
 }
 
 }  // namespace fairing

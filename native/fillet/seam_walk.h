@@ -50,6 +50,7 @@ private:
     [[nodiscard]] double way_of(int point, int& walk) const;
     void add_line();
     void add_chain(const Indices& chain, const Indices& segments, bool closed);
+    static void insert(const SeamWalk& part, SeamWalk& walk);
 
     const SeamMesh& mesh_;
     const SeamDistance& distance_;

@@ -86,7 +86,7 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
         chosen["fixed_curvatures"] = cut["curvatures"][rim]
     report = new.faired("given", None, chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
-    old, weights = _origins(cut, origin, first, len(placed) - count)
+    old, weights = _origins(cut, origin, first, count)
     values = report_fields(report, count)
     vertices = report.vertices
     if wishes.profile:
@@ -177,20 +177,18 @@ def _is_gone(parent: IntArray, inside: Mask, count: int) -> Mask:
     return gone
 
 
-def line_places(cut: dict[str, Any], line_count: int) -> tuple[IntArray, FloatArray]:
-    """Old triangles (l,) of the line's points, and weights (l, 3) there."""
-    first = len(cut["points"])
-    begin = cut["triangles"].max(initial=0) + 1 - first if first else 0
-    place = np.zeros(line_count, dtype=np.int64)
+def line_places(cut: dict[str, Any], begin: int) -> tuple[IntArray, FloatArray]:
+    """Old triangles (l,) of the line's points, which have the numbers from `begin` on, and weights (l, 3) there."""
+    place = np.zeros(len(cut["points"]), dtype=np.int64)
     flat = cut["triangles"].ravel()
-    on_line = np.flatnonzero(flat >= begin) if first else np.empty(0, np.int64)
+    on_line = np.flatnonzero(flat >= begin)
     place[flat[on_line] - begin] = on_line
     return cut["parent"][place // 3], cut["weights"][place]
 
 
-def _origins(cut: dict[str, Any], origin: Any, within: FirstMesh, line_count: int) -> tuple[IntArray, FloatArray]:
+def _origins(cut: dict[str, Any], origin: Any, within: FirstMesh, count: int) -> tuple[IntArray, FloatArray]:
     """Triangles (k,) of the old mesh and weights (k, 3) there, of the line's points and then of those within."""
-    on_line, line_weights = line_places(cut, line_count)
+    on_line, line_weights = line_places(cut, count)
     inner = np.einsum("kc,kcw->kw", origin[1], within.weights[origin[0]])
     old = np.concatenate([on_line, within.parents[origin[0]]]).astype(np.int32)
     weights = np.clip(np.concatenate([line_weights, inner]), 0.0, None)

@@ -23,6 +23,8 @@ def in_rows(
     carried = np.einsum("kc,kcd->kd", made.weights, given.points[given.triangles[made.old]])
     before = np.concatenate([given.points, carried])
     patch = made.patch
+    assert patch.fixed is not None
+    assert patch.normals is not None
     rows = _core.fillet_rows(
         given.points, given.triangles, (given.seams.tolist(), wishes.walls.tolist()), wishes.widths,
         (wishes.spacing, spacing), None if counted is None else counted.tolist(),
@@ -39,7 +41,10 @@ def _with_rows(given: Given, made: Made, rows: dict[str, Any], wishes: Wishes) -
     placed = np.concatenate([given.points, cut["points"]])
     vertices = np.concatenate([placed, rows["places"]])
     halves = halves_of(vertices, rows["quads"])
-    on_line, line_weights = line_places(cut, len(cut["points"]))
+    whole = cut["inside"]  # of pieces outside that are meshed anew a corner may lie beyond the parent
+    within = {"points": cut["points"], "triangles": cut["triangles"][whole], "parent": cut["parent"][whole]}
+    within["weights"] = cut["weights"].reshape(-1, 3, 3)[whole].reshape(-1, 3)
+    on_line, line_weights = line_places(within, len(given.points))
     line_weights = np.clip(line_weights, 0.0, None)
     weights = np.concatenate([line_weights / line_weights.sum(axis=1, keepdims=True), rows["on_given"]])
     rim = cut["boundary"][np.isin(cut["boundary"], rows["quads"])]
