@@ -17,6 +17,7 @@ namespace fairing {
 
 namespace {
 
+constexpr double roundoff = 1e-9;   // of a triangle: places that near to its sides are on them
 constexpr double resolution = 0.5;  // of the spacing: how finely the line is sought
 
 Indices triangles_at(const LevelLine& line) {
@@ -172,7 +173,8 @@ void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut) 
 
 GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place) {
     const int parent = made.plane[triangle];
-    const Vector3 weights = weights_in(given.vertices, given.triangles, parent, place).cwiseMax(0.0);
+    Vector3 weights = weights_in(given.vertices, given.triangles, parent, place);
+    weights = (weights.array() < roundoff).select(0.0, weights);
     return {parent, weights / weights.sum()};
 }
 

@@ -119,6 +119,7 @@ void put_on(const SmoothSurface& surface, const FilletInput& given, const Prepar
         rows.on_solved.col(k) = under.weights;
         rows.given.push_back(origin.triangle);
         rows.on_given.col(k) = origin.weights;
+        rows.on_seam.push_back(at.on_seam ? 1 : 0);
     }
 }
 
@@ -135,7 +136,7 @@ FilletRows made_rows(const FilletInput& given, const WantedRows& wanted, const S
     const RowMesh mesh = row_mesh(
         made.mesh, walks, strips, sizes, [&](const Vector3& before) { return surface.place(surface.under(before)); },
         line);
-    FilletRows rows{cut_along_line(made, line.line()), mesh.quads, {}, {}, {}, {}, {}};
+    FilletRows rows{cut_along_line(made, line.line()), mesh.quads, {}, {}, {}, {}, {}, {}};
     const Indices dropped = line.dropped();
     check_border(rows.cut.mesh, dropped, rows.quads);
     put_on(surface, given, made, mesh, rows);

@@ -24,13 +24,14 @@ struct WantedRows {
 };
 
 struct FilletRows {
-    FilletCut cut;            // along the quads' border
-    std::vector<Quad> quads;  // of the mesh's vertices, the cut's points, and new ones:
-    Points places;            // these, on the surface,
-    Indices solved;           // the triangles of the surface that they lie on,
-    Points on_solved;         // and their weights there;
-    Indices given;            // the triangles of the mesh beneath them,
-    Points on_given;          // and their weights there
+    FilletCut cut;              // along the quads' border
+    std::vector<Quad> quads;    // of the mesh's vertices, the cut's points, and new ones:
+    Points places;              // these, on the surface,
+    Indices solved;             // the triangles of the surface that they lie on,
+    Points on_solved;           // and their weights there;
+    Indices given;              // the triangles of the mesh beneath them,
+    Points on_given;            // and their weights there;
+    std::vector<char> on_seam;  // whether they lie on a seam
 };
 
 // None where no rows fit. Throws Cancelled, and what check_mesh throws of the surface.

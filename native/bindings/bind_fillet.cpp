@@ -99,6 +99,7 @@ py::object rows_arrays(const DoubleArray& vertices, const IntArray& triangles, c
     dict["on_solved"] = from_points(rows->on_solved);
     dict["given"] = from_indices(rows->given);
     dict["on_given"] = from_points(rows->on_given);
+    dict["on_seam"] = from_flags(rows->on_seam);
     return std::move(dict);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "base/progress.h"
@@ -13,9 +14,12 @@ namespace {
 
 constexpr int samples = 4;  // for each edge: ways on the fillet are measured in so many chords
 
-constexpr double bent = 0.05;  // of the width: where the surface leaves the quads between two columns by more, another
-                               // one comes between
-constexpr double shortest = 0.5;  // of the width: columns as near as that get none between them
+// Of the bulge over a column's chord: where the surface leaves the quads between two columns by more, another one comes
+// between.
+constexpr double bent = 0.6;            // where strips meet at corners it is up to .47, between vertices of a ring less
+constexpr double bent_at_walls = 0.25;  // where it ends at a wall and fades, 1.4 from one end to the other
+constexpr double flat = 0.02;           // of the width: what bulges less is flat
+constexpr double shortest = 0.5;        // of the width: columns as near as that get none between them
 
 using Grid = std::vector<Indices>;
 
@@ -154,8 +158,8 @@ private:
         return mesh_.place(at.triangle, at.weights);
     }
 
-    int add(int triangle, const Vector3& weights) {
-        made_.places.push_back({triangle, weights});
+    int add(int triangle, const Vector3& weights, bool on_seam = false) {
+        made_.places.push_back({triangle, weights, on_seam});
         return line_.vertex_count() + static_cast<int>(made_.places.size()) - 1;
     }
 
@@ -246,6 +250,7 @@ private:
             const auto found = ends_.find({number, which});
             return found == ends_.end() ? nullptr : &walls_[found->second];
         };
+        const double most = at_end(0) != nullptr || at_end(1) != nullptr ? bent_at_walls : bent;
         std::vector<std::vector<Vector3>> sections;
         for (std::size_t k = 0; k < strip.columns.size(); ++k) {
             const bool is_last = k + 1 == strip.columns.size();
@@ -260,7 +265,7 @@ private:
             const double size = std::max(after.at[0] - before.at[0], after.at[1] - before.at[1]);
             if (size > shortest * width_) {
                 const std::vector<Vector3> found = section(strip, middle, nullptr);
-                if (is_bent(sections[k], found, sections[k + 1])) {
+                if (is_bent(sections[k], found, sections[k + 1], most)) {
                     sections.insert(sections.begin() + static_cast<std::ptrdiff_t>(k) + 1, found);
                     strip.columns.insert(strip.columns.begin() + static_cast<std::ptrdiff_t>(k) + 1, middle);
                     continue;
@@ -271,11 +276,15 @@ private:
     }
 
     [[nodiscard]] bool is_bent(const std::vector<Vector3>& before, const std::vector<Vector3>& middle,
-                               const std::vector<Vector3>& after) const {
+                               const std::vector<Vector3>& after, double most) const {
+        const Vector3 chord = 0.5 * (middle.front() + middle.back());
         double off = 0.0;
-        for (std::size_t j = 0; j < middle.size(); ++j)
+        double bulge = std::numeric_limits<double>::infinity();
+        for (std::size_t j = 1; j + 1 < middle.size(); ++j) {
             off = std::max(off, (middle[j] - 0.5 * (before[j] + after[j])).norm());
-        return off > bent * width_;
+            bulge = std::min(bulge, (middle[j] - chord).norm());
+        }
+        return off > std::max(most * bulge, flat * width_);
     }
 
     // From the right to the left.
@@ -287,7 +296,7 @@ private:
         Indices found{line_.vertex(from)};
         const auto append = [&](const Indices& more) { found.insert(found.end(), more.begin(), more.end()); };
         append(between(from.place, middle, half_, mesh_.twin[seam.half_edge] / 3));
-        found.push_back(add(seam.half_edge / 3, seam.weights));
+        found.push_back(add(seam.half_edge / 3, seam.weights, true));
         append(between(middle, to.place, half_, seam.half_edge / 3));
         found.push_back(line_.vertex(to));
         return found;
@@ -397,7 +406,7 @@ private:
         found.push_back(middle(vertex_at(end)));
         for (int k = 1; k < half_; ++k) {
             const OnSeam at = on_seam(strip.arc, first + (last - first) * k / half_);
-            found.push_back(add(at.half_edge / 3, at.weights));
+            found.push_back(add(at.half_edge / 3, at.weights, true));
         }
         found.push_back(columns_.at(end)[half_]);
         return found;
@@ -407,7 +416,7 @@ private:
         const auto [found, is_new] = middles_.try_emplace(vertex, 0);
         if (is_new) {
             const int h = walks_.out(vertex).front();
-            found->second = add(h / 3, Vector3::Unit(h % 3));
+            found->second = add(h / 3, Vector3::Unit(h % 3), true);
         }
         return found->second;
     }

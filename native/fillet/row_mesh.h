@@ -14,6 +14,7 @@ struct RowMesh {
     struct Place {
         int triangle;  // which have these places on the mesh
         Vector3 weights;
+        bool on_seam;
     };
     std::vector<Place> places;
 };

@@ -58,7 +58,7 @@ def _with_rows(given: Given, made: Made, rows: dict[str, Any], wishes: Wishes) -
         "mean_curvature": np.concatenate([curvature[fixed[nearest(cut["points"], made.vertices[fixed])]], inner]),
         "warnings": tuple(_moved(warning, made, vertices, rows["quads"]) for warning in made.values["warnings"]),
     }  # fmt: skip
-    on_seam = len(placed) + np.flatnonzero((rows["on_given"] == 0.0).any(axis=1))
+    on_seam = len(placed) + np.flatnonzero(rows["on_seam"])
     return replace(
         made, cut={**cut, "eaten": made.cut["eaten"]}, inside=cut["inside"],
         triangles=halves, vertices=vertices, line_count=len(cut["points"]), patch=Patch(vertices, halves, rim, None),
