@@ -61,7 +61,9 @@ def run(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
     """Run it from and to object mode."""
     enter(obj, chosen)
     try:
-        status: set[str] = bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, **{"width": WIDTH, "quads": False, **properties})
+        status: set[str] = bpy.ops.mesh.fair_fillet(
+            "EXEC_DEFAULT", True, **{"width": WIDTH, "quads": False, **properties}
+        )
         return status
     finally:
         meshes.leave()
