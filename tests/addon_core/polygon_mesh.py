@@ -56,6 +56,18 @@ def grid(size: int, half: float, shape: Callable[[Floats], Floats] = lambda poin
     return polygon_mesh(shape(flat), quads, np.abs(centres).max(axis=1) < half)
 
 
+def tube(sides: int, heights: Sequence[float]) -> tuple[Floats, list[list[int]]]:
+    """Circles of radius 1 around the z-axis, from below, and a row of quads between each and the next."""
+    turn = 2.0 * np.pi * np.arange(sides) / sides
+    points = np.array([(x, y, z) for z in heights for x, y in zip(np.cos(turn), np.sin(turn), strict=True)])
+    quads = [
+        [sides * row + k, sides * row + (k + 1) % sides, sides * (row + 1) + (k + 1) % sides, sides * (row + 1) + k]
+        for row in range(len(heights) - 1)
+        for k in range(sides)
+    ]
+    return points, quads
+
+
 def hexagon(rings: int) -> tuple[Floats, Ints]:
     """A flat hexagon of equilateral triangles, its rim first and counter-clockwise from the positive x-axis."""
     span = range(-rings, rings + 1)

@@ -20,7 +20,7 @@ from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.sentences import MeshRefusal
 from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
-from polygon_mesh import grid_points, grid_quads, hexagon, on_sphere, polygon_mesh
+from polygon_mesh import grid_points, grid_quads, hexagon, on_sphere, polygon_mesh, tube
 
 SIZE = 8
 
@@ -156,14 +156,8 @@ def test_hole_of_a_sphere_is_closed_by_the_sphere(scale: tuple[float, float, flo
 
 def two_tubes(*, turned_over: bool = False) -> MeshArrays:
     """Along z with a gap between the vertices from 48 and those from 72 on; the upper one inside out if wanted."""
-    steps = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
-    rings = [(np.cos(steps), np.sin(steps), np.full(24, height)) for height in (-1.6, -1.3, -1.0, 1.0, 1.3, 1.6)]
-    points = np.concatenate([np.stack(ring, axis=1) for ring in rings])
-    quads = [
-        [24 * ring + i, 24 * ring + (i + 1) % 24, 24 * ring + 24 + (i + 1) % 24, 24 * ring + 24 + i]
-        for ring in (0, 1, 3, 4)
-        for i in range(24)
-    ]
+    points, rows = tube(24, (-1.6, -1.3, -1.0, 1.0, 1.3, 1.6))
+    quads = rows[:48] + rows[72:]
     quads = [quad[::-1] if turned_over and quad[0] >= 72 else quad for quad in quads]
     return polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
 

@@ -7,23 +7,16 @@ import pytest
 
 from core.region import MeshArrays
 from core.rounding import FilletOptions, Rounded, hard, round_arrays
-from polygon_mesh import polygon_mesh
+from polygon_mesh import polygon_mesh, tube
 
 ALL = np.eye(4)
 
 
 def prism(sides: int, levels: int = 1) -> MeshArrays:
     """Over a regular polygon, from z = 0 to 1, with one face at each end."""
-    turn = 2 * np.pi * np.arange(sides) / sides
-    rings = [np.column_stack([np.cos(turn), np.sin(turn), np.full(sides, k / levels)]) for k in range(levels + 1)]
-    walls = [
-        [sides * row + k, sides * row + (k + 1) % sides, sides * (row + 1) + (k + 1) % sides, sides * (row + 1) + k]
-        for row in range(levels)
-        for k in range(sides)
-    ]
-    ends = [list(range(sides))[::-1], [sides * levels + k for k in range(sides)]]
-    polygons = [*walls, *ends]
-    return polygon_mesh(np.concatenate(rings), polygons, np.zeros(len(polygons), dtype=bool))
+    points, walls = tube(sides, np.linspace(0.0, 1.0, levels + 1).tolist())
+    polygons = [*walls, list(range(sides))[::-1], list(range(sides * levels, len(points)))]
+    return polygon_mesh(points, polygons, np.zeros(len(polygons), dtype=bool))
 
 
 def rounded(mesh: MeshArrays, width: float) -> Rounded:

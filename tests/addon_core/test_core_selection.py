@@ -12,7 +12,7 @@ from core.arrays import Floats, Mask
 from core.region import MeshArrays, make_patch
 from core.selection import enclosed_faces, left_out_faces
 from core.symmetry import mirror_map, with_image
-from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
+from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh, tube
 
 SIZE = 12
 FLAT = grid(SIZE, 0.0)
@@ -35,18 +35,6 @@ def outline_of(mesh: MeshArrays, faces: Mask) -> Mask:
     return between
 
 
-def tube(around: int = 10, along: int = 20) -> MeshArrays:
-    """An open tube of quads; face row · around + column, the axis along z."""
-    angle = 2.0 * np.pi * np.arange(around) / around
-    points = np.array([(np.cos(a), np.sin(a), z) for z in range(along + 1) for a in angle])
-    quads = [
-        [around * r + c, around * r + (c + 1) % around, around * (r + 1) + (c + 1) % around, around * (r + 1) + c]
-        for r in range(along)
-        for c in range(around)
-    ]
-    return polygon_mesh(points, quads, [False] * len(quads))
-
-
 def test_a_loop_of_edges_encloses_the_smaller_side() -> None:
     inside = where(lambda c: np.abs(c).max(axis=0) < 0.5)
     assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
@@ -54,7 +42,8 @@ def test_a_loop_of_edges_encloses_the_smaller_side() -> None:
 
 @pytest.mark.parametrize(("low", "high"), [(3, 6), (12, 19), (5, 15), (2, 18)])
 def test_two_loops_round_a_limb_enclose_what_is_between(low: int, high: int) -> None:
-    mesh = tube()
+    points, quads = tube(10, range(21))  # face 10 · row + column
+    mesh = polygon_mesh(points, quads, [False] * len(quads))
     row = np.arange(len(mesh.in_patch)) // 10
     between = (row >= low) & (row < high)
     assert np.array_equal(enclosed_faces(mesh, outline_of(mesh, between)), between)
