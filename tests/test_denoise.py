@@ -94,13 +94,6 @@ def test_motion_and_scale_change_nothing_else(scale: float) -> None:
     assert moved / scale == pytest.approx(plain @ turn + 2, abs=1e-8)
 
 
-def test_any_number_of_threads_gives_the_same_bits() -> None:
-    rough = rough_sphere(4_000)
-    triangles = np.concatenate([rough.inside, rough.outside])
-    one, two = (fairing.denoise(rough.skin, triangles, threads=count) for count in (1, 2))
-    assert np.array_equal(one, two)
-
-
 def test_the_surroundings_count_only_next_to_what_moves() -> None:
     """The same bits with the whole mesh as with three rings around what moves."""
     rough = rough_sphere(2_000)

@@ -141,12 +141,6 @@ def test_components_each_have_their_own(cap: Patch) -> None:
     assert both.vertices[len(old) :] == pytest.approx(0.1 * alone.vertices + [9, 0, 0], abs=1e-7)
 
 
-def test_the_same_bits_for_any_number_of_threads() -> None:
-    patch = shapes.cap(4000)
-    one, two = (fair(patch, rough(patch), detail=1.0, threads=count) for count in (1, 2))
-    assert np.array_equal(one.vertices, two.vertices)
-
-
 def test_a_collapsed_patch_has_no_detail(cap: Patch) -> None:
     old = cap.vertices.copy()
     old[cap.free] = 0

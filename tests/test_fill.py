@@ -359,10 +359,3 @@ def test_a_knotted_loop_says_that_its_surface_crosses_itself() -> None:
     normals = np.cross(np.roll(knot, -1, axis=0) - np.roll(knot, 1, axis=0), [0, 0, 1.0])
     result = fairing.fill(knot, EMPTY, [np.arange(96)], normals=normals)
     assert "SELF_INTERSECTION" in [warning.code for warning in result.warnings]
-
-
-def test_the_same_bits_for_any_number_of_threads() -> None:
-    edge = 2 * np.sin(np.pi / 48)
-    one, two = (fairing.fill(*holes.bowl(48), spacing=0.4 * edge, threads=threads) for threads in (1, 2))
-    assert np.array_equal(one.vertices, two.vertices)
-    assert np.array_equal(one.triangles, two.triangles)

@@ -180,13 +180,6 @@ def test_unit_sign_and_place_do_not_matter() -> None:
     assert np.abs(other.vertices / 1000.0 - shift - curved.vertices).max() < 1e-5 * patch.diameter
 
 
-def test_same_bits_for_any_number_of_threads() -> None:
-    patch, _, _ = joined("torus", 1000)
-    curvatures = patch.mean_curvature[patch.fixed]
-    one, three = (with_curvature(patch, curvatures, threads=count) for count in (1, 3))
-    np.testing.assert_array_equal(one.vertices, three.vertices)
-
-
 def test_solver_gives_the_same_surface_again() -> None:
     patch, _, curved = joined("torus", 1000)
     solver = fairing.Solver(patch.triangles, fixed=patch.fixed, continuity="G2", tolerance=1e-6)

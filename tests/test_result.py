@@ -94,16 +94,6 @@ def test_default_tolerance_is_met() -> None:
     assert np.abs(default.vertices - tight.vertices).max() < 1e-5 * patch.diameter
 
 
-@pytest.mark.parametrize("n_free", [300, 12000])
-def test_same_input_same_bits(n_free: int) -> None:
-    patch = shapes.catenoid(n_free)
-    result = fair_patch(patch, threads=1)
-    for threads in (0, 1, 2, 3):
-        again = fair_patch(patch, threads=threads)
-        assert np.array_equal(again.vertices, result.vertices)
-        assert np.array_equal(again.boundary_angle, result.boundary_angle)
-
-
 def test_warnings_carry_code_message_and_elements() -> None:
     patch = shapes.cap(300)
     result = fairing.fair(patch.vertices, patch.triangles)
