@@ -35,7 +35,7 @@ def patches() -> Iterator[tuple[str, dict[str, Any], Any, dict[str, Any]]]:
     start = shapes.start_from_nothing(cap)
     for inner in ("conformal", "inverse_distance", "shape_preserving"):
         yield f"cap, {inner}", cap, start, {"inner_fairness": inner, **POLISH}
-    for equation in ("minimal", "minimal_energy"):
+    for equation in ("soap_film", "minimal_energy"):
         yield f"cap, {equation}", cap, start, {"equation": equation, **POLISH}
     yield "cap, constant", cap, start, {"equation": "constant", "load": 2.0, **POLISH}
     yield "cap, averaged normals", cap, start, {"normals": "averaged", **POLISH}

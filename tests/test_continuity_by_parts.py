@@ -178,7 +178,7 @@ def test_one_kind_everywhere_is_the_option_of_before() -> None:
     plain = fairing.fair(start, patch.triangles, held)
     assert np.array_equal(faired(patch, ["G1"] * len(patch.fixed)).vertices, plain.vertices)
     soap = faired(patch, ["G0"] * len(patch.fixed))
-    assert soap.equation == "minimal"
+    assert soap.equation == "soap_film"
 
 
 def test_what_contradicts_is_refused_with_a_word_on_what_is_needed() -> None:

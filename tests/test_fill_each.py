@@ -248,8 +248,8 @@ def cylinder(rim: int, rows: int = 6) -> Mesh:
 def test_a_soap_film_over_a_cylinder_is_a_flat_lid(rim: int) -> None:
     vertices, triangles = cylinder(rim)
     top = [loop for loop in fairing.boundary_loops(triangles) if (vertices[loop, 2] > -1e-9).all()]
-    result = fairing.fill(vertices, triangles, top, equation="minimal")
-    assert (result.converged, result.equation) == (True, "minimal")
+    result = fairing.fill(vertices, triangles, top, equation="soap_film")
+    assert (result.converged, result.equation) == (True, "soap_film")
     assert abs(result.vertices[:, 2]).max() < 1e-9
     corners = np.concatenate([vertices, result.vertices])[result.triangles]
     areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
@@ -264,7 +264,7 @@ def test_a_soap_film_between_rings_is_the_catenoid() -> None:
     up = [0.0, 0.0, 0.4]
     rings = np.concatenate([np.cosh(0.4) * ring - up, np.cosh(0.4) * ring + up])
     loops = [np.arange(64), np.arange(64, 128)]
-    result = fairing.fill(rings, EMPTY, loops, normals=np.tile(ring, (2, 1)), equation="minimal", bridge=True)
-    assert (result.converged, result.equation) == (True, "minimal")
+    result = fairing.fill(rings, EMPTY, loops, normals=np.tile(ring, (2, 1)), equation="soap_film", bridge=True)
+    assert (result.converged, result.equation) == (True, "soap_film")
     off = np.linalg.norm(result.vertices[:, :2], axis=1) - np.cosh(result.vertices[:, 2])
     assert abs(off).max() < 2e-3

@@ -98,7 +98,7 @@ def test_the_wanted_length_holds_inside_an_outline_of_four_edges(spacing: float,
     assert holes.angles(points, result.triangles).min() > 18.0
 
 
-@pytest.mark.parametrize("equation", ["minimal", "harmonic"])
+@pytest.mark.parametrize("equation", ["soap_film", "harmonic"])
 @pytest.mark.parametrize("width", [0.001, 0.01, 0.05])
 @pytest.mark.parametrize("aside", [0.0, 0.3])
 def test_a_slit_of_four_edges_is_filled(width: float, aside: float, equation: str) -> None:

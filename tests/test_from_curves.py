@@ -98,7 +98,7 @@ def test_closed_gives_an_opening_its_surface() -> None:
 def test_a_lone_loop_bounds_a_soap_film() -> None:
     points, wires = ring(0.3)
     result = fairing.surface_from_curves(points, wires)
-    assert result.converged and result.equation == "minimal" and len(result.cells) == 1
+    assert result.converged and result.equation == "soap_film" and len(result.cells) == 1
     assert np.abs(result.mean_curvature).max() < 1e-2
     flat = fairing.surface_from_curves(*ring(0.0))
     assert flat.converged and np.abs(flat.vertices[:, 2]).max() < 1e-12

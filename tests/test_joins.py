@@ -208,7 +208,7 @@ def test_cancelled_between_the_steps() -> None:
 
 WRONG = [
     ({"continuity": "G3"}, "continuity"),
-    ({"continuity": "G2", "equation": "minimal"}, "continuity"),
+    ({"continuity": "G2", "equation": "soap_film"}, "continuity"),
     ({"continuity": "G2", "method": "paper"}, "continuity"),
     ({"continuity": "G2", "fixed_curvatures": [1.0, 2.0]}, "fixed_curvatures"),
     ({"continuity": "G2"}, "outside"),  # no curvature and nothing to read it off

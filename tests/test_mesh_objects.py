@@ -231,9 +231,9 @@ def test_options_reach_the_engine() -> None:
     points, quads, selected = dented()
     stages: list[str] = []
     _, result = fairing.fair_faces(
-        (points, quads), selected, equation="minimal", progress=lambda fraction, stage: stages.append(stage)
+        (points, quads), selected, equation="soap_film", progress=lambda fraction, stage: stages.append(stage)
     )
-    assert result.equation == "minimal" and stages
+    assert result.equation == "soap_film" and stages
     with pytest.raises(ValueError, match="tolerance"):
         fairing.fair_faces((points, quads), selected, tolerance=-1.0)
     with pytest.raises(fairing.Cancelled):

@@ -14,7 +14,7 @@ import shapes
 
 def minimal(patch: shapes.Patch, **options: Any) -> fairing.FairResult:
     start = shapes.start_from_nothing(patch)
-    return fairing.fair(start, patch.triangles, fixed=patch.fixed, equation="minimal", tolerance=1e-10, **options)
+    return fairing.fair(start, patch.triangles, fixed=patch.fixed, equation="soap_film", tolerance=1e-10, **options)
 
 
 @pytest.mark.parametrize(("n_free", "goal"), [(1000, 2e-5), (4000, 4e-6)])

@@ -96,8 +96,8 @@ def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
 
 def test_a_soap_film_is_never_replaced() -> None:
     """Two rings too far apart for any."""
-    result = tubes.pipe(5.0, seed=3).faired(equation="minimal")
-    assert result.equation == "minimal"
+    result = tubes.pipe(5.0, seed=3).faired(equation="soap_film")
+    assert result.equation == "soap_film"
     assert not result.converged
 
 

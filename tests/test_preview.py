@@ -74,7 +74,7 @@ def test_what_the_receiver_raises_comes_out() -> None:
         fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, preview=receive)
 
 
-@pytest.mark.parametrize("equation", ["minimal", "constant", "least_variation"])
+@pytest.mark.parametrize("equation", ["soap_film", "constant", "least_variation"])
 def test_every_equation_has_one(equation: str) -> None:
     """Finite, and between the boundary given."""
     patch = shapes.cap(200, style=Style(seed=5))

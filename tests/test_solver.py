@@ -52,7 +52,7 @@ def dragged(patch: Patch, vertices: FloatArray, at: int, by: float) -> FloatArra
         {"inner_fairness": "conformal"},
         {"inner_fairness": "shape_preserving"},
         {"equation": "constant", "load": 2.0},
-        {"equation": "minimal"},
+        {"equation": "soap_film"},
         {"equation": "minimal_energy"},
         {"method": "paper", "tolerance": 1e-5},
     ],
@@ -257,7 +257,7 @@ def test_more_vertices_than_before_are_solved_anew() -> None:
     [
         {"equation": "constant", "load": 3.0},
         {"equation": "minimal_energy"},
-        {"equation": "minimal"},
+        {"equation": "soap_film"},
         {"inner_fairness": "conformal"},
         {"inner_fairness": "shape_preserving"},
         {"method": "paper", "tolerance": 1e-6},
@@ -283,5 +283,5 @@ def test_what_cannot_be_changed_is_refused_and_changes_nothing() -> None:
     with pytest.raises(TypeError, match="'fixed' is no option"):
         solver.change(fixed=[1, 2])
     with pytest.raises(ValueError, match="tolerance"):
-        solver.change(equation="minimal", tolerance=-1.0)
+        solver.change(equation="soap_film", tolerance=-1.0)
     assert np.array_equal(solver.solve(PATCH.vertices, PATCH.fixed_normals).vertices, first.vertices)

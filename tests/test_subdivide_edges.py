@@ -65,7 +65,7 @@ def test_a_hole_of_four_edges_is_filled_as_finely_as_wanted() -> None:
     vertices, triangles, loop = top_of_box()
     length = 0.25
     parted = fairing.subdivide_edges(vertices, triangles, np.column_stack([loop, np.roll(loop, -1)]), length)
-    result = fairing.fill(parted.vertices, parted.triangles, [parted.along(loop)], spacing=length, equation="minimal")
+    result = fairing.fill(parted.vertices, parted.triangles, [parted.along(loop)], spacing=length, equation="soap_film")
     assert np.abs(result.vertices[:, 2] - 1.0).max() < 1e-9
     points = np.concatenate([parted.vertices, result.vertices])
     lengths = np.linalg.norm(np.diff(points[measures.edges(result.triangles)], axis=1)[:, 0], axis=1)

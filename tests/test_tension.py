@@ -167,7 +167,7 @@ def test_wrong_tensions_are_refused() -> None:
     with pytest.raises(ValueError, match="vertices"):
         fairing.fair(patch.vertices, patch.triangles, fairing.Boundary(tension=2.0))
     for options in (
-        {"equation": "minimal"}, {"equation": "least_variation"}, {"equation": "constant", "load": 1.0},
+        {"equation": "soap_film"}, {"equation": "least_variation"}, {"equation": "constant", "load": 1.0},
         {"method": "paper"}, {"continuity": "G2"}, {"feather": 0.1},
     ):  # fmt: skip
         with pytest.raises(ValueError, match="tension"):

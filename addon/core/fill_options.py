@@ -9,7 +9,7 @@ from .option_shared import ALLOW_FOLDS, CONTINUITY, PARTS, SHAPE, SURFACE, VERTI
 from .option_table import Before, Option, Table, always
 
 HOLES = "Holes"
-FILL_EQUATIONS = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+FILL_EQUATIONS = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "SOAP_FILM", "LEAST_VARIATION")
 
 FILL: Table = (
     replace(SHAPE, before=(Before("equation", FILL_EQUATIONS),)),

@@ -80,7 +80,7 @@ def make_fill_report(
         seconds=seconds,
         checks=(
             *shape_checks(results, options.equation),
-            *(kink_checks(joins) if options.equation != "MINIMAL" else ()),
+            *(kink_checks(joins) if options.equation != "SOAP_FILM" else ()),
             *_checks(pieces, added, distortion),
             *((Check("Holes that stay open", str(len(left)), MISSED),) if left else ()),
         ),

@@ -44,7 +44,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> V
     crossing = _crossing(world, outline, points, triangles)
     if crossing:
         return Verdict(UNUSABLE, said("new_face_crossings", n=crossing), np.unique(outline))
-    if len(surface.join.seen) and result.equation != "minimal":  # which meets its boundary with a crease
+    if len(surface.join.seen) and result.equation != "soap_film":  # which meets its boundary with a crease
         return Verdict(LOOK, kink_reason(surface.join), surface.join.seen)
     joined = np.unique(surface.across)
     ends = np.setdiff1d(hard_ends(world, outline, around, surface), outline[joined[joined < len(outline)]])
@@ -58,7 +58,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> V
             uneven = said("choose_least_variation", reason=uneven)
         return Verdict(LOOK, uneven, np.unique(outline))
     depth = _depth(world, outline, around, surface)
-    if depth > fairing.LIMITS["sunken"] and result.equation != "minimal":
+    if depth > fairing.LIMITS["sunken"] and result.equation != "soap_film":
         return Verdict(LOOK, sunken_reason(depth), np.unique(outline))
     return Verdict(GOOD)
 

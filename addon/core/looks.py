@@ -237,4 +237,4 @@ def _is_meant_to_swell(options: FairOptions) -> bool:
 
 def judges_join(options: FairOptions) -> bool:
     """Return whether the result is meant to continue its surroundings: a soap film and a blend are not."""
-    return options.factor == 1.0 and options.equation != "MINIMAL"
+    return options.factor == 1.0 and options.equation != "SOAP_FILM"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .option_table import Item
 
-EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "MINIMAL", "LEAST_VARIATION")
+EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "SOAP_FILM", "LEAST_VARIATION")
 SHAPES: tuple[Item, ...] = (
     (
         "AUTOMATIC",

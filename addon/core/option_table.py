@@ -163,7 +163,7 @@ def warn_of_names_before(table: Table, used: Iterable[str], what: str) -> None:
 def advice(option: Option, before: Before) -> str:
     """Say what to write instead of a name before."""
     if before.name == "equation":
-        return "shape, with continuity='G0' for MINIMAL and bulge alone for CONSTANT"
+        return "shape, with x and bulge alone for CONSTANT"
     if option.values is None:
         return option.name
     off, on = before.values
@@ -184,7 +184,7 @@ def _is_inside(path: str) -> bool:
 
 def _continued(table: Table, found: dict[str, Any], equation: str) -> dict[str, Any]:
     """Turn `equation` into what stands for it now; a bulge had no effect but with its own."""
-    if equation == "MINIMAL":
+    if equation == "SOAP_FILM":
         return {**found, "shape": "AUTOMATIC", "continuity": "G0"}
     if equation == "CONSTANT":
         return {**found, "shape": "HARMONIC"}
@@ -195,7 +195,7 @@ def _continued(table: Table, found: dict[str, Any], equation: str) -> dict[str, 
 def _with_equation(fields: dict[str, Any]) -> dict[str, Any]:
     """Take positions alone for the soap film, and a bulge for pressure."""
     if fields.get("continuity") == "G0":
-        return {**fields, "equation": "MINIMAL", "continuity": "G1"}
+        return {**fields, "equation": "SOAP_FILM", "continuity": "G1"}
     bulges = fields.get("bulge") and fields["equation"] in ("AUTOMATIC", "HARMONIC") and fields["continuity"] == "G1"
     return {**fields, "equation": "CONSTANT"} if bulges else fields
 
@@ -203,6 +203,6 @@ def _with_equation(fields: dict[str, Any]) -> dict[str, Any]:
 def _with_shape(fields: dict[str, Any]) -> dict[str, Any]:
     """Do the reverse."""
     equation = fields.get("equation")
-    if equation == "MINIMAL":
+    if equation == "SOAP_FILM":
         return {**fields, "equation": "AUTOMATIC", "continuity": "G0"}
     return {**fields, "equation": "HARMONIC"} if equation == "CONSTANT" else fields

@@ -159,7 +159,7 @@ class FairOptions:
     @property
     def frees_slopes(self) -> bool:
         """Whether the surface finds its slope along the position group: no equation has it beside given curvatures."""
-        may = self.equation != "MINIMAL" and self.method == "GLOBAL" and self.outline == "GIVEN"
+        may = self.equation != "SOAP_FILM" and self.method == "GLOBAL" and self.outline == "GIVEN"
         return bool(self.position_group) and may and not self.joins_curvature
 
     @property
@@ -196,7 +196,7 @@ class FairOptions:
     @property
     def finds_edges(self) -> bool:
         """Whether edges that nobody has marked count among these: a surface along edges has no load, nor given H."""
-        return self.pins_running_through and self.equation not in ("CONSTANT", "MINIMAL") and not self.joins_curvature
+        return self.pins_running_through and self.equation not in ("CONSTANT", "SOAP_FILM") and not self.joins_curvature
 
     @property
     def pulls_locally(self) -> bool:
@@ -240,7 +240,7 @@ class FairOptions:
         only = {
             "bulge": self.equation == "CONSTANT",
             "continuity": self.equation in OF_CURVATURE and self.method == "GLOBAL",
-            "boundary_normals": self.equation != "MINIMAL",
+            "boundary_normals": self.equation != "SOAP_FILM",
             "position_group": self.frees_slopes,
             "curvature_group": self.joins_curvature and self.continuity == "G1",
             "tension_group": self.has_tension,
@@ -255,7 +255,7 @@ class FairOptions:
             "pin_curve": self.pins_sharp and self.method == "GLOBAL",
             "pin_radius": bool(self.pin_group),
             "pin_slope": self.pin_edges != "NONE",
-            "otherwise": self.method == "GLOBAL" and self.equation not in ("MINIMAL", "LEAST_VARIATION"),
+            "otherwise": self.method == "GLOBAL" and self.equation not in ("SOAP_FILM", "LEAST_VARIATION"),
             "open_border": self.mesh == "KEEP",
             "pin_pull": self.pulls_locally,
             "keys": self.mesh == "KEEP",  # a new mesh fairs them all

@@ -70,7 +70,7 @@ def refuse_options(options: FairOptions) -> None:
             "New vertices have no weights to go by: turn Remesh off, or leave Vertex Group empty",
         ),
         (options.method != "GLOBAL", "Multigrid keeps its mesh: turn Remesh off"),
-        (options.equation == "MINIMAL", "A soap film has no slopes to continue: turn Remesh off"),
+        (options.equation == "SOAP_FILM", "A soap film has no slopes to continue: turn Remesh off"),
         (options.outline != "GIVEN", "Smooth Boundary moves vertices that a new mesh is held by: turn Remesh off"),
     ):
         if wrong:

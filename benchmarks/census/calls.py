@@ -248,7 +248,7 @@ def _weighted(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
 
 
 def _of_other_equation(patch: RealPatch, rng: np.random.Generator) -> Callable[[], Any]:
-    name = str(rng.choice(["constant", "minimal", "minimal_energy", "automatic"]))
+    name = str(rng.choice(["constant", "soap_film", "minimal_energy", "automatic"]))
     return _fair(patch, equation=name, bulge=float(rng.choice([-1.0, 1.0, 4.0])) if name == "constant" else 0.0)
 
 

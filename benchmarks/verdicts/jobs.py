@@ -362,7 +362,7 @@ def shaped(rng: Any, seed: int) -> Job:
     """Other shapes: soap film, minimal energy, bulge, least variation."""
     scene = scenes.real(("penguin", "ict_head", "stuffedtoy", "goathead")[seed])
     option = (
-        {"equation": "MINIMAL"},
+        {"equation": "SOAP_FILM"},
         {"equation": "MINIMAL_ENERGY"},
         {"equation": "CONSTANT", "bulge": 0.1},
         {"equation": "LEAST_VARIATION"},

@@ -31,7 +31,7 @@ bool has_area(const Problem& problem, const Points& points) {
 
 // Met from the other side at most of the boundary's vertices: a bulge that has turned inside out.
 bool is_behind(const Problem& problem, const Solution& solution) {
-    if (problem.options.equation == Equation::minimal) return false;
+    if (problem.options.equation == Equation::soap_film) return false;
     const VectorX angles = boundary_angles(problem.patch, solution.boundary_normals, problem.fixed_normals);
     return 2 * (angles.array() > turned_back).count() > (angles.array() > 0.0).count();
 }

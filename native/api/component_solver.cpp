@@ -218,7 +218,7 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
     const Start kind = options_.start;
-    const bool meets_normals = options_.solver.equation != Equation::minimal;
+    const bool meets_normals = options_.solver.equation != Equation::soap_film;
     if (kind != Start::least_variation && !(kind == Start::given && meets_normals)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
     return NearStart{start, fairness() == InnerFairness::conformal && reference_ == start};

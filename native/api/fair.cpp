@@ -60,7 +60,7 @@ public:
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
         result_.ways.insert(result_.ways.end(), solution.ways.begin(), solution.ways.end());
-        const bool has_normals = options_.solver.equation != Equation::minimal;
+        const bool has_normals = options_.solver.equation != Equation::soap_film;
         const Points& prescribed = has_normals ? answer.problem.fixed_normals : solution.boundary_normals;
         const VectorX angles = boundary_angles(patch, solution.boundary_normals, prescribed);
         add_largest(patch, angles, side_angles_);
@@ -158,8 +158,8 @@ private:
             result_.mean_curvature.setZero(solved_sides_.size());
             return;
         }
-        const auto boundary = options_.solver.equation == Equation::minimal ? NormalsAtBoundary::one_sided
-                                                                            : NormalsAtBoundary::prescribed;
+        const auto boundary = options_.solver.equation == Equation::soap_film ? NormalsAtBoundary::one_sided
+                                                                              : NormalsAtBoundary::prescribed;
         const NormalKind kind = options_.solver.normals;
         result_.mean_curvature =
             prepared_.is_all_patches

@@ -23,7 +23,7 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
         add_thinned(thin, loop, {points(Eigen::all, loop), through.normals[l]});
     }
     SolverOptions film;
-    film.equation = Equation::minimal;
+    film.equation = Equation::soap_film;
     Stopwatch watch;
     const NewSurface first =
         fill_loops({points, thin.loops, thin.normals}, false, film, within(progress.range(0.0, 0.2)));

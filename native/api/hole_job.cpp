@@ -40,7 +40,7 @@ Indices drawn(const CurvesThrough* through, const HoledMesh& mesh) {
 // Of the first surface: harmonic but for the equations that join what no harmonic surface does.
 Equation first_equation(const FillOptions& options) {
     const Equation asked = options.fair.solver.equation;
-    const bool is_own = asked == Equation::least_variation || asked == Equation::minimal ||
+    const bool is_own = asked == Equation::least_variation || asked == Equation::soap_film ||
                         (asked == Equation::automatic && !options.joins_curvature);
     return is_own ? asked : Equation::harmonic;
 }
@@ -250,7 +250,7 @@ SolvedHole HoleJob::surface(const Progress& progress) const {
         first_over(loops_, split_.loops, split_.parted, first_equation(options_), progress.range(0.0, 0.2));
     const double first_seconds = watch.lap();
     HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals()};
-    if (solver.equation == Equation::minimal) patch.normals = std::nullopt;
+    if (solver.equation == Equation::soap_film) patch.normals = std::nullopt;
     WantedLengths wanted{options_.spacing, 0, options_.spread};
     const double count = expected_remesh_count(patch.input({}), wanted);
     most.check(count, boundary, first.converged);

@@ -54,23 +54,23 @@ py::dict to_dict(const FairResult& result) {
     return dict;
 }
 
-FairOptions to_fair_options(const Options& given, const PaperOptions& paper, const FairnessArrays& fairness) {
-    FairOptions options = given.fair;
-    options.paper = paper;
-    options.solver.nested = paper.levels != 1;
-    if (fairness.weights) {
-        options.custom = to_directed(*fairness.weights);
-        options.inner_fairness = InnerFairness::custom;
-    }
-    if (fairness.neighbours) {
-        const Indices flat = to_indices(*fairness.neighbours);
-        auto& edges = options.neighbours.emplace();
-        for (std::size_t k = 0; k + 1 < flat.size(); k += 2) edges.push_back({flat[k], flat[k + 1]});
-    }
-    return options;
+namespace {
+
+void set_neighbours(Options& options, const IntArray& edges) {
+    const Indices flat = to_indices(edges);
+    auto& neighbours = options.fair.neighbours.emplace();
+    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) neighbours.push_back({flat[k], flat[k + 1]});
 }
 
-namespace {
+void set_weights(Options& options, const DoubleArray& rows) {
+    options.fair.custom = to_directed(rows);
+    options.fair.inner_fairness = InnerFairness::custom;
+}
+
+void set_paper(Options& options, const PaperOptions& paper) {
+    options.fair.paper = paper;
+    options.fair.solver.nested = paper.levels != 1;
+}
 
 Preview shown_by(PythonRun& run, const py::object& preview) {
     if (preview.is_none()) return {};
@@ -81,9 +81,8 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                      const std::optional<DoubleArray>& fixed_normals,
                      const std::optional<DoubleArray>& fixed_curvatures,
                      const std::optional<DoubleArray>& fixed_tensions, const std::optional<DoubleArray>& reference,
-                     const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                     const std::optional<IntArray>& outside, const Options& options, const PaperOptions& paper,
-                     const py::object& callback, const py::object& preview) {
+                     const std::optional<IntArray>& outside, const Options& options, const py::object& callback,
+                     const py::object& preview) {
     PythonRun run(callback);
     MeshInput input{view_points(vertices),
                     to_triangles(IntArray::ensure(triangles)),
@@ -94,25 +93,20 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                     options.held,
                     to_optional(fixed_tensions, to_vector)};
     const auto m0 = to_optional(reference, view_points);
-    const FairOptions fair_options = to_fair_options(options, paper, {neighbours, weights});
     return to_dict(run.without_gil([&](const ProgressCallback& progress) {
-        return fair(std::move(input), m0, fair_options, progress, shown_by(run, preview));
+        return fair(std::move(input), m0, options.fair, progress, shown_by(run, preview));
     }));
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
 class PythonSolver {
 public:
-    PythonSolver(const IntArray& triangles, const std::optional<IntArray>& fixed,
-                 const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                 const std::pair<Options, PaperOptions>& options)
-        : solver_(to_triangles(triangles), to_optional(fixed, to_indices), options.first.held,
-                  to_fair_options(options.first, options.second, {neighbours, weights})) {}
+    PythonSolver(const IntArray& triangles, const std::optional<IntArray>& fixed, const Options& options)
+        : solver_(to_triangles(triangles), to_optional(fixed, to_indices), options.held, options.fair) {}
 
-    void change(const std::optional<IntArray>& neighbours, const std::optional<DoubleArray>& weights,
-                const std::pair<Options, PaperOptions>& options) {
+    void change(const Options& options) {
         const Hold hold(busy_);
-        solver_.change(to_fair_options(options.first, options.second, {neighbours, weights}));
+        solver_.change(options.fair);
     }
 
     py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
@@ -145,40 +139,6 @@ private:
     std::atomic<bool> busy_ = false;
 };
 
-template <typename Value>
-void read(const py::dict& given, const char* name, Value& value) {
-    if (given.contains(name)) value = given[name].cast<Value>();
-}
-
-template <typename Enum, std::size_t N>
-void read(const py::dict& given, const Words<Enum, N>& words, Enum& value) {
-    const std::string name(words.option);
-    if (given.contains(name)) value = words.value(given[name.c_str()].cast<std::string>());
-}
-
-Options to_options(const py::kwargs& given) {
-    Options options;
-    SolverOptions& solver = options.fair.solver;
-    read(given, equation_words, solver.equation);
-    read(given, otherwise_words, solver.otherwise);
-    read(given, normal_words, solver.normals);
-    read(given, "load", solver.load);
-    read(given, "tolerance", solver.tolerance);
-    read(given, "max_iterations", solver.max_iterations);
-    read(given, method_words, options.fair.method);
-    read(given, fairness_words, options.fair.inner_fairness);
-    read(given, solve_start_words, options.fair.start);
-    read(given, "bulge", options.fair.bulge);
-    read(given, "detail", options.fair.detail.share);
-    read(given, "detail_size", options.fair.detail.size);
-    read(given, "pin_radius", options.fair.pin_radius);
-    read(given, "threads", options.fair.threads);
-    read(given, "creases", options.held.creases);
-    read(given, "smooth_curves", options.held.smooth_curves);
-    read(given, "fair_border", options.held.fair_border);
-    return options;
-}
-
 // An attribute whose values are words.
 template <typename Enum, std::size_t N>
 void add_words(py::class_<PaperOptions>& options, Enum PaperOptions::* member, const Words<Enum, N>& words) {
@@ -201,6 +161,43 @@ void bind_paper_options(py::module_& module) {
     add_words(options, &PaperOptions::start, start_words);
 }
 
+// An option that Python sets; `of`: where it is.
+template <typename Value>
+void add(py::class_<Options>& options, const char* name, Value& (*of)(Options&)) {
+    options.def_property(name, nullptr, [of](Options& o, const Value& value) { of(o) = value; });
+}
+
+template <typename Enum, std::size_t N>
+void add(py::class_<Options>& options, const Words<Enum, N>& words, Enum& (*of)(Options&)) {
+    options.def_property(std::string(words.option).c_str(), nullptr,
+                         [&words, of](Options& o, const std::string& word) { of(o) = words.value(word); });
+}
+
+void bind_options(py::module_& module) {
+    py::class_<Options> options(module, "Options", py::module_local());
+    options.def(py::init<>());
+    add(options, equation_words, +[](Options& o) -> Equation& { return o.fair.solver.equation; });
+    add(options, otherwise_words, +[](Options& o) -> Otherwise& { return o.fair.solver.otherwise; });
+    add(options, "load", +[](Options& o) -> double& { return o.fair.solver.load; });
+    add(options, "bulge", +[](Options& o) -> double& { return o.fair.bulge; });
+    add(options, fairness_words, +[](Options& o) -> InnerFairness& { return o.fair.inner_fairness; });
+    add(options, method_words, +[](Options& o) -> Method& { return o.fair.method; });
+    add(options, normal_words, +[](Options& o) -> NormalKind& { return o.fair.solver.normals; });
+    add(options, "tolerance", +[](Options& o) -> double& { return o.fair.solver.tolerance; });
+    add(options, "max_iterations", +[](Options& o) -> int& { return o.fair.solver.max_iterations; });
+    add(options, "threads", +[](Options& o) -> int& { return o.fair.threads; });
+    add(options, "detail", +[](Options& o) -> double& { return o.fair.detail.share; });
+    add(options, "detail_size", +[](Options& o) -> double& { return o.fair.detail.size; });
+    add(options, solve_start_words, +[](Options& o) -> Start& { return o.fair.start; });
+    add(options, "creases", +[](Options& o) -> Indices& { return o.held.creases; });
+    add(options, "smooth_curves", +[](Options& o) -> Indices& { return o.held.smooth_curves; });
+    add(options, border_words, +[](Options& o) -> bool& { return o.held.fair_border; });
+    add(options, "pin_radius", +[](Options& o) -> double& { return o.fair.pin_radius; });
+    options.def_property("neighbours", nullptr, &set_neighbours);
+    options.def_property("weights", nullptr, &set_weights);
+    options.def_property("paper", nullptr, &set_paper);
+}
+
 template <typename Enum, std::size_t N>
 void tell(py::dict& all, const Words<Enum, N>& words) {
     py::list list;
@@ -218,6 +215,7 @@ py::dict all_words() {
     tell(all, fairness_words);
     tell(all, virtual_point_words);
     tell(all, start_words);
+    tell(all, border_words);
     tell(all, acceleration_words);
     tell(all, termination_words);
     return all;
@@ -227,19 +225,17 @@ py::dict all_words() {
 
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
-    py::class_<Options>(module, "Options", py::module_local()).def(py::init(&to_options));
     bind_paper_options(module);
+    bind_options(module);
     py::class_<PythonSolver>(module, "Solver", py::module_local())
-        .def(py::init<const IntArray&, const std::optional<IntArray>&, const std::optional<IntArray>&,
-                      const std::optional<DoubleArray>&, const std::pair<Options, PaperOptions>&>(),
-             py::arg("triangles"), py::arg("fixed"), py::arg("neighbours"), py::arg("weights"), py::arg("options"))
-        .def("change", &PythonSolver::change, py::arg("neighbours"), py::arg("weights"), py::arg("options"))
+        .def(py::init<const IntArray&, const std::optional<IntArray>&, const Options&>(), py::arg("triangles"),
+             py::arg("fixed"), py::arg("options"))
+        .def("change", &PythonSolver::change, py::arg("options"))
         .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
              py::arg("fixed_tensions"), py::arg("reference"), py::arg("progress"), py::arg("preview"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
                py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("fixed_tensions"), py::arg("reference"),
-               py::arg("neighbours"), py::arg("weights"), py::arg("outside"), py::arg("options"), py::arg("paper"),
-               py::arg("progress"), py::arg("preview"));
+               py::arg("outside"), py::arg("options"), py::arg("progress"), py::arg("preview"));
 }
 
 }  // namespace fairing::bindings

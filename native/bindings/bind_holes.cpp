@@ -133,17 +133,11 @@ public:
     }
 
     [[nodiscard]] py::list fill(const std::vector<std::optional<Through>>& through, const Wishes& wishes,
-                                const std::pair<Options, PaperOptions>& given, const py::object& callback) const {
+                                const Options& given, const py::object& callback) const {
         PythonRun run(callback);
         const auto& [bridge, in_rows, joins, spacing, is_even, most] = wishes;
-        FillOptions options{to_fair_options(given.first, given.second, {}),
-                            given.first.held,
-                            joins,
-                            bridge,
-                            in_rows,
-                            spacing,
-                            is_even ? Spread::equal : Spread::outline,
-                            most};
+        FillOptions options{
+            given.fair, given.held, joins, bridge, in_rows, spacing, is_even ? Spread::equal : Spread::outline, most};
         const auto curves = each(through, to_curves);
         const std::vector<FilledHole> filled = run.without_gil([&](const ProgressCallback& progress) {
             return fairing::fill(*mesh_, found_.holes, curves, options, progress);

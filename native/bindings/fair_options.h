@@ -6,19 +6,11 @@
 
 namespace fairing::bindings {
 
-// What a caller chooses but arrays.
+// What Python's options come to: its groups (fairing/_groups.py) set them by name.
 struct Options {
     FairOptions fair;
     HeldInside held;
 };
-
-// Inner fairness that is given by arrays.
-struct FairnessArrays {
-    std::optional<IntArray> neighbours;
-    std::optional<DoubleArray> weights;
-};
-
-FairOptions to_fair_options(const Options& options, const PaperOptions& paper, const FairnessArrays& fairness);
 
 py::dict to_dict(const FairResult& result);
 

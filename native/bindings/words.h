@@ -52,7 +52,7 @@ inline constexpr Words<Equation, 6> equation_words{"equation",
                                                    {{{"harmonic", Equation::harmonic},
                                                      {"constant", Equation::constant},
                                                      {"minimal_energy", Equation::minimal_energy},
-                                                     {"minimal", Equation::minimal},
+                                                     {"soap_film", Equation::soap_film},
                                                      {"least_variation", Equation::least_variation},
                                                      {"automatic", Equation::automatic}}}};
 inline constexpr Words<Otherwise, 2> otherwise_words{
@@ -63,6 +63,7 @@ inline constexpr Words<InnerFairness, 4> fairness_words{"inner_fairness",
                                                           {"conformal", InnerFairness::conformal},
                                                           {"inverse_distance", InnerFairness::inverse_distance},
                                                           {"shape_preserving", InnerFairness::shape_preserving}}}};
+inline constexpr Words<bool, 2> border_words{"open_border", {{{"held", false}, {"faired", true}}}};
 inline constexpr Words<VirtualPoints, 3> virtual_point_words{"virtual_points",
                                                              {{{"sparse", VirtualPoints::sparse},
                                                                {"coarse", VirtualPoints::coarse},

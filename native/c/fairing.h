@@ -52,7 +52,7 @@ typedef struct fairing_error {
 /* What to make. Begin with fairing_default_options(). */
 typedef struct fairing_options {
     size_t size;                /* sizeof(fairing_options), for libraries of other versions */
-    const char* equation;       /* "harmonic", "automatic", "minimal_energy", "minimal", "least_variation" */
+    const char* equation;       /* "harmonic", "automatic", "minimal_energy", "soap_film", "least_variation" */
     const char* side;           /* whose slope counts at the boundary: "automatic", "outside", "inside" */
     const char* inner_fairness; /* how vertices sit within it: "uniform", "conformal", "shape_preserving", … */
     double bulge;               /* of "constant": 1 lifts a flat disc by about a quarter of its radius */

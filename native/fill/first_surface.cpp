@@ -71,7 +71,7 @@ Triangles triangulated(const OpenOutline& outline, Equation equation) {
     constexpr double better = 0.25;  // of the mean cosine
     const Triangles least = joined_loops(outline.points, outline.loops);
     const double before = agreement(outline, least);
-    if (before + better >= 1.0 || equation == Equation::minimal) return least;
+    if (before + better >= 1.0 || equation == Equation::soap_film) return least;
     const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
     return agreement(outline, along) > before + better && is_surface(along) ? along : least;
 }
@@ -187,7 +187,7 @@ FirstSurface on_equal_edges(const OpenOutline& outline, const FirstSurface& last
 // Where the surface bulges out so far that it is found from a ball only.
 std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& flat, const SolverOptions& options,
                                       const Progress& progress) {
-    if (options.equation == Equation::minimal) return std::nullopt;
+    if (options.equation == Equation::soap_film) return std::nullopt;
     const std::optional<Points> ball = ball_start(flat.patch, flat.points, outline.normals);
     if (!ball) return std::nullopt;
     Meshed equal = with_equal_edges(outline, flat.patch, *ball, options);
@@ -204,7 +204,7 @@ Meshed tube_mesh(const OpenOutline& outline, const SweptTube& swept, const Solve
 }
 
 bool may_be_replaced(const SolverOptions& options) {
-    const bool has_stand_in = options.equation != Equation::least_variation && options.equation != Equation::minimal;
+    const bool has_stand_in = options.equation != Equation::least_variation && options.equation != Equation::soap_film;
     return has_stand_in && options.otherwise != Otherwise::stop;
 }
 
@@ -220,7 +220,7 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
         solution = solve_near(problem, {equal.points, true}, progress.range(0.0, 0.3));
-    if (!solution && options.equation != Equation::minimal)
+    if (!solution && options.equation != Equation::soap_film)
         solution = solve_stand_in_roughly(problem, equal.points, progress.range(0.3, 1.0));
     if (!solution && swept->turn() > wide_bend && may_be_replaced(options)) solution = lofted(problem, progress.here());
     if (!solution) return std::nullopt;

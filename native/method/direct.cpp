@@ -56,7 +56,7 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     start.membrane = start.points;
     start.initial_residual = residual_of(problem, start.points);
     start.fill_seconds = watch.seconds();
-    if (problem.options.equation == Equation::minimal) {
+    if (problem.options.equation == Equation::soap_film) {
         start.points = descend_area(problem, work, start.points, progress);
         return start;
     }
@@ -73,7 +73,7 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
 // The candidate instead where the solution did not converge, which may end anywhere, and is more bent. Solutions of
 // part of a load and minimal surfaces stay as they are: bending does not compare them.
 void keep_less_bent(const Problem& problem, const Points& candidate, Solution& solution) {
-    if (problem.options.equation == Equation::minimal || solution.termination == Termination::converged) return;
+    if (problem.options.equation == Equation::soap_film || solution.termination == Termination::converged) return;
     if (solution.reached_load > 0.0) return;
     if (willmore_energy(problem, solution.points) <= willmore_energy(problem, candidate)) return;
     const SurfaceState state = measured_surface(problem, candidate);

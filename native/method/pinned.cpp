@@ -20,7 +20,7 @@ Solution with_pins(Solution solution, Pins pins) {
 
 bool is_of_fourth_order(const Problem& problem, const Solution& solution) {
     const Equation equation = problem.options.equation;
-    return equation != Equation::minimal && equation != Equation::least_variation && !stands_in(solution.provenance);
+    return equation != Equation::soap_film && equation != Equation::least_variation && !stands_in(solution.provenance);
 }
 
 bool are_close(const Problem& problem, const Indices& pins, double distance) {

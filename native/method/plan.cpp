@@ -28,7 +28,7 @@ bool has_little_chance(const Traits& traits) {
 }
 
 std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, bool lifts_pins) {
-    if (problem.options.equation == Equation::minimal) return {Step::direct};
+    if (problem.options.equation == Equation::soap_film) return {Step::direct};
     if (problem.options.equation == Equation::least_variation) return {Step::least_variation};
     std::vector<Step> steps = on_the_users_mesh(problem, traits);
     const bool is_hopeless = (traits.is_large && traits.is_beyond_reach) || has_little_chance(traits);
@@ -44,7 +44,7 @@ std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, b
 // least bent of the lofts takes a tenth of a second.
 std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     const SolverOptions& options = problem.options;
-    const bool wanted = options.otherwise == Otherwise::least_variation && options.equation != Equation::minimal &&
+    const bool wanted = options.otherwise == Otherwise::least_variation && options.equation != Equation::soap_film &&
                         options.equation != Equation::least_variation;
     std::vector<Step> steps;
     if (!wanted) return steps;

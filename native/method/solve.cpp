@@ -136,7 +136,7 @@ private:
                 return solution || has_other ? std::move(solution) : try_directly(problem_, progress);
             }
             case Step::direct: {
-                const bool is_all = problem_.options.equation == Equation::minimal;
+                const bool is_all = problem_.options.equation == Equation::soap_film;
                 return is_all ? solve_directly(problem_, progress) : try_directly(problem_, progress);
             }
             case Step::own_mesh: return solve_on_own_mesh(problem_, traits_, attempts_, progress);
@@ -229,7 +229,7 @@ std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, 
 std::optional<Solution> solve_stand_in_roughly(const Problem& problem, const Points& near, const Progress& progress) {
     const SolverOptions& options = problem.options;
     const bool wanted = options.equation == Equation::least_variation ||
-                        (options.otherwise == Otherwise::least_variation && options.equation != Equation::minimal);
+                        (options.otherwise == Otherwise::least_variation && options.equation != Equation::soap_film);
     if (!wanted || Traits(problem).is_jagged) return std::nullopt;
     const Stopwatch watch;
     VariationLimits limits{most_product};

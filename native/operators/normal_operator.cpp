@@ -17,7 +17,7 @@ constexpr int largest_assembled(Solves solves) { return solves == Solves::few ? 
 
 std::unique_ptr<NormalOperator> make_normal_operator(const Problem& problem, Points layout, Solves solves) {
     const Patch& patch = problem.patch;
-    if (problem.options.equation == Equation::minimal)
+    if (problem.options.equation == Equation::soap_film)
         return std::make_unique<LaplaceOperator>(patch, std::move(layout));
     if (patch.free_count <= largest_assembled(solves))
         return std::make_unique<BiharmonicOperator>(patch, std::move(layout));

@@ -35,7 +35,7 @@ double outer_source(const SolverOptions& options, const CurvatureFit& fit) {
         case Equation::harmonic:
         case Equation::automatic:
         case Equation::least_variation:
-        case Equation::minimal: return 0.0;
+        case Equation::soap_film: return 0.0;
     }
     return 0.0;
 }
@@ -131,7 +131,7 @@ double LevelState::unfairness(const LevelProblem& level) const {
 
 double LevelState::residual(const LevelProblem& level, const CurvatureEquation& equation) const {
     const int n = level.patch.free_count;
-    const double largest = level.solver.equation == Equation::minimal
+    const double largest = level.solver.equation == Equation::soap_film
                                ? H.head(n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>()
                                : equation.defect(right_hand_side(level), H)
                                      .cwiseAbs()

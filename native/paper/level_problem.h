@@ -23,7 +23,7 @@ struct LevelProblem {
     }
     // Whether the boundary data prescribe the normal.
     [[nodiscard]] bool prescribes_normal(int vertex) const {
-        return solver.equation != Equation::minimal && !patch.is_free(vertex) &&
+        return solver.equation != Equation::soap_film && !patch.is_free(vertex) &&
                !patch.pin[static_cast<std::size_t>(vertex)];
     }
 };

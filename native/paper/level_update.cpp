@@ -47,7 +47,7 @@ bool LevelUpdate::measure_again() {
 
 void LevelUpdate::local(double damping) {
     VectorX H = state_.H;
-    if (level_.solver.equation != Equation::minimal) {
+    if (level_.solver.equation != Equation::soap_film) {
         equation_.sweep(state_.right_hand_side(level_), level_.paper.h_sweeps, H);
     } else {
         H.setZero();
@@ -57,7 +57,7 @@ void LevelUpdate::local(double damping) {
 
 void LevelUpdate::global(double damping) {
     VectorX H = state_.H;
-    if (level_.solver.equation != Equation::minimal) {
+    if (level_.solver.equation != Equation::soap_film) {
         equation_.conjugate_gradients(state_.right_hand_side(level_), level_.paper.cg_steps, H);
     } else {
         H.setZero();

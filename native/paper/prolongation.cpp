@@ -150,7 +150,7 @@ private:
     }
 
     [[nodiscard]] bool prescribed(int v) const {
-        return setting_.solver.equation != Equation::minimal && !setting_.patch.is_free(v) && !setting_.patch.pin[v];
+        return setting_.solver.equation != Equation::soap_film && !setting_.patch.is_free(v) && !setting_.patch.pin[v];
     }
 
     [[nodiscard]] Disk disk_of(const StoredDisk& disk, bool completed) const {
@@ -172,7 +172,7 @@ private:
             stored_[k].curvature_weights.resize(weight_count(disk));
             fit_.weights(stored_[k].curvature_weights);
         }
-        if (setting_.solver.equation == Equation::minimal) return;
+        if (setting_.solver.equation == Equation::soap_film) return;
         for_each_movable([&](std::size_t k) { measure_cotangents(stored_[k], points); });
     }
 
@@ -210,7 +210,7 @@ private:
         const StoredDisk& disk = stored_[k];
         double sum = 0.0;
         double diagonal = 0.0;
-        if (setting_.solver.equation != Equation::minimal) {
+        if (setting_.solver.equation != Equation::soap_film) {
             for (std::size_t j = 0; j < disk.cotangents.size(); ++j) {
                 sum += disk.cotangents[j] * H_[disk.neighbours[j]];
                 diagonal += disk.cotangents[j];

@@ -19,7 +19,7 @@ namespace fairing {
 namespace {
 
 std::unique_ptr<NormalOperator> make_operator(const Problem& problem) {
-    if (problem.options.equation == Equation::minimal) return std::make_unique<LaplaceOperator>(problem.patch);
+    if (problem.options.equation == Equation::soap_film) return std::make_unique<LaplaceOperator>(problem.patch);
     return std::make_unique<BiharmonicOperator>(problem.patch);
 }
 
@@ -70,7 +70,7 @@ Points neutral_surface(const Problem& problem, const Progress& progress) {
                           problem.options};
     Workspace work = make_workspace(uniform, progress.here());
     Points best = membrane(uniform, work);
-    if (problem.options.equation == Equation::minimal) return best;
+    if (problem.options.equation == Equation::soap_film) return best;
     double least = unevenness(problem.patch, best);
     const Points boundary = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
     const Fill fill = clamped_fill(problem.patch, problem.fixed_points, boundary, *work.normal, progress.here());
@@ -87,7 +87,7 @@ Points neutral_surface(const Problem& problem, const Progress& progress) {
 
 Points start_of_level(const LevelProblem& level, const Stiffness& stiffness, const Points& fixed_points,
                       const Progress& progress) {
-    const bool minimal = level.solver.equation == Equation::minimal;
+    const bool minimal = level.solver.equation == Equation::soap_film;
     const bool improved = level.paper.start == PaperStart::improved;
     if (!minimal && !improved) return linear_start(level, stiffness, fixed_points, progress);
     SolverOptions options = level.solver;

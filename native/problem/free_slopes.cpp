@@ -64,12 +64,12 @@ void turn_along(const Indices& loop, const Problem& problem, const Points& point
 }  // namespace
 
 Equation equation_for(const Patch& patch, Equation asked) {
-    if (asked == Equation::minimal) return asked;
+    if (asked == Equation::soap_film) return asked;
     bool curves = false;
     for (int v = patch.free_count; v < patch.vertex_count() && !curves; ++v)
         curves = patch.pin[v] && is_on_curve(patch, v);
     if (!curves) return asked;
-    return is_one_bare_loop(patch) ? Equation::minimal : Equation::least_variation;
+    return is_one_bare_loop(patch) ? Equation::soap_film : Equation::least_variation;
 }
 
 Problem with_slopes_of(const Problem& problem, const Points& points) {

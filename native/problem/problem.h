@@ -12,7 +12,7 @@ enum class Equation {
     harmonic,         // Δ_B H = 0 with G1 boundary data
     constant,         // Δ_B H = load
     minimal_energy,   // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
-    minimal,          // H = 0 with G0 boundary data
+    soap_film,        // H = 0 with G0 boundary data
     least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
     automatic,        // of a call only: least_variation for long tubes, harmonic elsewhere (start/automatic_equation)
 };

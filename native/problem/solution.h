@@ -80,7 +80,7 @@ struct Solution {
     bool polished = true;  // the equation holds on the patch's own connectivity
     int iterations = 0;
     int unfinished_solves = 0;      // of its steps along the normals: systems that ended at a limit of cycles
-    double residual = 0.0;          // largest |Δ_B H| (|H| for minimal) at free vertices
+    double residual = 0.0;          // largest |Δ_B H| (|H| for soap films) at free vertices
     double initial_residual = 0.0;  // of the fill
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
     std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself

@@ -20,8 +20,8 @@ void SurfaceState::measure_faces(const Patch& patch) {
 
 void SurfaceState::measure_curvature(const Problem& problem) {
     // Without prescribed normals (G0) the outline's come from the surface itself.
-    const Points boundary = problem.options.equation == Equation::minimal ? one_sided_normals(problem.patch, points)
-                                                                          : problem.fixed_normals;
+    const Points boundary = problem.options.equation == Equation::soap_film ? one_sided_normals(problem.patch, points)
+                                                                            : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);
     curvature = patch_curvature(problem.patch, points, std::exchange(faces, {}), normals, problem.options.normals);
 }
@@ -113,7 +113,7 @@ VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
         case Equation::harmonic:
         case Equation::automatic:
         case Equation::least_variation: break;
-        case Equation::minimal: return 4.0 * mass * H;
+        case Equation::soap_film: return 4.0 * mass * H;
         case Equation::constant: return harmonic_residual(problem, state).array() + 2.0 * mass * problem.options.load;
         case Equation::minimal_energy: {
             const auto K = state.curvature.gaussian().head(count).array().eval();
@@ -124,7 +124,7 @@ VectorX outer_residual(const Problem& problem, const SurfaceState& state) {
 }
 
 double largest_residual(const Problem& problem, const SurfaceState& state, const VectorX& residual) {
-    const double factor = problem.options.equation == Equation::minimal ? 4.0 : 2.0;
+    const double factor = problem.options.equation == Equation::soap_film ? 4.0 : 2.0;
     return residual.cwiseAbs().cwiseQuotient(factor * state.stiffness.mass.head(residual.size())).maxCoeff();
 }
 

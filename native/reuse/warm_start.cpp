@@ -22,7 +22,7 @@ constexpr int tolerated_growth = 3;
 }  // namespace
 
 void WarmStart::choose_operator(const Problem& problem) {
-    const bool minimal = problem.options.equation == Equation::minimal;
+    const bool minimal = problem.options.equation == Equation::soap_film;
     if (work_.normal && is_laplacian_ == minimal) return;
     is_laplacian_ = minimal;
     work_.keeps_factor = false;
@@ -63,7 +63,7 @@ void WarmStart::remember(const Problem& problem, const Solution& solution, const
 
 Points WarmStart::continued(const Problem& problem, const Points& fixed_displacement,
                             const Points& conormal_change) const {
-    if (problem.options.equation != Equation::minimal) {
+    if (problem.options.equation != Equation::soap_film) {
         return clamped_displacement(patch_, factorised_, fixed_displacement, conormal_change, *work_.normal);
     }
     Points field = Points::Zero(3, patch_.vertex_count());
@@ -106,7 +106,7 @@ Solution WarmStart::iterate_from(const Problem& problem, const Points& start, co
 
 std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress& progress) {
     // A minimal surface has another tangent plane at the outline: the last answer is a worse start than the outline.
-    if (!ready_ || is_laplacian_ != (problem.options.equation == Equation::minimal)) return std::nullopt;
+    if (!ready_ || is_laplacian_ != (problem.options.equation == Equation::soap_film)) return std::nullopt;
     Stopwatch watch;
     if (!work_.keeps_factor && !factorise(problem, points_, progress.here())) return std::nullopt;
     const std::optional<Points> start = moved_along(problem);

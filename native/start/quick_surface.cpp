@@ -102,7 +102,7 @@ std::optional<Points> least_bent_fill(const Problem& given, const std::optional<
 }  // namespace
 
 std::optional<Points> quick_surface(const Problem& problem, const Progress& progress) {
-    if (problem.options.equation == Equation::minimal) return harmonic_map(problem, progress);
+    if (problem.options.equation == Equation::soap_film) return harmonic_map(problem, progress);
     return least_bent_fill(problem, shape_before(problem, progress), progress);
 }
 

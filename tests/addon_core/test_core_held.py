@@ -172,7 +172,7 @@ def test_a_mesh_that_is_read_again_is_not_searched_again(monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(
-    "options", [{"equation": "CONSTANT"}, {"equation": "MINIMAL"}, {"continuity": "G2"}, {"outline": "MENDED"}]
+    "options", [{"equation": "CONSTANT"}, {"equation": "SOAP_FILM"}, {"continuity": "G2"}, {"outline": "MENDED"}]
 )
 def test_shapes_that_know_no_edges_are_not_changed_by_unmarked_ones(options: dict[str, str]) -> None:
     mesh, _ = dented_fold()

@@ -99,7 +99,7 @@ def test_counts_must_not_grow(
     assert (values(found)["Faces that cross"], states(found)["Faces that cross"]) == (value, state)
 
 
-@pytest.mark.parametrize("options", [{"equation": "MINIMAL"}, {"factor": 0.5}])
+@pytest.mark.parametrize("options", [{"equation": "SOAP_FILM"}, {"factor": 0.5}])
 def test_a_soap_film_and_a_blend_promise_no_smooth_join(sphere: Fairing, options: dict[str, Any]) -> None:
     assert "Kink at the boundary" not in states(report(sphere, **options))
 

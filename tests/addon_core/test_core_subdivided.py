@@ -69,7 +69,7 @@ def test_a_coarse_hole_gets_edges_as_wanted(scale: float) -> None:
     matrix = np.diag([scale, scale, scale, 1.0])
     counts = {}
     for subdivides in (False, True):
-        options = FillOptions(equation="MINIMAL", spacing=0.2, subdivide_boundary=subdivides)
+        options = FillOptions(equation="SOAP_FILM", spacing=0.2, subdivide_boundary=subdivides)
         filled = fill(mesh, matrix, loops, options)
         (piece,) = filled.pieces
         assert piece.verdict.grade == GOOD
@@ -101,7 +101,7 @@ def test_a_refusal_names_vertices_that_are_there() -> None:
     """The parted boundary has more; in a fill and on a new mesh."""
     mesh = box(open_top=True)
     loops, _ = border_loops(mesh, mesh.positions[:, 2] > 0)
-    options = FillOptions(equation="MINIMAL", spacing=0.2, subdivide_boundary=True, max_vertices=3)
+    options = FillOptions(equation="SOAP_FILM", spacing=0.2, subdivide_boundary=True, max_vertices=3)
     closed = box(open_top=False)
     few = FairOptions(mesh="NEW", spacing=0.2, subdivide_boundary=True, max_vertices=3)
     for run in (lambda: fill(mesh, EYE, loops, options), lambda: remesh_arrays(closed, EYE, few)):

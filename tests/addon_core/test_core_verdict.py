@@ -122,7 +122,7 @@ def test_a_waist_and_a_balloon_deserve_a_look_and_even_curvature(
         assert bool(len(verdict.spots)) == bool(reason)
     taken = replace(tube, result=replace(tube.result, equation="least_variation"))
     assert EVEN_CURVATURE not in judged(taken).remedies  # it is what Automatic has taken
-    for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
+    for meant in ({"detail": 0.5}, {"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "SOAP_FILM"}):
         assert judged(tube, **meant).grade == GOOD, meant
 
 
@@ -131,7 +131,7 @@ def test_a_surface_that_sinks_deserves_a_look(fine: Evidence) -> None:
     verdict = judged(sunk)
     assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [3, 4])
     assert verdict.reason == "The surface sinks by 7% of its width: a ridge, a bevel or a girth is lost"
-    for meant in ({"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "MINIMAL"}):
+    for meant in ({"equation": "CONSTANT", "bulge": 1.0}, {"factor": 0.5}, {"equation": "SOAP_FILM"}):
         assert judged(sunk, **meant).grade == GOOD, meant
     assert judged(sunk, detail=0.5).grade == LOOK  # skin is put on what has sunk
 
@@ -371,7 +371,7 @@ def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
     assert judged(replace(marked, join=kinked.join)).reason.startswith("Edges marked sharp")
     assert judged(marked).spots.tolist() == [4]
     assert judged(marked).reason.startswith("Edges marked sharp were rounded off at 1 vertex")
-    for options in ({"factor": 0.5}, {"equation": "MINIMAL"}):
+    for options in ({"factor": 0.5}, {"equation": "SOAP_FILM"}):
         assert judged(marked, **options).grade == GOOD
 
 
@@ -385,7 +385,7 @@ def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
     assert judged(turned).reason == (
         "The surface turns back from the slope around it at 2 vertices of the boundary, by 106°"
     )
-    assert judged(kinked, equation="MINIMAL").grade == GOOD
+    assert judged(kinked, equation="SOAP_FILM").grade == GOOD
     assert judged(kinked, factor=0.5).grade == GOOD
 
 

@@ -96,6 +96,11 @@ def test_a_band_is_refused_beside_it() -> None:
 
 def test_it_is_hidden_where_nothing_looks_at_it_and_counts_as_idle() -> None:
     options = module("core.options").FairOptions
-    for other in ({"continuity": "G2"}, {"method": "PAPER"}, {"equation": "LEAST_VARIATION"}, {"equation": "MINIMAL"}):
+    for other in (
+        {"continuity": "G2"},
+        {"method": "PAPER"},
+        {"equation": "LEAST_VARIATION"},
+        {"equation": "SOAP_FILM"},
+    ):
         assert "curvature_group" in options(curvature_group="Loose", **other).idle
     assert "curvature_group" not in options(curvature_group="Loose").idle

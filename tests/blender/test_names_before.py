@@ -12,8 +12,8 @@ from extension import module
 
 # The same run, as it was and as it is written.
 PAIRS: list[tuple[dict[str, Any], dict[str, Any]]] = [
-    ({"equation": "MINIMAL"}, {"continuity": "G0"}),
-    ({"equation": "MINIMAL", "continuity": "G2"}, {"continuity": "G0"}),
+    ({"equation": "SOAP_FILM"}, {"continuity": "G0"}),
+    ({"equation": "SOAP_FILM", "continuity": "G2"}, {"continuity": "G0"}),
     ({"equation": "CONSTANT", "bulge": 0.3}, {"bulge": 0.3}),
     ({"equation": "HARMONIC", "bulge": 0.3}, {"shape": "HARMONIC"}),
     ({"equation": "MINIMAL_ENERGY"}, {"shape": "MINIMAL_ENERGY"}),
@@ -71,7 +71,7 @@ def test_fill_and_fillet_know_theirs() -> None:
     with pytest.warns(DeprecationWarning, match="run_on"):
         assert pieces.FillOptions.named({"hard_edges": "IGNORED"}) == pieces.FillOptions.named({"run_on": False})
     with pytest.warns(DeprecationWarning, match="continuity='G0'"):
-        assert pieces.FillOptions.named({"equation": "MINIMAL"}) == pieces.FillOptions.named({"continuity": "G0"})
+        assert pieces.FillOptions.named({"equation": "SOAP_FILM"}) == pieces.FillOptions.named({"continuity": "G0"})
     assert rounding.FilletOptions.named({}) == rounding.FilletOptions()
 
 

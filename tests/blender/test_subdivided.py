@@ -72,7 +72,7 @@ def test_a_coarse_hole(quads: bool) -> None:
     bpy.ops.mesh.select_mode(type="EDGE")
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.ops.mesh.select_non_manifold()
-    options = {"equation": "MINIMAL", "spacing": 0.2, "quads": quads}
+    options = {"equation": "SOAP_FILM", "spacing": 0.2, "quads": quads}
     assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, subdivide_boundary=True, **options) == {"FINISHED"}
     meshes.leave()
     assert meshes.positions(obj)[:8].tobytes() == before.tobytes()
@@ -103,7 +103,7 @@ def test_a_coarse_patch_with_a_mesh_of_its_own() -> None:
 
 def test_a_script_gets_it_without_edit_mode_and_one_undo_takes_it_back() -> None:
     obj = box(open_top=True)
-    (result,) = module().fill_mesh(obj.data, equation="MINIMAL", spacing=0.5, subdivide_boundary=True)
+    (result,) = module().fill_mesh(obj.data, equation="SOAP_FILM", spacing=0.5, subdivide_boundary=True)
     assert result.converged
     check(obj, 2)
     other = box(open_top=True)
@@ -112,7 +112,7 @@ def test_a_script_gets_it_without_edit_mode_and_one_undo_takes_it_back() -> None
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.ops.mesh.select_non_manifold()
     bpy.ops.ed.undo_push(message="start")
-    bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, subdivide_boundary=True, equation="MINIMAL", spacing=0.5)
+    bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True, subdivide_boundary=True, equation="SOAP_FILM", spacing=0.5)
     bpy.ops.ed.undo()
     meshes.leave()
     assert len(bpy.context.object.data.vertices) == 8

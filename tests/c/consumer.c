@@ -85,9 +85,9 @@ static void test_the_tube_comes_back(void) {
 static void test_options(void) {
     fairing_options options = fairing_default_options();
     fairing_result* result = NULL;
-    options.equation = "minimal";
+    options.equation = "soap_film";
     CHECK(fair(&options, NULL, NULL, &result, NULL) == FAIRING_OK);
-    CHECK(strcmp(fairing_equation(result), "minimal") == 0);
+    CHECK(strcmp(fairing_equation(result), "soap_film") == 0);
     CHECK(off_the_tube(fairing_points(result)) > 0.01); /* a soap film has a waist */
     fairing_free(result);
 }

@@ -52,7 +52,7 @@ FairOptions random_options(FuzzedDataProvider& bytes, int vertex_count) {
         bytes.PickValueInArray({InnerFairness::uniform, InnerFairness::conformal, InnerFairness::inverse_distance,
                                 InnerFairness::shape_preserving, InnerFairness::custom});
     options.solver.equation =
-        bytes.PickValueInArray({Equation::harmonic, Equation::constant, Equation::minimal_energy, Equation::minimal});
+        bytes.PickValueInArray({Equation::harmonic, Equation::constant, Equation::minimal_energy, Equation::soap_film});
     if (options.solver.equation == Equation::constant) {
         options.solver.load = bytes.PickValueInArray({1.0, -20.0, 1e9, 1e-300, 1e300});
     }

@@ -111,7 +111,7 @@ TEST_CASE("pins side by side are a curve, and change the equation") {
     CHECK(isolated_pins(curve).empty());
     CHECK(equation_for(apart, Equation::harmonic) == Equation::harmonic);
     CHECK(equation_for(curve, Equation::harmonic) == Equation::least_variation);
-    CHECK(equation_for(curve, Equation::minimal) == Equation::minimal);
+    CHECK(equation_for(curve, Equation::soap_film) == Equation::soap_film);
 }
 
 TEST_CASE("triangles broken along an edge have a copy of its ends for each fan") {

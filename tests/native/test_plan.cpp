@@ -65,7 +65,7 @@ TEST_CASE("pins that may have a radius are lifted before anything stands in") {
 
 TEST_CASE("another equation than the harmonic one has a strategy of its own, and stop has no stand-in") {
     Asked asked(12);
-    asked.problem.options.equation = Equation::minimal;
+    asked.problem.options.equation = Equation::soap_film;
     CHECK(asked.plan() == "direct | ");
     asked.problem.options.equation = Equation::least_variation;
     CHECK(asked.plan() == "least variation | ");

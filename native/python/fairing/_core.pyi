@@ -12,27 +12,8 @@ WORDS: dict[str, tuple[str, ...]]
 LIMITS: dict[str, float]
 
 class Options:
-    def __init__(
-        self,
-        *,
-        equation: str,
-        otherwise: str,
-        load: float,
-        bulge: float,
-        inner_fairness: str,
-        method: str,
-        normals: str,
-        tolerance: float,
-        max_iterations: int,
-        threads: int,
-        detail: float = ...,
-        detail_size: float = ...,
-        start: str = ...,
-        creases: list[int] = ...,
-        smooth_curves: list[int] = ...,
-        fair_border: bool = ...,
-        pin_radius: float = ...,
-    ) -> None: ...
+    detail: float
+    def __setattr__(self, name: str, value: object) -> None: ...
 
 class PaperOptions:
     damping: float
@@ -53,13 +34,9 @@ class Solver:
         self,
         triangles: _Ints,
         fixed: _Ints | None,
-        neighbours: _Ints | None,
-        weights: _Floats | None,
-        options: tuple[Options, PaperOptions],
+        options: Options,
     ) -> None: ...
-    def change(
-        self, neighbours: _Ints | None, weights: _Floats | None, options: tuple[Options, PaperOptions]
-    ) -> None: ...
+    def change(self, options: Options) -> None: ...
     def solve(
         self,
         vertices: _Floats,
@@ -79,11 +56,8 @@ def fair(
     fixed_curvatures: _Floats | None,
     fixed_tensions: _Floats | None,
     reference: _Floats | None,
-    neighbours: _Ints | None,
-    weights: _Floats | None,
     outside: _Ints | None,
     options: Options,
-    paper: PaperOptions,
     progress: Callable[[float, str], bool | None] | None,
     preview: Callable[[_Floats], object] | None,
 ) -> dict[str, Any]: ...
@@ -207,7 +181,7 @@ class Holes:
         self,
         through: list[_Through | None],
         wishes: tuple[bool, bool, bool, float, bool, int],
-        options: tuple[Options, PaperOptions],
+        options: Options,
         progress: Callable[[float, str], bool | None] | None,
     ) -> list[tuple[list[_Ints], dict[str, Any] | Diagnostic]]: ...
 

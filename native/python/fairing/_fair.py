@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _feather, _joining, _mending, _options, _paper
-from fairing._adopted import adopted
+from fairing import _arguments, _core, _feather, _joining, _mending, _options
+from fairing._given import given
 from fairing._groups import Boundary, Options, Skin
 from fairing._types import FairResult, FloatArray
 
@@ -25,7 +25,7 @@ def fair(
     progress: Progress | None = None,
     preview: Preview | None = None,
     threads: int = 0,
-    **before: Any,
+    **named: Any,
 ) -> FairResult:
     """Replace the free vertices of a mesh by the fairest surface with the given boundary data.
 
@@ -54,9 +54,9 @@ def fair(
         boundary that is given. Exceptions come out of the call.
     threads : int
         0: one for each core, eight at most. The result has the same bits for every number of threads.
-    before
-        Fields of the groups as keyword arguments, and ``fixed``, ``fixed_normals``, ``fixed_curvatures`` and
-        ``outside`` for those of the boundary: deprecated.
+    named
+        Fields of the options by their names, in place of groups: ``equation="constant", bulge=0.1``; and ``fixed``,
+        ``fixed_normals``, ``fixed_curvatures`` and ``outside`` for those of the boundary.
 
     Returns
     -------
@@ -75,7 +75,7 @@ def fair(
     MemoryError
         There is not enough memory; on Linux a large run (100,000 free vertices) says so before it begins.
     """
-    held, chosen = adopted("fair", boundary, options, before)
+    held, chosen = given(boundary, options, named)
     return solved(vertices, triangles, held, chosen, progress, threads, preview)
 
 
@@ -89,28 +89,20 @@ def solved(
     preview: Preview | None = None,
 ) -> FairResult:
     """What :func:`fair` does."""
-    surface, layout, skin = chosen.surface, chosen.layout, chosen.skin
-    curves, solving = chosen.curves, chosen.solving
+    surface, skin, curves = chosen.surface, chosen.skin, chosen.curves
     points = _arguments.floats("vertices", vertices)
     count = points.shape[0]
     faces = _arguments.triangles_as_given(triangles, count)
     fixed, normals = _arguments.boundary(boundary.vertices, boundary.normals)
-    m0 = None if layout.reference is None else _arguments.floats("reference", layout.reference, count)
-    edges = _options.neighbour_edges(layout.neighbours, count)
+    reference = chosen.layout.reference
+    m0 = None if reference is None else _arguments.floats("reference", reference, count)
     _options.faired_needs_fixed(curves.open_border, fixed)
-    _arguments.choice("method", solving.method, _options.METHODS)
     _options.callback(progress)
-    kind, rows = _options.inner_fairness("uniform" if layout.inner_fairness is None else layout.inner_fairness, count)
-    of_paper = _paper.engine_options(solving.method, solving.levels, solving.paper)
-    shown = _arguments.share("detail", skin.detail)
+    engine = _options.engine_options(chosen, threads, count)
     fades = skin.weights is not None or skin.feather != 0.0
-    engine = _options.engine_options(
-        equation=surface.equation, otherwise=surface.otherwise, load=surface.load, bulge=surface.bulge, fairness=kind,
-        method=solving.method, normals=solving.normals, tolerance=solving.tolerance,
-        max_iterations=solving.max_iterations, threads=threads, detail=1.0 if fades else shown,
-        detail_size=skin.detail_size, start=solving.start, **vars(curves),
-    )  # fmt: skip
-    joins = _options.continuity(surface.continuity, surface.equation, solving.method)
+    if fades:
+        engine.detail = 1.0
+    joins = _options.continuity(surface.continuity, surface.equation, chosen.solving.method)
     around = _mending.Surroundings.of(points, faces, fixed, boundary.outside)
     tension = _options.tension(boundary, fixed, chosen)
     as_given = _mending.Boundary(points, fixed, normals, tensions=tension)
@@ -121,8 +113,8 @@ def solved(
 
     def call(held: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            held.vertices, faces, held.fixed, held.normals, held.curvatures, held.tensions, m0, edges, rows,
-            around.outside, engine, of_paper, progress, preview,
+            held.vertices, faces, held.fixed, held.normals, held.curvatures, held.tensions, m0, around.outside,
+            engine, progress, preview,
         )  # fmt: skip
 
     fitted = _arguments.choice("outline", surface.outline, _options.OUTLINES) == "mended"
@@ -131,7 +123,7 @@ def solved(
     refused = {
         "reference": m0 is not None, "outline": fitted, "continuity": joins, "tension": tension is not None,
     }  # fmt: skip
-    fade = _fade(skin, shown, refused, count, threads, progress)
+    fade = _fade(skin, refused, count, threads, progress)
     if fade is not None:
         return FairResult(**_feather.solve_feathered(call, as_given, around, fade))
     answer = _mending.solve_fitted(call, as_given, faces, around) if fitted else call(as_given)
@@ -139,7 +131,7 @@ def solved(
 
 
 def _fade(
-    skin: Skin, shown: float, refused: dict[str, bool], count: int, threads: int, progress: Progress | None
+    skin: Skin, refused: dict[str, bool], count: int, threads: int, progress: Progress | None
 ) -> _feather.Fade | None:
     """How the change fades out; None where it does not."""
     parts = _feather.vertex_weights(skin.weights, count)
@@ -147,4 +139,4 @@ def _fade(
     if not width > 0.0 and parts is None:
         return None
     size = _arguments.share("detail_size", skin.detail_size)
-    return _feather.Fade(shown, size, width if parts is None else parts, threads, progress)
+    return _feather.Fade(float(skin.detail), size, width if parts is None else parts, threads, progress)

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _options, _paper, _run_on
-from fairing._adopted import taken
+from fairing import _arguments, _core, _options, _run_on
 from fairing._filled import Surfaces
+from fairing._given import of_own_boundary
 from fairing._groups import Options
 from fairing._holes import given_loops
 from fairing._new_mesh import FillResult
@@ -39,7 +39,7 @@ def fill(
     marked: npt.ArrayLike | None = None,
     progress: Progress | None = None,
     threads: int = 0,
-    **before: Any,
+    **named: Any,
 ) -> FillResult:
     """Fill holes, or join boundary loops, with the fairest surface that continues the surroundings.
 
@@ -103,8 +103,8 @@ def fill(
         As for :func:`fairing.fair`.
     threads : int
         As for :func:`fairing.fair`.
-    before
-        Fields of ``options`` as keyword arguments: deprecated.
+    named
+        Fields of ``options`` by their names, as for :func:`fairing.fair`.
 
     Raises
     ------
@@ -118,7 +118,7 @@ def fill(
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
-    given = taken("fill", options, before, threads)
+    given = of_own_boundary(options, named, threads)
     points = _arguments.floats("vertices", vertices)
     around = _arguments.triangles_within(triangles, len(points))
     length = spacing_of(spacing, inner)
@@ -134,11 +134,11 @@ def fill(
     in_rows = _arguments.choice("faces", faces, FACES) == "quads"
     most = _arguments.whole("max_vertices", max_vertices, 0)
     edges_around = _run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))
-    named = given_loops(loops, len(points)) if loops is not None else []
+    own = given_loops(loops, len(points)) if loops is not None else []
     limits = _arguments.whole("longest", longest, 0), float(longest_length)
-    rows = _rows(normals, fixed_curvatures, named, len(points))
+    rows = _rows(normals, fixed_curvatures, own, len(points))
     team = _arguments.whole("threads", threads, 0)
-    holes = _core.Holes(points, around, edges_around.hard, (named, *rows, *limits), bool(bridge), team)
+    holes = _core.Holes(points, around, edges_around.hard, (own, *rows, *limits), bool(bridge), team)
     curves = edges_around.through(holes, points, (length.length, length.even))
     through = [each.for_engine if isinstance(each, _run_on.Curves) else None for each in curves]
     wishes = bool(bridge), in_rows, joins, length.length, length.even, most
@@ -146,22 +146,15 @@ def fill(
     return Surfaces(len(points), filled, holes, curves).joined()
 
 
-def _engine_options(given: dict[str, Any]) -> tuple[_core.Options, _core.PaperOptions]:
-    chosen = Options().changed(**{name: value for name, value in given.items() if name != "threads"})
-    surface, solving = chosen.surface, chosen.solving
+def _engine_options(given: dict[str, Any]) -> _core.Options:
+    named = {"inner_fairness": "conformal", **given}
+    threads = named.pop("threads", 0)
+    chosen = Options.of(**named)
     if vars(chosen.skin).keys() & given.keys():
         raise ValueError("detail, feather and weights: not accepted here, where there is no skin yet")
-    word = chosen.layout.inner_fairness
-    kind, weights = _options.inner_fairness("conformal" if word is None else word, 0)
-    if weights is not None:
+    if not isinstance(chosen.layout.inner_fairness, str):
         raise ValueError("inner_fairness: rows of weights are not accepted here, where the mesh is made by this call")
-    engine = _options.engine_options(
-        equation=surface.equation, otherwise=surface.otherwise, load=surface.load, bulge=surface.bulge, fairness=kind,
-        method=solving.method, normals=solving.normals, tolerance=solving.tolerance,
-        max_iterations=solving.max_iterations, threads=given.get("threads", 0), detail=0.0, detail_size=0.0,
-        **vars(chosen.curves),
-    )  # fmt: skip
-    return engine, _paper.engine_options(solving.method, solving.levels, solving.paper)
+    return _options.engine_options(chosen, threads, 0)
 
 
 Rows = tuple[list[FloatArray], list[FloatArray], FloatArray, FloatArray]

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _seams
-from fairing._adopted import taken
+from fairing._given import of_own_boundary
 from fairing._groups import Options
 from fairing._new_mesh import FilletResult
 from fairing._patch import refuse_made_here
@@ -39,7 +39,7 @@ def fillet(
     max_vertices: int = 0,
     progress: Progress | None = None,
     threads: int = 0,
-    **before: Any,
+    **named: Any,
 ) -> FilletResult:
     """Round seams: replace what lies within ``width`` of them, along the surface, by the fairest surface.
 
@@ -87,8 +87,8 @@ def fillet(
         As for :func:`fairing.fair`.
     threads : int
         As for :func:`fairing.fair`.
-    before
-        Fields of ``options`` as keyword arguments: deprecated.
+    named
+        Fields of ``options`` by their names, as for :func:`fairing.fair`.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def fillet(
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
-    given = taken("fillet", options, before, threads)
+    given = of_own_boundary(options, named, threads)
     points = _arguments.floats("vertices", vertices)
     corners = _arguments.triangles_within(triangles, len(points))
     _seams.check_finite(points, corners)

@@ -166,7 +166,7 @@ class _Task:
     @property
     def _options(self) -> Options:
         if not len(self.held.smooth):  # each cell by itself
-            return Options.of(equation="minimal", creases=self.held.creases, inner_fairness="conformal")
+            return Options.of(equation="soap_film", creases=self.held.creases, inner_fairness="conformal")
         return Options.of(
             equation="least_variation", creases=self.held.creases, smooth_curves=self.held.smooth,
             inner_fairness="conformal", start="given",
@@ -176,7 +176,7 @@ class _Task:
         """A soap film in each cell. The normals are told, as all wires are, but do not count."""
         loops, normals = self.cells.loops, self.cells.normals
         rows = [np.tile(normal, (len(loop), 1)) for loop, normal in zip(loops, normals, strict=True)]
-        found = _core.fill_loops(self.points, list(loops), rows, False, "minimal", progress)
+        found = _core.fill_loops(self.points, list(loops), rows, False, "soap_film", progress)
         fixed = self.held.all
         return Patch(
             np.concatenate([self.points, found["vertices"]]), found["triangles"], fixed,

@@ -1,17 +1,34 @@
-"""The options of all calls that make surfaces, in groups.
+"""The options of all calls that make surfaces, in groups: each described here, and nowhere else in Python.
 
-:func:`fairing.fair`, :func:`fairing.fill`, :func:`fairing.remesh` and :func:`fairing.fillet` share them. What is not
-accepted is refused by the call, with a ValueError that names the field.
+:func:`fairing.fair`, :func:`fairing.fill`, :func:`fairing.remesh` and :func:`fairing.fillet` share them, and take each
+by its name as well. What is not accepted is refused by the call, with a ValueError that names the field.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy.typing as npt
 
+from fairing import _arguments, _core
 from fairing._paper import PaperOptions
+
+_Check = Callable[[str, Any], Any]
+
+
+def _checked(default: Any, check: _Check) -> Any:
+    """A field that is the engine's, too, under the same name; ``check`` returns what it takes."""
+    return field(default=default, metadata={"check": check})
+
+
+def _word(default: str, accepted: tuple[str, ...]) -> Any:
+    return _checked(default, lambda name, value: _arguments.choice(name, value, accepted))
+
+
+def _vertices(name: str, value: Any) -> list[int]:
+    return [] if value is None else [int(v) for v in _arguments.integers(name, value, None)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,27 +69,27 @@ class Boundary:
 class Surface:
     """Which surface, and how it joins its boundary."""
 
-    equation: str = "harmonic"
-    """One of "harmonic" | "constant" | "minimal_energy" | "minimal" | "least_variation" | "automatic": Δ_B H = 0, Δ_B H
-    = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions met only (G0). See §7.5.
-    "least_variation": the surface whose normal curvatures vary least (G1), which exists between boundary loops that no
-    harmonic surface joins; docs/least_variation.md. "automatic", decided for each component by its boundary alone:
-    "least_variation" between two loops that face each other along a tube of more than 2 mean radii, where harmonic
-    surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with ``method`` "paper"."""
+    equation: str = _word("harmonic", _core.WORDS["equation"])
+    """One of "harmonic" | "constant" | "minimal_energy" | "soap_film" | "least_variation" | "automatic": Δ_B H = 0,
+    Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions met only (G0). See
+    §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists between boundary loops
+    that no harmonic surface joins; docs/least_variation.md. "automatic", decided for each component by its boundary
+    alone: "least_variation" between two loops that face each other along a tube of more than 2 mean radii, where
+    harmonic surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with ``method`` "paper"."""
 
-    otherwise: str = "least_variation"
+    otherwise: str = _word("least_variation", _core.WORDS["otherwise"])
     """One of "least_variation" | "stop": What stands in where no surface of ``equation`` is accepted (method "global",
-    all but "minimal"); one that is accepted is always returned. The default is the surface of least variation. Where
+    all but "soap_film"); one that is accepted is always returned. The default is the surface of least variation. Where
     several boundary loops have none either, the shape of ``reference`` is smoothed as far as it goes, or a loft joins
     them where no such shape is known; it may leave the tangent planes given (docs/least_variation.md).
     ``result.equation`` and the warning NO_SOLUTION report the stand-in. "stop": the best surface found, not
     ``converged``. A solve that ran out of fewer than 200 ``max_iterations``, or has part of its load, is never
     replaced."""
 
-    load: float = 0.0
+    load: float = _checked(0.0, _arguments.finite)
     """float. Of "constant", in length⁻³; positive bulges along the normals."""
 
-    bulge: float = 0.0
+    bulge: float = _checked(0.0, _arguments.finite)
     """float. Of "constant", by the boundary's own size: adds 8 ``bulge`` / a³ to ``load``, for each component (see
     :func:`fairing.components`) with a the RMS distance of its boundary from the boundary's centroid. 1 lifts a flat
     disc by about a quarter of its radius, whatever its size."""
@@ -111,14 +128,14 @@ class Layout:
 class Skin:
     """What stays of the old skin, and how the change fades out (docs/detail.md)."""
 
-    detail: float = 0.0
+    detail: float = _checked(0.0, _arguments.share)
     """float. 0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split
     into a smooth base and what is left, its detail, which the new surface takes over, turned as the base turns.
     Vertices then sit conformally to the old base, whatever ``inner_fairness`` says. With triangles ``outside`` both
     bases meet the boundary that these would have without their detail, so that ``result.base`` does not pass through
     noise. Given normals that differ from those of the triangles outside are kept. docs/detail.md."""
 
-    detail_size: float = 0.0
+    detail_size: float = _checked(0.0, _arguments.share)
     """float. Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean
     edges, .45 D at most."""
 
@@ -137,21 +154,21 @@ class Skin:
 class Curves:
     """Creases, curves and borders within the patch (docs/curves.md)."""
 
-    creases: npt.ArrayLike | None = None
+    creases: npt.ArrayLike | None = field(default=None, metadata={"check": _vertices})
     """(c,) int. Some of the fixed vertices, those at which a crease ends on the boundary among them: position only,
     whatever ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such
-    a curve is solved as "least_variation", one that is bounded by a single loop of them as "minimal", as
+    a curve is solved as "least_variation", one that is bounded by a single loop of them as "soap_film", as
     ``result.equation`` reports. docs/curves.md."""
 
-    smooth_curves: npt.ArrayLike | None = None
+    smooth_curves: npt.ArrayLike | None = field(default=None, metadata={"check": _vertices})
     """(s,) int. Some of the fixed vertices: position only, and curves of them are not cut. The surface, one of
     "least_variation", runs through them with one slope that it finds."""
 
-    open_border: str = "held"
+    open_border: str = _word("held", _core.WORDS["open_border"])
     """One of "held" | "faired": "faired": border vertices that are not in ``fixed``, which must be given, don't stay.
     The border becomes a fair curve on a surface of "least_variation" that ends there with a free slope."""
 
-    pin_radius: float = 0.1
+    pin_radius: float = _checked(0.1, _arguments.share)
     """float. Over which length, as a share of D, a pin lifts or holds the surface: the standard deviation of a
     Gaussian. 0: in a point, which leaves a dent that sharpens with the mesh. For the harmonic equations and "G1". Where
     no surface is found with the radius, the pins act in a point, with the warning PINS_NOT_SPREAD."""
@@ -161,29 +178,29 @@ class Curves:
 class Solving:
     """How the surface is found, and how exactly."""
 
-    method: str = "global"
+    method: str = _word("global", _core.WORDS["method"])
     """One of "global" | "paper": The fast solver, or the factorised multigrid iteration of §7, step for step."""
 
     levels: int = 0
     """int. "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise."""
 
-    tolerance: float = 1e-6
+    tolerance: float = _checked(1e-6, _arguments.positive)
     """float. "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one
     would move none by more than half of it, judged by how the steps shrink. "paper": see ``epsilon`` of
     :class:`fairing.PaperOptions`."""
 
-    max_iterations: int = 200
+    max_iterations: int = _checked(200, lambda name, value: _arguments.whole(name, value, 1))
     """int. "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other
     initial surfaces, and the engine's own mesh where the one given fails. A small number may therefore take longer;
     only ``progress`` bounds the time. "paper": updates of the finest mesh; coarser ones may take more."""
 
-    normals: str = "fitted"
+    normals: str = _word("fitted", _core.WORDS["normals"])
     """One of "fitted" | "averaged": Vertex normal behind H. "paper" always averages."""
 
-    start: str = "outline"
+    start: str = _word("outline", ("outline", "given", "least_variation", "loft", "smoothed"))
     """One of "outline" | "given" | "least_variation" | "loft" | "smoothed": "given": the initial surface is the
     vertices given, which lie near the solution. Where a few steps do not lead there without folds, the boundary alone
-    decides as always. For all equations but "minimal", and "global". Vertices move along the normals only where
+    decides as always. For all equations but "soap_film", and "global". Vertices move along the normals only where
     conformal weights are those of these same vertices. "least_variation" (from the vertices given), "loft", "smoothed":
     begin with that stand-in, where another solve has shown that the equation has no surface. Where it is not accepted
     the boundary alone decides."""
@@ -204,7 +221,7 @@ class Options:
 
     @classmethod
     def of(cls, **named: Any) -> Options:
-        """Options by the fields' names alone, whatever their groups: ``Options.of(equation="minimal", detail=1.0)``.
+        """Options by the fields' names alone, whatever their groups: ``Options.of(equation="soap_film", detail=1.0)``.
 
         Raises TypeError for a field that no group has.
         """
@@ -218,6 +235,15 @@ class Options:
                 raise TypeError(f"{name!r} is no option; there are {', '.join(GROUP_OF)}")
             by_group.setdefault(GROUP_OF[name], {})[name] = value
         return replace(self, **{group: replace(getattr(self, group), **some) for group, some in by_group.items()})
+
+    def for_engine(self) -> dict[str, Any]:
+        """What the engine takes as it is, checked, by name; ValueError for what it doesn't."""
+        of_all = ((group, each) for group in vars(self).values() for each in fields(group))
+        return {
+            each.name: each.metadata["check"](each.name, getattr(group, each.name))
+            for group, each in of_all
+            if "check" in each.metadata
+        }
 
     @property
     def chosen(self) -> dict[str, Any]:

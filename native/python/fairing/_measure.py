@@ -6,8 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._options import NORMALS
 from fairing._types import FloatArray, IntArray
+
+_NORMALS = _core.WORDS["normals"]
 
 
 def mean_curvature(
@@ -27,7 +28,7 @@ def mean_curvature(
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, points.shape[0])
     held, given = _arguments.boundary(fixed, fixed_normals)
-    kind = _arguments.choice("normals", normals, NORMALS)
+    kind = _arguments.choice("normals", normals, _NORMALS)
     return _core.mean_curvature(points, faces, held, given, kind)
 
 
@@ -39,7 +40,7 @@ def vertex_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, normals
     """
     points = _arguments.floats("vertices", vertices)
     faces = _arguments.triangles_within(triangles, points.shape[0])
-    return _core.vertex_normals(points, faces, _arguments.choice("normals", normals, NORMALS))
+    return _core.vertex_normals(points, faces, _arguments.choice("normals", normals, _NORMALS))
 
 
 def cotan_laplacian(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[IntArray, IntArray, FloatArray]:

@@ -7,84 +7,62 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core
-from fairing._groups import Boundary, Options
+from fairing import _arguments, _core, _paper
+from fairing._groups import Boundary, Layout, Options
 from fairing._types import FloatArray, IntArray
 
-# The engine's own words; `outline` is chosen here.
-METHODS = _core.WORDS["method"]
-NORMALS = _core.WORDS["normals"]
-EQUATIONS = _core.WORDS["equation"]
-OTHERWISE = _core.WORDS["otherwise"]
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
 OUTLINES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
-STARTS = ("outline", "given", "least_variation", "loft", "smoothed")
-OPEN_BORDERS = ("held", "faired")
 
 
-def engine_options(
-    *,
-    equation: str,
-    otherwise: str,
-    load: Any,
-    bulge: Any,
-    fairness: str,
-    method: str,
-    normals: str,
-    tolerance: Any,
-    max_iterations: Any,
-    threads: Any,
-    detail: Any,
-    detail_size: Any,
-    start: str = "outline",
-    creases: Any = None,
-    smooth_curves: Any = None,
-    open_border: str = "held",
-    pin_radius: Any = 0.0,
-) -> _core.Options:
-    """Checks the options that both methods have; ``fairness`` is the engine's word for it."""
-    _arguments.choice("normals", normals, NORMALS)
-    if method == "paper" and equation == "least_variation":
-        raise ValueError("equation: 'least_variation' is not accepted by method 'paper'; accepted with 'global'")
-    faired = _arguments.choice("open_border", open_border, OPEN_BORDERS) == "faired"
-    if faired and method == "paper":
-        raise ValueError("open_border: 'faired' is not accepted by method 'paper'; accepted with 'global'")
-    slopes = {"creases": creases, "smooth_curves": smooth_curves}
-    return _core.Options(
-        equation=_arguments.choice("equation", equation, EQUATIONS),
-        otherwise=_arguments.choice("otherwise", otherwise, OTHERWISE),
-        load=load_number("load", equation, load),
-        bulge=load_number("bulge", equation, bulge),
-        inner_fairness=fairness,
-        method=method,
-        normals="averaged" if method == "paper" else normals,
-        tolerance=_arguments.positive("tolerance", tolerance),
-        max_iterations=_arguments.whole("max_iterations", max_iterations, 1),
-        threads=_arguments.whole("threads", threads, 0),
-        detail=_arguments.share("detail", detail),
-        detail_size=_arguments.share("detail_size", detail_size),
-        start=_arguments.choice("start", start, STARTS),
-        fair_border=faired,
-        pin_radius=_arguments.share("pin_radius", pin_radius),
-        **{name: _free_slopes(name, vertices, method) for name, vertices in slopes.items()},
-    )
+def engine_options(chosen: Options, threads: Any, count: int) -> _core.Options:
+    """What the engine is told about a mesh of ``count`` vertices, checked."""
+    values = chosen.for_engine()
+    method = values["method"]
+    if method == "paper":
+        values["normals"] = "averaged"
+        _refuse_with_paper(values)
+    for name in ("load", "bulge"):
+        if values[name] != 0.0 and values["equation"] != "constant":
+            accepted = "0 and, with equation 'constant', finite numbers"
+            raise ValueError(f"{name}: {values[name]!r} is not accepted; accepted are {accepted}")
+    values |= layout_within(chosen.layout, count)
+    values["paper"] = _paper.engine_options(method, chosen.solving.levels, chosen.solving.paper)
+    values["threads"] = _arguments.whole("threads", threads, 0)
+    options = _core.Options()
+    for name, value in values.items():
+        setattr(options, name, value)
+    return options
+
+
+def layout_within(layout: Layout, count: int) -> dict[str, Any]:
+    """How vertices of a mesh of ``count`` lie: the word or the rows (i, j, λ), and (e, 2) edges, where given."""
+    found: dict[str, Any] = {}
+    if layout.neighbours is not None:
+        edges = _arguments.integers("neighbours", layout.neighbours, 2)
+        found["neighbours"] = _arguments.indices_within("neighbours", edges, count)
+    if isinstance(layout.inner_fairness, str):
+        found["inner_fairness"] = _arguments.choice("inner_fairness", layout.inner_fairness, INNER_FAIRNESS)
+    elif layout.inner_fairness is not None:
+        found["weights"] = _directed_weights(layout.inner_fairness, count)
+    return found
+
+
+def _refuse_with_paper(values: dict[str, Any]) -> None:
+    """ValueError for what only the fast solver has."""
+    for name, wrong in (("equation", "least_variation"), ("open_border", "faired")):
+        if values[name] == wrong:
+            raise ValueError(f"{name}: {wrong!r} is not accepted by method 'paper'; accepted with 'global'")
+    for name in ("creases", "smooth_curves"):
+        if values[name]:
+            raise ValueError(f"{name}: not accepted by method 'paper'; accepted with 'global'")
 
 
 def faired_needs_fixed(open_border: str, fixed: IntArray | None) -> None:
     """Refuse to fair all that holds a patch."""
     if open_border == "faired" and fixed is None:
         raise ValueError("open_border: 'faired' needs `fixed`, since all other border vertices move")
-
-
-def _free_slopes(name: str, vertices: Any, method: str) -> list[int]:
-    """The vertices named; only the fast solver leaves slopes free."""
-    if vertices is None:
-        return []
-    named = _arguments.integers(name, vertices, None)
-    if len(named) and method == "paper":
-        raise ValueError(f"{name}: not accepted by method 'paper'; accepted with 'global'")
-    return [int(v) for v in named]
 
 
 def continuity(value: str, equation: str, method: str) -> bool:
@@ -114,36 +92,11 @@ def tension(boundary: Boundary, fixed: IntArray | None, chosen: Options) -> Floa
     return _arguments.tensions(boundary.tension, fixed)
 
 
-def neighbour_edges(neighbours: npt.ArrayLike | None, count: int) -> IntArray | None:
-    """(e, 2) vertices below ``count``."""
-    if neighbours is None:
-        return None
-    return _arguments.indices_within("neighbours", _arguments.integers("neighbours", neighbours, 2), count)
-
-
 def callback(progress: Any) -> Any:
     """A callable, or None."""
     if progress is not None and not callable(progress):
         raise ValueError(f"progress: a callable(fraction, stage) or None is needed, not {progress!r}")
     return progress
-
-
-def load_number(name: str, equation: str, value: Any) -> float:
-    """A finite load or bulge, which only equation "constant" may have."""
-    if isinstance(value, bool) or not isinstance(value, (int, float, np.floating, np.integer)):
-        raise ValueError(f"{name}: a number is needed, not {value!r}")
-    if not np.isfinite(value) or (value != 0.0 and equation != "constant"):
-        raise ValueError(
-            f"{name}: {value!r} is not accepted; accepted are 0 and, with equation 'constant', finite numbers"
-        )
-    return float(value)
-
-
-def inner_fairness(value: Any, count: int) -> tuple[str, FloatArray | None]:
-    """The word for the engine and rows (i, j, λ), which count instead where there are any."""
-    if isinstance(value, str) or value is None:
-        return _arguments.choice("inner_fairness", value, INNER_FAIRNESS), None
-    return "uniform", _directed_weights(value, count)
 
 
 def _directed_weights(value: npt.ArrayLike, count: int) -> FloatArray:

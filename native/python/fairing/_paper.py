@@ -22,8 +22,8 @@ class PaperOptions:
     vertex_sweeps: int | None = None
     """Sweeps over the vertices in each update of the mesh (§7.2). Left out: 2, without acceleration 1."""
     epsilon: float | None = None
-    """Stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "minimal"). None: where the changes still to come, estimated
-    from the last ones, are ``tolerance`` × D."""
+    """Stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "soap_film"). None: where the changes still to come,
+    estimated from the last ones, are ``tolerance`` × D."""
     acceleration: str = "anderson"
     """Whether each cycle of updates starts from the best combination of the last sixteen ("anderson"), or where the
     last one ended ("none"), as published."""

@@ -110,7 +110,7 @@ def free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:
     return creases, curves
 
 
-_MADE_HERE = ("fixed", "fixed_normals", "reference", "neighbours", "outline", "start", "outside")
+_MADE_HERE = ("reference", "neighbours", "outline", "start")
 
 
 def refuse_made_here(options: dict[str, Any], progress: Any) -> None:

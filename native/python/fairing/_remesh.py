@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._adopted import adopted, flat
+from fairing._given import flat, given
 from fairing._groups import Boundary, Options
 from fairing._inner_vertices import with_inner_vertices
 from fairing._new_mesh import RemeshResult, read_only, report_fields
@@ -42,7 +42,7 @@ def remesh(
     max_vertices: int = 0,
     progress: Progress | None = None,
     threads: int = 0,
-    **before: Any,
+    **named: Any,
 ) -> RemeshResult:
     """Fair a patch on a new mesh: :func:`fairing.fair`, and then other vertices and triangles for its surface.
 
@@ -65,10 +65,10 @@ def remesh(
     solved, and by the faired one. 0: 20 times as many as the old surface would have with that spacing, or 50 000 where
     that is less, 4 000 000 at most.
     """
-    around, chosen = adopted("remesh", boundary, options, before)
+    around, chosen = given(boundary, options, named)
     if around.continuity is not None and around.curvatures is None:
         raise ValueError("continuity: 'G2' on parts of the boundary needs `curvatures` here")
-    given = flat(chosen, threads, around)
+    wishes = flat(chosen, threads, around)
     points = _arguments.floats("vertices", vertices)
     corners = _arguments.triangles_within(triangles, len(points))
     held, given_normals = _arguments.boundary(around.vertices, around.normals)
@@ -76,9 +76,9 @@ def remesh(
     length = spacing_of(spacing, inner)
     wants_quads = _arguments.choice("faces", faces, FACES) == "quads"
     outside = around.outside
-    refuse_made_here(given, progress)
-    if given.get("equation") == "minimal":
-        raise ValueError("equation: 'minimal' has no normals to continue; accepted are the others")
+    refuse_made_here(wishes, progress)
+    if wishes.get("equation") == "soap_film":
+        raise ValueError("equation: 'soap_film' has no normals to continue; accepted are the others")
     watch = Watch(progress)
     base = len(points)
     refined = with_inner_vertices(points, corners, held, lines)
@@ -88,24 +88,24 @@ def remesh(
     most = Limit.of(_count_on(old, length), max_vertices)
     border = old.border()
     most.check(most.flat, border)
-    report = old.faired("outline", outside, given, watch.part(0, 0.4))
+    report = old.faired("outline", outside, wishes, watch.part(0, 0.4))
     watch.lap("first")
     if given_normals is None:
         averaged = _core.vertex_normals(points, corners, "averaged")
         held, given_normals = report.fixed, averaged[report.fixed]
     solved = Patch(report.vertices, corners, held, given_normals)
     most.check(solved.expected_new(length), border)
-    stays = len(lines) > 0 or len(free_slopes(given)[0]) > 0
+    stays = len(lines) > 0 or len(free_slopes(wishes)[0]) > 0
     rows = rows_over(solved, base, watch.part(0.4, 0.6)) if wants_quads and not stays else None
     if rows is not None:
         new, origin, old_vertex = rows.patch, rows.origin, np.full(len(rows.origin[0]), -1, np.int32)
     else:
-        new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), given, watch.part(0.4, 0.6))
+        new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), wishes, watch.part(0.4, 0.6))
     watch.lap("mesh")
     values = report_fields(report, base)
     added = len(new.vertices) - base
     if added >= min(LEAST_COUNT, len(np.setdiff1d(corners, report.fixed))):
-        values = report_fields(new.faired("given", outside, given, watch.part(0.6, 1.0)), base)
+        values = report_fields(new.faired("given", outside, wishes, watch.part(0.6, 1.0)), base)
         values["triangles"] = new.triangles
     else:
         values.update(cut_fields(new, base))

@@ -7,18 +7,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _options, _paper, _parts
+from fairing import _arguments, _core, _options, _parts
 from fairing._fair import Preview, Progress
-from fairing._paper import PaperOptions
-from fairing._types import FairResult, FloatArray, IntArray
+from fairing._groups import Options
+from fairing._types import FairResult, FloatArray
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)
-_SHARED = (
-    "equation", "otherwise", "load", "bulge", "normals", "tolerance", "max_iterations", "threads", "detail",
-    "detail_size", "pin_radius",
-)  # fmt: skip
-_CURVES = ("creases", "smooth_curves", "open_border")
-_CHANGEABLE = (*_SHARED, "inner_fairness", "neighbours", "method", "levels", "paper", "continuity")
+_OF_CONNECTIVITY = ("creases", "smooth_curves", "open_border")
+_OF_ONE_SOLVE = ("outline", "reference", "feather", "weights", "start")
 
 
 class Solver:
@@ -58,26 +54,9 @@ class Solver:
         triangles: npt.ArrayLike,
         *,
         fixed: npt.ArrayLike | None = None,
-        equation: str = "harmonic",
-        otherwise: str = "least_variation",
-        load: float = 0.0,
-        bulge: float = 0.0,
-        inner_fairness: Any = "uniform",
-        neighbours: npt.ArrayLike | None = None,
-        method: str = "global",
-        levels: int = 0,
-        tolerance: float = 1e-6,
-        max_iterations: int = 200,
-        normals: str = "fitted",
+        options: Options | None = None,
         threads: int = 0,
-        paper: PaperOptions | None = None,
-        detail: float = 0.0,
-        detail_size: float = 0.0,
-        continuity: str = "G1",
-        creases: npt.ArrayLike | None = None,
-        smooth_curves: npt.ArrayLike | None = None,
-        open_border: str = "held",
-        pin_radius: float = 0.1,
+        **named: Any,
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.
 
@@ -85,42 +64,35 @@ class Solver:
         vertices without a row in ``inner_fairness``, are refused there. So is everything about connectivity where the
         largest index is more than a hundred times the number of indices.
         """
-        given = dict(locals())
         faces = _arguments.integers("triangles", triangles, 3)
         self._fixed, _ = _arguments.boundary(fixed, None)
-        _options.faired_needs_fixed(open_border, self._fixed)
-        self._curves = {name: given[name] for name in _CURVES}
-        self._options = {name: given[name] for name in _CHANGEABLE}
-        self._neighbours, self._weights, options = self._checked(self._options)
-        self._engine = _core.Solver(faces, self._fixed, self._neighbours, self._weights, options)
+        self._options, self._threads = (options or Options()).changed(**named), threads
+        _options.faired_needs_fixed(self._options.curves.open_border, self._fixed)
+        self._engine = _core.Solver(faces, self._fixed, self._checked(self._options, threads))
 
-    def change(self, **options: Any) -> None:
+    def change(self, *, threads: int | None = None, **options: Any) -> None:
         """Give some options of the constructor (all that are not about connectivity) other values.
 
         The next solve starts from the last answer all the same, which is worth it for another load, λ or tolerance,
         and often for another equation. Raises what the constructor does, TypeError for other names; nothing has
         changed then.
         """
-        unknown = set(options) - set(_CHANGEABLE)
-        if unknown:
-            raise TypeError(f"{min(unknown)!r} is no option that can be changed")
-        wanted = {**self._options, **options}
-        neighbours, weights, checked = self._checked(wanted)
-        self._engine.change(neighbours, weights, checked)
-        self._options, self._neighbours, self._weights = wanted, neighbours, weights
+        for name in options:
+            if name in _OF_CONNECTIVITY:
+                raise TypeError(f"{name!r} is no option that can be changed")
+        wanted, count = self._options.changed(**options), self._threads if threads is None else threads
+        self._engine.change(self._checked(wanted, count))
+        self._options, self._threads = wanted, count
 
-    def _checked(
-        self,
-        options: dict[str, Any],
-    ) -> tuple[IntArray | None, FloatArray | None, tuple[_core.Options, _core.PaperOptions]]:
-        """Edges, λ by rows, and the engine's options; how many vertices there are is known at the first solve."""
-        edges = _options.neighbour_edges(options["neighbours"], _ANY_COUNT)
-        method = _arguments.choice("method", options["method"], _options.METHODS)
-        _options.continuity(options["continuity"], options["equation"], method)
-        kind, weights = _options.inner_fairness(options["inner_fairness"], _ANY_COUNT)
-        paper = _paper.engine_options(method, options["levels"], options["paper"])
-        shared = {name: options[name] for name in _SHARED} | self._curves
-        return edges, weights, (_options.engine_options(fairness=kind, method=method, **shared), paper)
+    @staticmethod
+    def _checked(options: Options, threads: int) -> _core.Options:
+        """The engine's options; how many vertices there are is known at the first solve."""
+        for name in options.chosen:
+            if name in _OF_ONE_SOLVE:
+                raise TypeError(f"{name!r} is no option of a Solver")
+        checked = _options.engine_options(options, threads, _ANY_COUNT)
+        _options.continuity(options.surface.continuity, options.surface.equation, options.solving.method)
+        return checked
 
     def solve(
         self,
@@ -148,20 +120,17 @@ class Solver:
         _, given_normals = _arguments.boundary(self._fixed, fixed_normals)
         curvatures = self._curvatures(fixed_curvatures, continuity)
         m0 = None if reference is None else _arguments.floats("reference", reference, count)
-        if self._neighbours is not None:
-            _arguments.indices_within("neighbours", self._neighbours, count)
-        if self._weights is not None:
-            _arguments.indices_within("inner_fairness", self._weights[:, :2].astype(np.int32), count)
+        _options.layout_within(self._options.layout, count)
         callback = _options.callback(progress)
         tensions = None if tension is None else _arguments.tensions(tension, self._fixed)
         return FairResult(**self._engine.solve(points, given_normals, curvatures, tensions, m0, callback, preview))
 
     def _curvatures(self, given: npt.ArrayLike | None, kinds: npt.ArrayLike | None) -> FloatArray | None:
         """Checked; needed for "G2" and refused without it."""
-        joins = self._options["continuity"] == "G2"
-        if joins != (given is not None):
+        wanted = self._options.surface.continuity
+        if (wanted == "G2") != (given is not None):
             raise ValueError(
-                f"fixed_curvatures: {'needed' if joins else 'refused'} with continuity {self._options['continuity']!r}"
+                f"fixed_curvatures: {'needed' if wanted == 'G2' else 'refused'} with continuity {wanted!r}"
             )
         if given is None:
             return None

@@ -115,7 +115,7 @@ class FairResult:
     iterations: int
     """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
-    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="minimal"``; for "least_variation" the
+    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="soap_film"``; for "least_variation" the
     largest derivative of its energy by a height, times D). It has no unit, but grows
     with finer meshes of the same surface: compare it with ``initial_residual``, and judge by ``converged``."""
     initial_residual: float

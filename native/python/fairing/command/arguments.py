@@ -72,7 +72,7 @@ def _common(parser: ArgumentParser, writes: bool = True) -> None:
 
 def _surface(parser: ArgumentParser) -> None:
     parser.add_argument("--continuity", choices=("G1", "G2"), help="meet the tangent planes, or the curvature, too")
-    parser.add_argument("--equation", metavar="NAME", help="harmonic, minimal, least_variation, …: help(fairing.fair)")
+    parser.add_argument("--equation", metavar="NAME", help="soap_film, least_variation, …: help(fairing.fair)")
 
 
 def _fill(parser: ArgumentParser) -> None:
