@@ -29,7 +29,6 @@ struct ComponentData {
     View<Points> vertices;
     const FixedNormals& normals;      // prescribed ones
     const VectorX& curvatures;        // likewise; empty: none
-    const VectorX& log_tensions;      // likewise
     View<Points> reference;           // M0
     const Triangles& outside;         // around the patches
     bool given_normals;               // by the caller

@@ -10,7 +10,6 @@
 #include "base/text.h"
 #include "boundary/fair_border.h"
 #include "continuity/joined.h"
-#include "continuity/tension.h"
 #include "detail/relaid.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
@@ -131,10 +130,6 @@ ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseOutl
     if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic) {
         answer.problem.fixed_curvatures = unit.diameter * data.curvatures(fixed_vertices(patch_));
     }
-    if (data.log_tensions.size() > 0) {
-        answer.problem.log_tensions = data.log_tensions(fixed_vertices(patch_));
-        if ((answer.problem.log_tensions.array() == 0.0).all()) answer.problem.log_tensions.resize(0);
-    }
     hold_border(data.faired, answer.problem);
     warn_of_precision(patch_, data.vertices, {unit.diameter, solver.tolerance}, answer.warnings);
     const auto before = [&patch = patch_, reference = data.reference, unit] {
@@ -157,9 +152,8 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
 Equation ComponentSolver::equation_of(const Problem& problem, const ComponentData& data) {
     const Equation asked = problem.options.equation;
     if (asked != Equation::automatic) return equation_for(patch_, asked);
-    // The paper's method has one equation for tubes, and one surface alone continues a curvature or has tensions.
-    const bool harmonic_alone =
-        options_.method == Method::paper || data.curvatures.size() > 0 || data.log_tensions.size() > 0;
+    // The paper's method has one equation for tubes, and one surface alone continues a curvature.
+    const bool harmonic_alone = options_.method == Method::paper || data.curvatures.size() > 0;
     if (harmonic_alone) return equation_for(patch_, Equation::harmonic);
     Outline outline = outline_of(problem);
     const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline);
@@ -229,12 +223,10 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
     const bool joins = problem.fixed_curvatures.size() > 0;
-    const bool tenses = problem.log_tensions.size() > 0;
     const std::optional<NearStart> start = given_start(answer, data);
-    Solution solution = solve_tangent(problem, start, joins || tenses ? progress.range(0.0, 0.5) : progress);
+    Solution solution = solve_tangent(problem, start, joins ? progress.range(0.0, 0.5) : progress);
     if (solution.uniform_weights) warn_of_even_weights(answer.warnings);
     solution = with_spread_pins(problem, options_.pin_radius, std::move(solution), progress.here());
-    if (tenses) return tensed(problem, std::move(solution), progress.range(0.5, 1.0));
     if (!joins) return solution;
     return joined(problem, std::move(solution), progress.range(0.5, 1.0));
 }

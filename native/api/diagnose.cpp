@@ -258,36 +258,6 @@ void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& war
 
 namespace {
 
-Reason reason_of_tension(Tension tension) {
-    switch (tension) {
-        case Tension::other_mesh:
-            return {"the surface was solved on a mesh of the engine's own; make the triangles more regular",
-                    {{"own_mesh", 1.0}}};
-        case Tension::no_tangent_join:
-            return {"no surface with tension 1 was found to begin with", {{"no_tangent_join", 1.0}}};
-        case Tension::other_equation:
-            return {"a surface that finds its slope along curves or borders has least variation, and no tension",
-                    {{"other_equation", 1.0}}};
-        case Tension::lone_pins: return {"pins without fixed neighbours have no slope to carry", {{"lone_pins", 1.0}}};
-        default:
-            return {"the iteration for it did not converge to an acceptable surface; choose a tension nearer to 1",
-                    {{"not_found", 1.0}}};
-    }
-}
-
-}  // namespace
-
-void warn_of_tension(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
-    if (solution.tension == Tension::absent || solution.tension == Tension::met) return;
-    const auto fixed = fixed_vertices(patch);
-    auto [why, figures] = reason_of_tension(solution.tension);
-    figures["outline_vertices"] = static_cast<double>(fixed.size());
-    warnings.push_back({Code::tension_not_met, "the surface has tension 1 all along its boundary: " + why,
-                        Indices(fixed.begin(), fixed.end()), ElementKind::vertex, std::move(figures)});
-}
-
-namespace {
-
 void warn_of_sharp_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
     Indices pins = sharp_pins(patch, solution.points);
     if (pins.empty()) return;

@@ -39,10 +39,6 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 // for "not_found", "own_mesh" or "no_tangent_join"; none where the curvature is not known.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
-// TENSION_NOT_MET with the fixed vertices where tensions were asked for and the surface is that without. Figures:
-// "outline_vertices", and 1 for "not_found", "own_mesh", "no_tangent_join", "lone_pins" or "other_equation": why.
-void warn_of_tension(const Patch& patch, const Solution& solution, Diagnostics& warnings);
-
 // PINS_NOT_SPREAD with the pins that act in a point although a radius was asked for. Another one, with the figure
 // "tips", names those at which the surface forms a spike (pins/sharp_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);

@@ -55,7 +55,6 @@ public:
         result_.joins_curvature =
             result_.joins_curvature && (solution.join == Join::curvature || solution.join == Join::partly_curvature);
         warn_of_join(patch, solution, result_.warnings);
-        warn_of_tension(patch, solution, result_.warnings);
         warn_of_pins(patch, solution, result_.warnings);
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
@@ -225,14 +224,9 @@ FairResult run_call(MeshInput& input, const std::optional<View<Points>>& referen
     check_memory(largest_free_count(prepared->patches));
     std::optional<Call> call;  // made after the first solve, which needs the room
     const double topology_seconds = watch.seconds();
-    const ComponentData data{input.vertices,
-                             prepared->mesh.normals,
-                             prepared->mesh.curvatures,
-                             prepared->mesh.log_tensions,
-                             reference.value_or(input.vertices),
-                             input.outside,
-                             input.fixed_normals.has_value(),
-                             prepared->mesh.roles.faired};
+    const ComponentData data{
+        input.vertices, prepared->mesh.normals,          prepared->mesh.curvatures,  reference.value_or(input.vertices),
+        input.outside,  input.fixed_normals.has_value(), prepared->mesh.roles.faired};
     if (preview) preview(first_surfaces(*prepared, data, progress));
     double done = 0.1;  // of the time in a large call; all patches take eight tenths of it
     double total = 0.0;

@@ -44,14 +44,13 @@ void FairSolver::change(FairOptions options) {
     for (ComponentSolver& solver : prepared_->solvers) solver.options_changed();
 }
 
-FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normals, GivenJoin join,
-                             const std::optional<View<Points>>& reference, const ProgressCallback& progress,
-                             const Preview& preview) {
+FairResult FairSolver::solve(Points vertices, std::optional<Points> fixed_normals,
+                             std::optional<VectorX> fixed_curvatures, const std::optional<View<Points>>& reference,
+                             const ProgressCallback& progress, const Preview& preview) {
     vertices_ = std::move(vertices);
     input_.vertices = vertices_;
     input_.fixed_normals = std::move(fixed_normals);
-    input_.fixed_curvatures = std::move(join.curvatures);
-    input_.fixed_tensions = std::move(join.tensions);
+    input_.fixed_curvatures = std::move(fixed_curvatures);
     return run_call(input_, reference, options_, prepared_, progress, preview);
 }
 

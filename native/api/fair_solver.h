@@ -8,12 +8,6 @@
 
 namespace fairing {
 
-// How the boundary is joined, at the fixed vertices given (api/input).
-struct GivenJoin {
-    std::optional<VectorX> curvatures = {};
-    std::optional<VectorX> tensions = {};
-};
-
 struct PreparedMesh;
 
 // One call at a time. The constructor throws what check_mesh (connectivity) and prepare throw, where the numbering has
@@ -26,7 +20,7 @@ public:
     ~FairSolver();
 
     // What fair() gives: the first time bit for bit, then to the tolerance. Throws the same; the solver stays usable.
-    FairResult solve(Points vertices, std::optional<Points> fixed_normals, GivenJoin join,
+    FairResult solve(Points vertices, std::optional<Points> fixed_normals, std::optional<VectorX> fixed_curvatures,
                      const std::optional<View<Points>>& reference, const ProgressCallback& progress,
                      const Preview& preview = {});
 

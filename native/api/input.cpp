@@ -247,14 +247,6 @@ VectorX curvatures_of(const MeshInput& input) {
     return curvatures;
 }
 
-// ln of the tensions of all vertices.
-VectorX log_tensions_of(const MeshInput& input) {
-    if (!input.fixed_tensions || (input.fixed_tensions->array() == 1.0).all()) return {};
-    VectorX logarithms = VectorX::Zero(input.vertices.cols());
-    logarithms(*input.fixed) = input.fixed_tensions->array().log().matrix();
-    return logarithms;
-}
-
 }  // namespace
 
 MeshTopology check_topology(const MeshInput& input) {
@@ -288,7 +280,6 @@ void check_geometry(const MeshInput& input, CheckedMesh& mesh) {
     }
     warn_of_normals(input, mesh);
     mesh.curvatures = curvatures_of(input);
-    mesh.log_tensions = log_tensions_of(input);
 }
 
 CheckedMesh check_mesh(const MeshInput& input) {

@@ -24,7 +24,6 @@ struct MeshInput {
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known, ∞: tangent
     Triangles outside = {};                        // around the patches; they stay
     HeldInside held = {};
-    std::optional<VectorX> fixed_tensions = {};  // at `fixed`, positive; left out: 1
 };
 
 // What follows from the connectivity and the fixed vertices alone. Border vertices are fixed, given or not.
@@ -37,10 +36,9 @@ struct MeshTopology {
 
 // The mesh after all checks.
 struct CheckedMesh : MeshTopology {
-    FixedNormals normals;       // prescribed unit normals, at `roles.fixed`
-    VectorX curvatures;         // prescribed H of each vertex, NaN elsewhere; empty where none are prescribed
-    Diagnostics warnings;       // of the geometry
-    VectorX log_tensions = {};  // of each vertex, 0 where none is prescribed; empty: all are
+    FixedNormals normals;  // prescribed unit normals, at `roles.fixed`
+    VectorX curvatures;    // prescribed H of each vertex, NaN elsewhere; empty where none are prescribed
+    Diagnostics warnings;  // of the geometry
 };
 
 // Throws MeshError: INDEX_RANGE, NONFINITE (triangles between fixed vertices may have such corners: they are left out),

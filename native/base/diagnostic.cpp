@@ -32,7 +32,6 @@ constexpr std::array<std::string_view, static_cast<std::size_t>(last) + 1> names
     "NO_SOLUTION",
     "PRECISION",
     "G2_NOT_MET",
-    "TENSION_NOT_MET",
     "PINS_NOT_SPREAD",
     "OUTLINE_KEPT",
     "NOT_A_LOOP",

@@ -35,7 +35,6 @@ enum class Code {
     no_solution,
     precision,
     g2_not_met,
-    tension_not_met,
     pins_not_spread,
     outline_kept,
     not_a_loop,

@@ -79,8 +79,7 @@ Preview shown_by(PythonRun& run, const py::object& preview) {
 
 py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, const std::optional<IntArray>& fixed,
                      const std::optional<DoubleArray>& fixed_normals,
-                     const std::optional<DoubleArray>& fixed_curvatures,
-                     const std::optional<DoubleArray>& fixed_tensions, const std::optional<DoubleArray>& reference,
+                     const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
                      const std::optional<IntArray>& outside, const Options& options, const py::object& callback,
                      const py::object& preview) {
     PythonRun run(callback);
@@ -90,8 +89,7 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
                     to_optional(fixed_normals, to_points),
                     to_optional(fixed_curvatures, to_vector),
                     outside ? to_triangles(*outside) : Triangles(3, 0),
-                    options.held,
-                    to_optional(fixed_tensions, to_vector)};
+                    options.held};
     const auto m0 = to_optional(reference, view_points);
     return to_dict(run.without_gil([&](const ProgressCallback& progress) {
         return fair(std::move(input), m0, options.fair, progress, shown_by(run, preview));
@@ -110,16 +108,16 @@ public:
     }
 
     py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
-                   const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& fixed_tensions,
-                   const std::optional<DoubleArray>& reference, const py::object& callback, const py::object& preview) {
+                   const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
+                   const py::object& callback, const py::object& preview) {
         PythonRun run(callback);
         const Hold hold(busy_);
         Points points = to_points(vertices);
         auto normals = to_optional(fixed_normals, to_points);
-        GivenJoin join{to_optional(fixed_curvatures, to_vector), to_optional(fixed_tensions, to_vector)};
+        auto curvatures = to_optional(fixed_curvatures, to_vector);
         const auto m0 = to_optional(reference, view_points);
         return to_dict(run.without_gil([&](const ProgressCallback& progress) {
-            return solver_.solve(std::move(points), std::move(normals), std::move(join), m0, progress,
+            return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress,
                                  shown_by(run, preview));
         }));
     }
@@ -232,10 +230,10 @@ void bind_fair(py::module_& module) {
              py::arg("fixed"), py::arg("options"))
         .def("change", &PythonSolver::change, py::arg("options"))
         .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
-             py::arg("fixed_tensions"), py::arg("reference"), py::arg("progress"), py::arg("preview"));
+             py::arg("reference"), py::arg("progress"), py::arg("preview"));
     module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("fixed_tensions"), py::arg("reference"),
-               py::arg("outside"), py::arg("options"), py::arg("progress"), py::arg("preview"));
+               py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("reference"), py::arg("outside"),
+               py::arg("options"), py::arg("progress"), py::arg("preview"));
 }
 
 }  // namespace fairing::bindings

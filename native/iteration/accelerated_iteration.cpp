@@ -150,16 +150,8 @@ private:
     // False where the surface is no longer finite.
     bool measure() {
         state_.measure_faces(patch_);
-        if (!weigh()) {
-            solution_.termination = Termination::stalled;
-            return false;
-        }
         state_.measure_curvature(problem_);
         outer_ = outer_residual(problem_, state_);
-        if (work_.tension) {
-            const Eigen::RowVectorXd field = state_.weight.cwiseProduct(straight_).transpose();
-            outer_ -= state_.stiffness.apply(patch_, field, patch_.free_count).transpose();
-        }
         residual_ = largest_residual(problem_, state_, outer_);
         if (!std::isfinite(residual_)) {
             solution_.termination = Termination::stalled;
@@ -168,24 +160,6 @@ private:
         if (residual_ < best_residual_) keep();
         if (best_ == Best::one_back) store_best();
         return true;
-    }
-
-    // The weights of H on this surface; false where it has none.
-    bool weigh() {
-        if (!work_.tension) return true;
-        auto found = work_.tension->on(state_.points, state_.stiffness, progress_.here());
-        if (!found) return false;
-        state_.weight = std::move(found->weight);
-        straight_ = std::move(found->straight);
-        return true;
-    }
-
-    // K of w H: as if the vertices had 1/w of their mass.
-    [[nodiscard]] bool update_operator(const Progress& progress) {
-        if (state_.weight.size() == 0) return work_.normal->update(state_.stiffness, progress);
-        Stiffness weighed = state_.stiffness;
-        weighed.mass.array() /= state_.weight.array();
-        return work_.normal->update(weighed, progress);
     }
 
     void keep() {
@@ -203,7 +177,7 @@ private:
         const bool wanted = k == 0 || last_step_ > slow_contraction * step_at_refresh_;
         refreshed_at_ = k;
         step_at_refresh_ = k == 0 ? std::numeric_limits<double>::infinity() : last_step_;
-        return !wanted || update_operator(progress_.range(0.0, k == 0 ? share_of_factor : 0.0));
+        return !wanted || work_.normal->update(state_.stiffness, progress_.range(0.0, k == 0 ? share_of_factor : 0.0));
     }
 
     // The share of a step of this length that its solve may leave.
@@ -273,7 +247,6 @@ private:
     const int unfinished_before_;
     SurfaceState state_;
     VectorX outer_;
-    VectorX straight_;  // H of what goes straight on from the boundary, where there are tensions
     double residual_ = 0.0;
     double residual_before_ = 0.0;  // the last step
     bool arrived_ = false;          // the last step was within the tolerance

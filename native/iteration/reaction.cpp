@@ -17,7 +17,6 @@ VectorX reaction(const Problem& problem, const SurfaceState& state, const Vector
     const VectorX K = state.curvature.gaussian();
     Eigen::RowVectorXd field = Eigen::RowVectorXd::Zero(problem.patch.vertex_count());
     field.head(count) = (2.0 * H.square() - K.head(count).array()) * u.array();
-    if (state.weight.size() > 0) field.array() *= state.weight.transpose().array();
     return state.stiffness.apply(problem.patch, field, count).transpose();
 }
 

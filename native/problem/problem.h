@@ -77,8 +77,6 @@ struct Problem {
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known, infinite where a tangent join is asked for;
     // for Δ_B² H = 0. Empty: a tangent join.
     VectorX fixed_curvatures = {};
-    // ln of the tensions at the fixed vertices (operators/tension_weight). Empty: all are 1.
-    VectorX log_tensions = {};
     // The shape before (3 × local vertices), taken where no surface is found (stand_in/smoothed). Empty: none.
     Deferred<Points> before = {};
     Conduct conduct = {};

@@ -37,10 +37,6 @@ enum class Join {
     not_found,          // no surface, or none that is accepted
 };
 
-// Whether slopes are carried as far as tensions say (continuity/tension). The last five: not, although it was asked
-// for.
-enum class Tension { absent, met, other_equation, lone_pins, no_tangent_join, other_mesh, not_found };
-
 // Whether pins have a radius (method/pinned). The last five: not, although it was asked for.
 enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
@@ -98,7 +94,6 @@ struct Solution {
     Provenance provenance = Provenance::equation;
     bool uniform_weights = false;  // uniform weights were taken instead of the problem's
     Join join = Join::tangent;
-    Tension tension = Tension::absent;
     Pins pins = Pins::absent;
     Indices tangent_only;       // of partly_curvature: fixed vertices, counted from the first one
     double smooth_share = 0.0;  // of too_rough: how much of what is lacking long waves explain, 0 … 1

@@ -101,7 +101,6 @@ double largest_length(const Points& field) { return std::sqrt(field.colwise().sq
 
 VectorX harmonic_residual(const Problem& problem, const SurfaceState& state) {
     Eigen::RowVectorXd H = state.curvature.mean.transpose();
-    if (state.weight.size() > 0) H.array() *= state.weight.transpose().array();
     return state.stiffness.apply(problem.patch, H, problem.patch.free_count).transpose();
 }
 

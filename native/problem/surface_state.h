@@ -12,7 +12,6 @@ struct SurfaceState {
     Stiffness stiffness;
     Points normals;
     PatchCurvature curvature;
-    VectorX weight;  // of H in the outer equation, Δ_B (w H); empty: one
 
     // Faces and stiffness of the present points.
     void measure_faces(const Patch& patch);

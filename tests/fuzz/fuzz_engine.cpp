@@ -81,8 +81,8 @@ void fuzz_solver(FuzzedDataProvider& bytes) {
     for (int k = 0; k < solves; ++k) {
         const std::optional<Points> reference = random_reference(bytes, mesh.vertices);
         attempt(mesh, [&] {
-            const FairResult result = solver->solve(given.points, mesh.fixed_normals, {{}, mesh.fixed_tensions},
-                                                    reference, Stopper{bytes.ConsumeIntegralInRange(0, 60)});
+            const FairResult result = solver->solve(given.points, mesh.fixed_normals, {}, reference,
+                                                    Stopper{bytes.ConsumeIntegralInRange(0, 60)});
             check_fair(result, mesh, options);
             if (k == 0) check_same(result, fair(mesh, reference, options, {}));
         });

@@ -204,10 +204,6 @@ void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh) {
         case 2: mesh.fixed = random_subset(bytes, count); break;
         default: mesh.fixed = random_list(bytes, count);
     }
-    if (bytes.ConsumeIntegralInRange(0, 7) == 7) {
-        VectorX& tensions = mesh.fixed_tensions.emplace(static_cast<Eigen::Index>(mesh.fixed->size()));
-        for (double& tension : tensions) tension = bytes.PickValueInArray({1.0, 0.1, 0.5, 2.0, 10.0, 1e-300, 1e300});
-    }
     if (!bytes.ConsumeBool()) return;
     Points& normals = mesh.fixed_normals.emplace(3, static_cast<Eigen::Index>(mesh.fixed->size()));
     for (auto normal : normals.colwise()) {

@@ -25,8 +25,7 @@ struct RandomMesh {
 // infinity, extremes). With `valid_indices` every index names a vertex. Without bytes left: a flat quad.
 RandomMesh random_mesh(FuzzedDataProvider& bytes, bool valid_indices);
 
-// Fixed vertices (none given, the border, any subset, any list with repetitions and strangers), their normals, and now
-// and then tensions.
+// Fixed vertices (none given, the border, any subset, any list with repetitions and strangers), and their normals.
 void random_boundary(FuzzedDataProvider& bytes, MeshInput& mesh);
 
 // Some vertices moved a little, to anywhere or to no number; now and then one more vertex, or the last one gone.

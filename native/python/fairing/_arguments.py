@@ -96,18 +96,6 @@ def curvatures(value: npt.ArrayLike, held: IntArray | None) -> FloatArray:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def tensions(value: npt.ArrayLike, held: IntArray | None) -> FloatArray:
-    """``tension`` as (k,) float64, or ValueError."""
-    if held is None:
-        raise ValueError("tension: needs `vertices`, whose order it follows")
-    array = _array("tension", value)
-    if array.dtype.kind not in "fiu" or array.shape not in ((), held.shape):
-        raise ValueError(f"tension: a number, or {held.shape} numbers, are needed, not {array.dtype} {array.shape}")
-    if not ((array > 0.0) & np.isfinite(array)).all():
-        raise ValueError("tension: positive finite numbers are needed")
-    return np.ascontiguousarray(np.broadcast_to(array, held.shape), dtype=np.float64)
-
-
 def indices_within(name: str, array: IntArray, count: int) -> IntArray:
     """The array itself, or MeshError INDEX_RANGE where an index is outside 0 … count − 1.
 

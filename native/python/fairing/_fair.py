@@ -104,8 +104,7 @@ def solved(
         engine.detail = 1.0
     joins = _options.continuity(surface.continuity, surface.equation, chosen.solving.method)
     around = _mending.Surroundings.of(points, faces, fixed, boundary.outside)
-    tension = _options.tension(boundary, fixed, chosen)
-    as_given = _mending.Boundary(points, fixed, normals, tensions=tension)
+    as_given = _mending.Boundary(points, fixed, normals)
     if not joins and boundary.curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
@@ -113,7 +112,7 @@ def solved(
 
     def call(held: _mending.Boundary) -> dict[str, Any]:
         return _core.fair(
-            held.vertices, faces, held.fixed, held.normals, held.curvatures, held.tensions, m0, around.outside,
+            held.vertices, faces, held.fixed, held.normals, held.curvatures, m0, around.outside,
             engine, progress, preview,
         )  # fmt: skip
 
@@ -121,7 +120,7 @@ def solved(
     if fitted:
         _mending.refuse_creases(curves.creases, around)
     refused = {
-        "reference": m0 is not None, "outline": fitted, "continuity": joins, "tension": tension is not None,
+        "reference": m0 is not None, "outline": fitted, "continuity": joins,
     }  # fmt: skip
     fade = _fade(skin, refused, count, threads, progress)
     if fade is not None:

@@ -47,6 +47,6 @@ def flat(chosen: Options, threads: int, boundary: Boundary | None = None) -> dic
     found = chosen.chosen
     if threads:
         found["threads"] = threads
-    joined = () if boundary is None else ("curvatures", "continuity", "tension")
+    joined = () if boundary is None else ("curvatures", "continuity")
     by_vertex = {f"fixed_{name}": getattr(boundary, name) for name in joined}
     return {**found, **{name: value for name, value in by_vertex.items() if value is not None}}

@@ -59,11 +59,6 @@ class Boundary:
     is met, its tangent plane too, or its curvature as well. An edge has what both of its ends have. "G0" are
     ``creases``: the surface, one of "least_variation", finds its slope there. Not beside "G2" (docs/joins.md)."""
 
-    tension: npt.ArrayLike | None = None
-    """float | (k,) float. Positive; how far in the surface carries the slopes at ``vertices``: further above 1, less
-    far below (docs/joins.md). Where it can't, it is the surface of 1, with the warning TENSION_NOT_MET. For
-    ``equation`` "harmonic" and ``continuity`` "G1"."""
-
 
 @dataclass(frozen=True)
 class Surface:

@@ -17,7 +17,7 @@ Answer = dict[str, Any]
 
 @dataclass(frozen=True)
 class Boundary:
-    """What a solve is given: vertices (n, 3), ``fixed`` (k,), its normals (k, 3), curvatures (k,) and tensions (k,).
+    """What a solve is given: vertices (n, 3), ``fixed`` (k,), its normals (k, 3) and curvatures (k,).
 
     None where left out.
     """
@@ -26,7 +26,6 @@ class Boundary:
     fixed: IntArray | None
     normals: FloatArray | None
     curvatures: FloatArray | None = None
-    tensions: FloatArray | None = None
 
 
 @dataclass(frozen=True)

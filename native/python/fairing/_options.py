@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _paper
-from fairing._groups import Boundary, Layout, Options
+from fairing._groups import Layout, Options
 from fairing._types import FloatArray, IntArray
 
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
@@ -75,21 +75,6 @@ def continuity(value: str, equation: str, method: str) -> bool:
             "accepted with 'harmonic' or 'automatic' and 'global'"
         )
     return True
-
-
-def tension(boundary: Boundary, fixed: IntArray | None, chosen: Options) -> FloatArray | None:
-    """(k,) tensions at ``fixed``, or None; only Δ_B H = 0 with tangent joins has a version with them."""
-    if boundary.tension is None:
-        return None
-    surface, method = chosen.surface, chosen.solving.method
-    if surface.continuity != "G1":
-        raise ValueError(f"tension: not accepted with continuity {surface.continuity!r}; accepted with 'G1'")
-    if surface.equation not in ("harmonic", "automatic") or method != "global":
-        raise ValueError(
-            f"tension: not accepted with equation {surface.equation!r} and method {method!r}; accepted with 'harmonic' "
-            "or 'automatic' and 'global'"
-        )
-    return _arguments.tensions(boundary.tension, fixed)
 
 
 def callback(progress: Any) -> Any:

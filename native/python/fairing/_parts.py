@@ -30,8 +30,6 @@ def by_parts(boundary: Boundary, options: Options) -> tuple[Boundary, Options]:
             "continuity: 'G0' and 'G2' are not accepted in one boundary: a surface with free slopes is one of least "
             "variation, and curvatures are met by the harmonic equation"
         )
-    if boundary.tension is not None and (loose | curved).any():
-        raise ValueError("tension: not accepted where some of `continuity` is 'G0' or 'G2'; accepted with 'G1' alone")
     if loose.any():
         given = _arguments.integers("creases", _or_none(options.curves.creases), None)
         options = options.changed(creases=np.union1d(given, fixed[loose]).astype(np.int32))

@@ -97,7 +97,7 @@ class Patch:
     def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
         threads = chosen.pop("threads", 0)
-        joined = {name: chosen.pop(f"fixed_{name}", None) for name in ("curvatures", "continuity", "tension")}
+        joined = {name: chosen.pop(f"fixed_{name}", None) for name in ("curvatures", "continuity")}
         around = outside if outside is not None and len(outside) else None
         boundary = Boundary(self.fixed, self.normals, outside=around, **joined)
         return solved(self.vertices, self.triangles, boundary, Options.of(**chosen, start=start), progress, threads)

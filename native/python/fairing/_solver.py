@@ -103,7 +103,6 @@ class Solver:
         fixed_curvatures: npt.ArrayLike | None = None,
         preview: Preview | None = None,
         continuity: npt.ArrayLike | None = None,
-        tension: npt.ArrayLike | None = None,
     ) -> FairResult:
         """Solve for these positions and normals; arguments, result and errors are those of fairing.fair.
 
@@ -111,7 +110,6 @@ class Solver:
         it, or they are made anew, and factorised, whenever a vertex has moved. With continuity "G2"
         ``fixed_curvatures`` must be given; :func:`fairing.surrounding_normals` fits them. ``continuity`` says where
         along ``fixed`` they are met, "G2", and where the join is tangent only, "G1"; default: met everywhere.
-        ``tension`` is that of :class:`fairing.Boundary`.
         """
         points = _arguments.floats("vertices", vertices)
         count = points.shape[0]
@@ -122,8 +120,7 @@ class Solver:
         m0 = None if reference is None else _arguments.floats("reference", reference, count)
         _options.layout_within(self._options.layout, count)
         callback = _options.callback(progress)
-        tensions = None if tension is None else _arguments.tensions(tension, self._fixed)
-        return FairResult(**self._engine.solve(points, given_normals, curvatures, tensions, m0, callback, preview))
+        return FairResult(**self._engine.solve(points, given_normals, curvatures, m0, callback, preview))
 
     def _curvatures(self, given: npt.ArrayLike | None, kinds: npt.ArrayLike | None) -> FloatArray | None:
         """Checked; needed for "G2" and refused without it."""
