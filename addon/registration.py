@@ -1,6 +1,5 @@
 """Makes everything known to Blender, and takes it back."""
 
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -64,7 +63,6 @@ for _class in _CLASSES:  # tooltips break their lines by themselves
     _class.bl_description = " ".join((_class.__doc__ or "").split())
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(_CLASSES)
 _commands: list[Any] = []  # handles that Blender wants back at unregistering
-_folder = str(Path(__file__).parent)  # holds presets/operator
 
 
 def register() -> None:
@@ -90,14 +88,12 @@ def register() -> None:
     redo.register()
     file_owned.register()
     translations.register()
-    bpy.utils.register_preset_path(_folder)
     _commands.append(bpy.utils.register_cli_command("fair", cli.execute))
 
 
 def unregister() -> None:
     """Take back everything that register() did, in reverse."""
     bpy.utils.unregister_cli_command(_commands.pop())
-    bpy.utils.unregister_preset_path(_folder)
     translations.unregister()
     file_owned.unregister()
     redo.unregister()

@@ -60,8 +60,6 @@ def addon_arrows() -> Arrows:
     arrows: Arrows = {}
     for path in sorted(folder.rglob("*.py")):
         parts = path.relative_to(folder).parts
-        if "presets" in parts:
-            continue
         room = f"addon/{place(parts[0] if len(parts) > 1 else path.stem)}"
         found = arrows.setdefault(room, set())
         for level, name in imports(path):

@@ -83,7 +83,6 @@ def test_vertices_without_triangles_may_be_anything() -> None:
         ("method", "fast", ["global", "paper"]),
         ("equation", "biharmonic", ["harmonic", "constant", "minimal_energy", "soap_film"]),
         ("inner_fairness", "smooth", ["uniform", "conformal", "inverse_distance", "shape_preserving"]),
-        ("inner_fairness", None, ["uniform", "conformal", "inverse_distance", "shape_preserving"]),
         ("normals", "smooth", ["fitted", "averaged"]),
         ("levels", 2, ["0", "1"]),
         ("levels", -1, ["0", "1"]),

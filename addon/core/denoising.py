@@ -3,48 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Any
 
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints
-from .checked import refuse_negative, refuse_other_kinds
 from .engine import Progress
-from .fill_options import DENOISE
 from .moved_keys import MovedKey
-from .option_table import fields_of, read_named
+from .other_options import DenoiseOptions
 from .reflected import whole_of
 from .region import MeshArrays, free_vertices, to_local
-
-
-@dataclass(frozen=True)
-class DenoiseOptions:
-    """What the options of `mesh.fair_denoise` (fill_options.py) come to.
-
-    Raises ValueError for a value it does not know, TypeError for one of another kind.
-    """
-
-    size: float = 0.0  # the shortest wavelength that stays, in world space; 0: twelve of the edges around
-    amount: float = 1.0  # 0 … 1
-
-    def __post_init__(self) -> None:
-        refuse_other_kinds(self)
-        refuse_negative(self, "size")
-        if not 0.0 <= self.amount <= 1.0:
-            raise ValueError(f"amount: expected 0 … 1, got {self.amount!r}")
-
-    @classmethod
-    def named(cls, properties: dict[str, Any]) -> DenoiseOptions:
-        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        return cls(**read_named(DENOISE, properties, "denoise_mesh"))
-
-    @classmethod
-    def of(cls, properties: Any) -> DenoiseOptions:
-        """Read every option from an object that has them as attributes."""
-        return cls(**fields_of(DENOISE, partial(getattr, properties)))
 
 
 @dataclass(frozen=True)

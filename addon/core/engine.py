@@ -82,7 +82,7 @@ def solve(
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
-    if options.outline == "MENDED" and np.isin(patch.creases, patch.outline).any():
+    if options.smooth_boundary and np.isin(patch.creases, patch.outline).any():
         raise ValueError(
             "Smooth Boundary would round off the creases that run out of the selection: turn it off, "
             "or choose At Pinned Edges: Averaged"
@@ -94,11 +94,10 @@ def solve(
         problem.curvatures if options.joins_curvature else None,
         problem.outside if reads else None,
         problem.kinds if options.joins_curvature else None,
-        patch.tension if options.has_tension else None,
     )
     wanted = fairing.Options.of(
         neighbours=patch.neighbours if problem.weights is None else None,  # the band has none
-        outline=options.outline.lower(),
+        outline="mended" if options.smooth_boundary else "given",
         weights=problem.weights,
         **_held_inside(patch, options),
         **options.engine_arguments(),
@@ -119,7 +118,7 @@ def _held_inside(patch: Patch, options: FairOptions) -> dict[str, Any]:
     return {
         "creases": patch.slopes_found,
         "smooth_curves": patch.smooth_curves,
-        "open_border": "faired" if options.fairs_border else "held",
+        "open_border": "faired" if options.fair_open_borders else "held",
     }
 
 
@@ -182,7 +181,7 @@ class RepeatedSolve:
             own = problem.posed[: len(problem.patch.vertices)]
             return self._solver.solve(
                 own, problem.normals, self._reference, progress, fixed_curvatures=problem.curvatures, preview=preview,
-                continuity=problem.kinds, tension=problem.patch.tension,
+                continuity=problem.kinds,
             )  # fmt: skip
 
     def first(self, problem: Problem) -> Floats:

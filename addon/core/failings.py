@@ -31,10 +31,8 @@ def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
 
 def _ended(reason: str, evidence: Evidence, options: FairOptions) -> str:
     """Add how the search ended, where the engine does not say why, and what there is instead."""
-    if options.fairs_border:
+    if options.fair_open_borders:
         return said("rough_border", reason=reason)
-    if options.method == "PAPER":
-        return said("multigrid_missed", reason=reason)
     if any(evidence.reported("NOT_CONVERGED", "load_share", "area", "from_behind")):
         return reason
     count = evidence.result.iterations

@@ -16,22 +16,6 @@ from .options import FairOptions
 from .region import MeshArrays, Patch
 
 
-def refuse_options(options: FairOptions) -> None:
-    """Raise ValueError for options that a band can't have."""
-    without = "Falloff 0" if options.feather > 0.0 else "no Vertex Group and no Mask"
-    for wrong, text in (
-        (options.outline != "GIVEN", "Smooth Boundary moves vertices of the band: turn it off"),
-        (
-            options.joins_curvature,
-            "Continuity: Curvature, or a Curvature Group, holds the boundary, which the band moves: choose Tangent and "
-            "no group",
-        ),
-        (options.has_tension, "Tension holds the boundary, which the band moves: choose 1"),
-    ):
-        if wrong and options.moves_band:
-            raise ValueError(f"{text}, or {without}")
-
-
 @contextmanager
 def naming_the_band(options: FairOptions) -> Iterator[None]:
     """Say why nothing holds the surface where a band reaches all around to the far side; raises ValueError then."""
@@ -40,7 +24,7 @@ def naming_the_band(options: FairOptions) -> Iterator[None]:
     except fairing.MeshError as error:
         if error.diagnostic.code != "NO_BOUNDARY" or not options.moves_band:
             raise
-        what = "Falloff" if options.feather > 0.0 else "Vertex Group or Use Mask"
+        what = "Falloff" if options.falloff > 0.0 else "Vertex Group or Use Mask"
         raise ValueError(
             f"{what} reaches all around to the far side, so that nothing is left to hold the surface: choose less, "
             "or pin vertices"

@@ -15,11 +15,12 @@ from .around import RINGS
 from .arrays import Floats, Ints
 from .border import BorderRefusal
 from .engine import Progress
-from .fill_pieces import FillOptions, Piece
+from .fill_pieces import Piece
 from .fill_verdict import Surface, judge
 from .findings import Origin
 from .key_surface import Surroundings
 from .neighbourhood import Neighbourhood
+from .other_options import FillOptions
 from .passes import numbered_by_pass
 from .quality import join_at
 from .region import MeshArrays, to_local
@@ -72,21 +73,20 @@ class Job:
 
     def _local(self, outline: Ints, rings: int = RINGS) -> Local:
         """Return what is around an outline, with edges that are drawn across."""
-        runs_on = self.options.hard_edges == "RUN_ON" and not self.options.bridge
-        drawn = drawn_edges(self.loose, outline) if runs_on and len(self.loose.edges) else _no_edges()
+        drawn = drawn_edges(self.loose, outline) if self.options.runs_on and len(self.loose.edges) else _no_edges()
         around = self.near.around(np.unique(outline), rings)
         vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
         return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
 
     def filled(self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool) -> fairing.FillResult:
         options = self.options
-        surface = fairing.Surface(options.equation.lower(), continuity="G2" if options.joins_curvature else "G1")
+        surface = fairing.Surface(options.equation, continuity="G2" if options.joins_curvature else "G1")
         return fairing.fill(
             self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
             fairing.Options(surface), bridge=bridge,
-            spacing=_spacing(self.world, loops, options), inner=options.inner.lower(),
-            faces="quads" if options.quads else "triangles", max_vertices=options.max_vertices,
-            edges=options.hard_edges.lower(), wires=local.drawn,
+            spacing=_spacing(self.world, loops, options), inner="outline",
+            faces="quads" if options.quads else "triangles",
+            edges="run_on" if options.run_on else "ignored", wires=local.drawn,
             marked=within(marked_edges(self.world), local.vertices), progress=progress,
         )  # fmt: skip
 
@@ -119,7 +119,6 @@ class Job:
             around=_keyed_from(vertices, around, outline, self.matrix),
             quads=self.options.quads,
             rows=self.options.quads and not any(warning.code == "NO_QUAD_ROWS" for warning in result.warnings),
-            limit_total=self.options.limit_total,
             notes=_notes(result, slopes, local.origin),
             across=across,
         )

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import partial
-from typing import Any
 
 import numpy as np
 
@@ -13,77 +11,14 @@ import fairing
 from .across import Across
 from .arrays import Floats, Ints
 from .border import Left
-from .checked import refuse_negative, refuse_other_kinds
 from .faces import Faces, faces_in_rows, faces_of, paired_faces
-from .fill_options import FILL, FILL_EQUATIONS
 from .harmonic import harmonic, nearest
 from .key_surface import NewSurface, Surroundings, key_surfaces
-from .option_items import ACCEPT, HARD_EDGES, INNER
-from .option_shared import LEAST_SPACING
-from .option_table import fields_of, read_named
-from .options import CONTINUITIES, OF_CURVATURE
+from .other_options import FillOptions
 from .quality import Join
 from .reflected import Whole
 from .region import nothing
-from .subdivided import Subdivided
 from .verdict import UNUSABLE, Verdict
-
-
-@dataclass(frozen=True)
-class FillOptions:
-    """What the options of `mesh.fair_fill` (fill_options.py) come to.
-
-    Raises ValueError for a value it does not know, TypeError for one of another kind.
-    """
-
-    equation: str = "AUTOMATIC"
-    continuity: str = "G1"  # G2: the curvature around is continued, too
-    bridge: bool = False  # all loops of an object are joined
-    islands: bool = False  # loose pieces of faces inside a hole are joined with it
-    hard_edges: str = "RUN_ON"  # those that end at a hole go on through it, as edges drawn across it do; IGNORED
-    spacing: float = 1.0  # of new edges, as a factor of the boundary's
-    inner: str = "OUTLINE"  # in proportion to the boundary's nearby; EVEN: of one length
-    subdivide_boundary: bool = False  # long edges of the boundary are parted, to be as long as new ones
-    quads: bool = False  # faces are quads, in rows where a pattern fits
-    longest: int = 0  # edges: longer borders stay open; 0: any number
-    longest_length: float = 0.0  # likewise by their lengths in world space
-    max_vertices: int = 0  # more new ones for a surface are refused; 0: twenty times as many as over flat ones
-    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the boundary has
-    accept: str = "USABLE"  # ALL: written whatever it is worth
-
-    def __post_init__(self) -> None:
-        if self.equation not in FILL_EQUATIONS:
-            raise ValueError(f"equation: expected one of {', '.join(FILL_EQUATIONS)}, got {self.equation!r}")
-        if self.continuity not in CONTINUITIES:
-            raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
-        if self.inner not in INNER:
-            raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
-        if self.hard_edges not in HARD_EDGES:
-            raise ValueError(f"hard_edges: expected one of {', '.join(HARD_EDGES)}, got {self.hard_edges!r}")
-        if self.accept not in ACCEPT:
-            raise ValueError(f"accept: expected one of {', '.join(ACCEPT)}, got {self.accept!r}")
-        refuse_other_kinds(self)
-        if not self.spacing >= LEAST_SPACING:
-            raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
-        for name in ("longest", "max_vertices", "limit_total"):
-            refuse_negative(self, name)
-        if not 0.0 <= self.longest_length < float("inf"):
-            raise ValueError(f"longest_length: expected 0 or a positive number, got {self.longest_length!r}")
-
-    @classmethod
-    def named(cls, properties: dict[str, Any]) -> FillOptions:
-        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        return cls(**read_named(FILL, properties, "fill_mesh"))
-
-    @classmethod
-    def of(cls, properties: Any) -> FillOptions:
-        """Read every option from an object that has them as attributes."""
-        return cls(**fields_of(FILL, partial(getattr, properties)))
-
-    @property
-    def joins_curvature(self) -> bool:
-        """Whether the curvature around counts: only for the harmonic shape."""
-        return self.continuity == "G2" and self.equation in OF_CURVATURE
 
 
 @dataclass(frozen=True)
@@ -100,7 +35,6 @@ class Piece:
     around: Surroundings
     quads: bool = False  # whether faces are quads
     rows: bool = False  # whether these are in rows: those of the result
-    limit_total: int = 0  # as FillOptions has it
     notes: tuple[str, ...] = field(default=())
     across: Across = field(default_factory=Across)  # what runs across it; drawn vertices come first among the k
 
@@ -167,7 +101,6 @@ class Filled:
 
     pieces: list[Piece]
     left: tuple[Left, ...] = ()
-    parted: Subdivided | None = None  # the mesh that the pieces' numbers are those of; None: as it was read
     whole: Whole | None = None  # that mesh with its image, likewise but for verdicts; None: it is no half
 
     @property
@@ -196,7 +129,7 @@ class Filled:
     def settled(self, options: FillOptions) -> Filled:
         """Return what is to be written: surfaces that are not usable are left out where others are."""
         usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
-        if options.accept == "ALL" or not usable or len(usable) == len(self.pieces):
+        if options.allow_folds or not usable or len(usable) == len(self.pieces):
             return self
         bad = replace(self, pieces=[piece for piece in self.pieces if piece.verdict.grade == UNUSABLE], left=())
         return replace(self, pieces=usable, left=(*self.left, *bad.unfilled().left))

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from .across import reported
 from .border import notes_on
-from .fill_pieces import Filled, FillOptions, Piece
+from .fill_pieces import Filled, Piece
+from .other_options import FillOptions
 from .report import MISSED, Check, Report, distortion_text, kink_checks, shape_checks
 from .symmetry import NOT_SYMMETRIC
 from .verdict import GOOD, GRADES, LOOK, UNUSABLE, NotUsable, Verdict
@@ -40,12 +41,12 @@ class Added:
 
 def is_written(named: Named, options: FillOptions) -> bool:
     """Return whether the run changes its meshes: not where no surface is usable."""
-    return options.accept == "ALL" or any(_worst(of_one.pieces).grade != UNUSABLE for _, of_one in named)
+    return options.allow_folds or any(_worst(of_one.pieces).grade != UNUSABLE for _, of_one in named)
 
 
 def writable(named: Named, options: FillOptions) -> list[tuple[str, Filled]]:
     """Return what is written: of an object whose surfaces are all unusable nothing, where another one has some."""
-    if options.accept == "ALL" or not is_written(named, options):
+    if options.allow_folds or not is_written(named, options):
         return list(named)
     return [(name, of_one if _worst(of_one.pieces).grade != UNUSABLE else of_one.unfilled()) for name, of_one in named]
 
@@ -80,7 +81,7 @@ def make_fill_report(
         seconds=seconds,
         checks=(
             *shape_checks(results, options.equation),
-            *(kink_checks(joins) if options.equation != "SOAP_FILM" else ()),
+            *(kink_checks(joins) if options.equation != "soap_film" else ()),
             *_checks(pieces, added, distortion),
             *((Check("Holes that stay open", str(len(left)), MISSED),) if left else ()),
         ),

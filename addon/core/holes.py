@@ -10,8 +10,8 @@ import fairing
 
 from .arrays import Floats, Ints, Mask
 from .border import BorderRefusal, Left, border_loops, refuse_all
-from .fill_pieces import FillOptions
 from .islands import islands_inside
+from .other_options import FillOptions
 from .reflected import Whole, with_image
 from .region import MeshArrays, nothing
 from .sentences import in_numbers_of

@@ -20,12 +20,9 @@ def limited(weights: Floats, most: int) -> Floats:
     return result
 
 
-def limited_like(weights: Floats, sources: Floats, counted: Mask, most: int) -> Floats:
-    """Return weights (k, g) limited in the groups that count, a (g,) mask; the others stay.
-
-    most: 0 for as many as one of the sources (n, g) has.
-    """
+def limited_like(weights: Floats, sources: Floats, counted: Mask) -> Floats:
+    """Return weights (k, g) in no more of the groups that count, a (g,) mask, than one of the sources (n, g) is."""
     found = np.count_nonzero(sources[:, counted] > 0.0, axis=1)
     result = weights.copy()
-    result[:, counted] = limited(weights[:, counted], most or int(found.max(initial=0)))
+    result[:, counted] = limited(weights[:, counted], int(found.max(initial=0)))
     return result

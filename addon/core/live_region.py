@@ -11,6 +11,7 @@ from .arrays import Floats, Ints, Mask
 from .boundary import boundary
 from .engine import Problem, Progress, RepeatedSolve, solve
 from .held_curves import ALONG, faired_curves
+from .local_pins import pulled, without_lone_pins
 from .options import FairOptions
 from .region import MeshArrays, Patch, make_patch, nothing, to_local
 from .symmetry import mirror_map, symmetrised
@@ -96,6 +97,7 @@ class LiveRegion:
         """Prepare for the patch of `mesh`; raises ValueError where it can't be faired."""
         self.options = options
         options = options.resolved(mesh.textured)
+        mesh, self._lone = without_lone_pins(mesh, options)
         world = mesh.transformed(matrix)
         patch = make_patch(world, by_connectivity=not options.keeps_triangles)
         self._around = surroundings(mesh, patch)
@@ -110,8 +112,10 @@ class LiveRegion:
         part = replace(self._around.mesh, positions=self._start)
         curve = faired_curves(part)[0] if options.fairs_pinned_edges else nothing()
         self._side = _side_of(part, self._around.patch, self._options.boundary_normals)
-        self._moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
-        self._still = np.setdiff1d(self._around.patch.fixed, self._moving)
+        pins = np.flatnonzero(self._lone[patch.vertices])
+        moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
+        self._moving = np.setdiff1d(moving, pins)
+        self._still = np.setdiff1d(np.union1d(self._around.patch.fixed, pins), self._moving)
 
     @property
     def vertices(self) -> Ints:
@@ -136,8 +140,9 @@ class LiveRegion:
 
         positions: (n, 3) of `vertices`, in the mesh's own coordinates. Raises what engine.solve does.
         """
-        result = self._solve(self._problem(positions, matrix), progress)
-        return self._moved(result.vertices, matrix) if result.converged else None
+        problem = self._problem(positions, matrix)
+        result = self._solve(problem, progress)
+        return self._moved(problem, result.vertices, matrix) if result.converged else None
 
     def afresh(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Answer without what former answers left, as the operator would; the same contract.
@@ -149,10 +154,10 @@ class LiveRegion:
 
     def stand_in(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the surface of least variation where `answer` has none; the same contract. Takes a while."""
-        options = replace(self._options, equation="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
+        options = replace(self._options, shape="LEAST_VARIATION", inner_fairness="UNIFORM", continuity="G1")
         problem = replace(self._problem(positions, matrix), curvatures=None)
         result = solve(problem, options, progress)
-        return self._moved(result.vertices, matrix) if result.converged else None
+        return self._moved(problem, result.vertices, matrix) if result.converged else None
 
     def first(self, positions: Floats, matrix: Floats) -> Floats:
         """Return the surface (k, 3) that there always is, within milliseconds; the same contract, and never None.
@@ -161,7 +166,8 @@ class LiveRegion:
         """
         if self._quick is None:
             self._quick = RepeatedSolve(self._patch, self._options, self._reference)
-        return self._moved(self._quick.first(self._problem(positions, matrix)), matrix)
+        problem = self._problem(positions, matrix)
+        return self._moved(problem, self._quick.first(problem), matrix)
 
     def still(self, positions: Floats) -> Floats:
         """Return where the fixed vertices (b, 3) are; positions: (n, 3) of `vertices`."""
@@ -188,9 +194,9 @@ class LiveRegion:
             points[at[follows]] = places[follows]
         return points
 
-    def _moved(self, points: Floats, matrix: Floats) -> Floats:
+    def _moved(self, problem: Problem, points: Floats, matrix: Floats) -> Floats:
         """Return the vertices (k, 3) that move, in the mesh's own coordinates; points: (p, 3) in world space."""
-        fair = to_local(points, matrix)
+        fair = to_local(pulled(problem, points, self._lone, self._options.pin_radius), matrix)
         if self._image is not None:
             fair = symmetrised(fair, self._image)
         moved: Floats = fair[self._moving]

@@ -14,9 +14,19 @@ import fairing
 
 from .arrays import Floats, Ints, Mask
 from .engine import Problem
+from .options import FairOptions
 from .region import MeshArrays, free_vertices
 
 WIDTH = 3.0  # of a bump's radius over Pin Radius: it falls to a half at a third of it
+
+
+def without_lone_pins(mesh: MeshArrays, options: FairOptions) -> tuple[MeshArrays, Mask]:
+    """Return the mesh with the pins let go that pull locally, and their (n,) mask: none where nothing else holds it."""
+    lone = lone_pins(mesh) if options.pulls_locally else np.zeros(len(mesh.pinned), dtype=bool)
+    released = replace(mesh, pinned=mesh.pinned & ~lone)
+    inside = mesh.corner_vertices[mesh.in_patch[mesh.corner_faces]]
+    is_held = not free_vertices(released)[inside].all()
+    return (released, lone) if is_held else (mesh, np.zeros_like(lone))
 
 
 def lone_pins(mesh: MeshArrays) -> Mask:
@@ -32,6 +42,8 @@ def pulled(problem: Problem, vertices: Floats, lone: Mask, radius: float) -> Flo
     """Return the vertices (q, 3) of an answer without the pins lifted to where they are; radius: of Pin Radius."""
     patch = problem.patch
     pins = np.flatnonzero(lone[patch.vertices])
+    if not len(pins):
+        return vertices
     own = len(patch.vertices)
     surface = vertices[:own]
     size = np.ptp(problem.own_points, axis=0).max()

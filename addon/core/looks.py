@@ -73,7 +73,7 @@ def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
 def _rounded(evidence: Evidence, options: FairOptions) -> Found:
     if not len(evidence.rounded):
         return NOTHING
-    key = "smooth_boundary_rounded" if options.outline == "MENDED" else "falloff_rounded"
+    key = "smooth_boundary_rounded" if options.smooth_boundary else "falloff_rounded"
     return said(key, n=len(evidence.rounded)), evidence.rounded
 
 
@@ -232,9 +232,9 @@ _LOOKS = (
 
 
 def _is_meant_to_swell(options: FairOptions) -> bool:
-    return options.detail > 0.0 or options.pulls_locally or (options.equation == "CONSTANT" and options.bulge != 0.0)
+    return options.detail > 0.0 or options.pulls_locally or options.bulge != 0.0
 
 
 def judges_join(options: FairOptions) -> bool:
     """Return whether the result is meant to continue its surroundings: a soap film and a blend are not."""
-    return options.factor == 1.0 and options.equation != "SOAP_FILM"
+    return options.factor == 1.0 and options.equation != "soap_film"

@@ -1,10 +1,10 @@
-"""The values that choices have, with their labels and tooltips, and the pairs that checkboxes stand for."""
+"""The values that choices have, with their labels and tooltips."""
 
 from __future__ import annotations
 
 from .option_table import Item
 
-EQUATIONS = ("AUTOMATIC", "HARMONIC", "CONSTANT", "MINIMAL_ENERGY", "SOAP_FILM", "LEAST_VARIATION")
+HARMONIC = ("AUTOMATIC", "HARMONIC")  # shapes that can continue the curvature outside
 SHAPES: tuple[Item, ...] = (
     (
         "AUTOMATIC",
@@ -66,21 +66,3 @@ SLOPES_AT_PINS: tuple[Item, ...] = (
     ("SMOOTH", "Smooth Through", "The surface runs through the edges with a slope that it finds"),
     ("AVERAGE", "Averaged", "Both sides take the mean slope of the old faces at the edge"),
 )
-
-# What checkboxes stand for: off, on.
-ACCEPT = ("USABLE", "ALL")
-FACTOR_MASKS = ("IGNORED", "USED")
-FAIRED = ("HELD", "FAIRED")
-HARD_EDGES = ("IGNORED", "RUN_ON")
-INNER = ("OUTLINE", "EVEN")
-KEYS = ("ACTIVE", "ALL")
-MESHES = ("KEEP", "NEW")
-METHODS = ("GLOBAL", "PAPER")
-OTHERWISE = ("STOP", "LEAST_VARIATION")
-OUTLINES = ("GIVEN", "MENDED")
-PULLS = ("SURFACE", "LOCAL")
-
-
-def identifiers(items: tuple[Item, ...]) -> tuple[str, ...]:
-    """Return the values themselves."""
-    return tuple(identifier for identifier, _, _ in items)

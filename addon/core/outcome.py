@@ -86,7 +86,7 @@ def outcome(
     join = quality.join(problem, after)
     go_on(progress)
     swollen = quality.swollen((patch, before[:own]), (patch, after[:own]))
-    moves_outside = len(np.setdiff1d(moving, patch.free)) > 0 and (options.outline == "MENDED" or options.moves_band)
+    moves_outside = len(np.setdiff1d(moving, patch.free)) > 0 and (options.smooth_boundary or options.moves_band)
     rounded = _rounded(mesh, matrix, problem, after, moving) if moves_outside else nothing()
     odd = rounded, swollen, _eaten(mesh, problem, after)
     go_on(progress)

@@ -192,7 +192,6 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
         pinned=np.concatenate([mesh.pinned, mesh.pinned[off]]),
         free_slopes=_twice(mesh.free_slopes, off),
         continued=_twice(mesh.continued, off),
-        tension=_twice(mesh.tension, off),
         parts=_twice(mesh.parts, off),
         creases=_twice(mesh.creases, apart),
         smooth_curves=_twice(mesh.smooth_curves, apart),

@@ -50,7 +50,6 @@ class MeshArrays:
     pinned: Mask  # (n,)
     free_slopes: Mask | None = None  # (n,) where the boundary's position alone is kept; None: nowhere
     continued: Mask | None = None  # (n,) where the curvature outside is continued; None: everywhere or nowhere
-    tension: Floats | None = None  # (n,) how far the boundary's slopes are carried in; None: 1
     creases: Mask | None = None  # (e,) pinned edges on whose sides the surface finds slopes of their own
     smooth_curves: Mask | None = None  # (e,) pinned edges through which it runs with a slope that it finds
     fair_border: bool = False  # open borders inside the patch move, too
@@ -111,7 +110,6 @@ class Patch:
     smooth_curves: Ints = field(default_factory=nothing)  # and on smooth curves
     free_slopes: Ints = field(default_factory=nothing)  # and on the outline, where its position alone is kept
     continued: Mask | None = None  # (k,) of `fixed`, where the curvature outside is continued; None: all or none
-    tension: Floats | None = None  # (k,) of `fixed`; None: 1
 
     @property
     def slopes_found(self) -> Ints:
@@ -210,7 +208,6 @@ def make_patch(mesh: MeshArrays, by_connectivity: bool = True) -> Patch:
         smooth_curves=number[_curve(mesh, mesh.smooth_curves, uses > 0) & ~outline],
         free_slopes=nothing() if mesh.free_slopes is None else number[outline & ~free & mesh.free_slopes],
         continued=None if mesh.continued is None else (outline & mesh.continued)[inside & ~free],
-        tension=None if mesh.tension is None else mesh.tension[inside & ~free],
     )
 
 

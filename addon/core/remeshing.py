@@ -23,9 +23,8 @@ from .piercing import Sheet, pierced, places
 from .reflected import Whole, with_image
 from .region import MeshArrays, Patch, to_local
 from .selection import left_out
-from .sentences import in_mesh_words, in_numbers_of
+from .sentences import in_mesh_words
 from .solve import pose, reported_by
-from .subdivided import Subdivided, with_subdivided_patch
 from .tunnels import tunnel_hint
 from .verdict import GOOD, LOOK, because_of, judge
 from .words import said
@@ -42,8 +41,6 @@ class Remeshed(Fairing):
     new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     points: Floats  # (r + k, 3) of all vertices of the part, in world space
     quads: bool  # whether faces are quads
-    limit_total: int  # as FairOptions has it
-    parted: Subdivided | None = None  # the mesh whose numbers these are; None: as it was read
     unselected: int = 0  # faces at the beginning that are not to be selected
     whole: Whole | None = None  # the mesh with its image, whose numbers these are but for the verdict's
 
@@ -60,36 +57,15 @@ class Remeshed(Fairing):
         return paired_faces(self.points, self.part.triangles, self.part.lines, kinds)
 
 
-def refuse_options(options: FairOptions) -> None:
-    """Raise ValueError for options that need the old vertices."""
-    for wrong, text in (
-        (options.detail > 0.0, "Keep Detail puts the old vertices' skin back: turn Remesh off"),
-        (options.feather > 0.0, "Falloff moves faces around a mesh that stays: turn Remesh off, or choose Falloff 0"),
-        (
-            options.goes_by_weight,
-            "New vertices have no weights to go by: turn Remesh off, or leave Vertex Group empty",
-        ),
-        (options.method != "GLOBAL", "Multigrid keeps its mesh: turn Remesh off"),
-        (options.equation == "SOAP_FILM", "A soap film has no slopes to continue: turn Remesh off"),
-        (options.outline != "GIVEN", "Smooth Boundary moves vertices that a new mesh is held by: turn Remesh off"),
-    ):
-        if wrong:
-            raise ValueError(text)
-
-
 def remesh_arrays(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None = None) -> Remeshed:
     """Fair the patch of `mesh` on a new mesh, in the space that the 4×4 `matrix` leads to.
 
     Raises MeshRefusal, ValueError, fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
-    refuse_options(options)
     return with_image(mesh).found(lambda mesh: _remeshed(mesh, matrix, options, progress))
 
 
 def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Remeshed:
-    if options.subdivide_boundary:
-        return _subdivided(mesh, matrix, options, progress)
-    options = replace(options, inner_fairness="CONFORMAL")  # new vertices take values from where they were
     lines = inner_lines(mesh) | inner_curves(mesh)
     problem, warnings = pose(mesh, matrix, options)
     kept = _kept_edges(problem, mesh.edges[lines])
@@ -132,23 +108,7 @@ def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: 
         new_positions=local[stay:],
         points=points,
         quads=options.quads,
-        limit_total=options.limit_total,
     )
-
-
-def _subdivided(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None) -> Remeshed:
-    """Fair a patch on a new mesh with the long edges of its boundary parted, and of curves that are held."""
-    whole = replace(options, subdivide_boundary=False)
-    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite elsewhere
-        places = mesh.transformed(matrix).positions
-        parted = with_subdivided_patch(mesh, places, options.spacing)
-    if not len(parted.ends):
-        return remesh_arrays(mesh, matrix, whole, progress)
-    fine = replace(whole, spacing=max(1.0, options.spacing))  # its edges are as long as wanted now
-    with in_numbers_of(parted.named):
-        found = remesh_arrays(parted.mesh, matrix, fine, progress)
-    spots = parted.named(found.verdict.spots)
-    return replace(found, parted=parted, verdict=replace(found.verdict, spots=spots))
 
 
 def squeezed(before: Floats, after: Floats, lines: Ints) -> Ints:
@@ -191,16 +151,14 @@ def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, part: NewPart, 
 def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:
     patch = problem.patch
     arguments = {**options.engine_arguments(), "creases": patch.slopes_found, "smooth_curves": patch.smooth_curves}
-    for name in ("method", "levels", "detail", "detail_size"):
+    for name in ("detail",):
         del arguments[name]
-    boundary = fairing.Boundary(
-        patch.fixed, problem.normals, problem.curvatures, continuity=problem.kinds, tension=patch.tension
-    )
+    boundary = fairing.Boundary(patch.fixed, problem.normals, problem.curvatures, continuity=problem.kinds)
     with in_mesh_words(problem.origin):
         return fairing.remesh(
             problem.posed[: len(patch.vertices)], patch.triangles, boundary, fairing.Options.of(**arguments),
-            kept=kept, spacing=_spacing(problem, options), inner=options.inner.lower(),
-            faces="quads" if options.quads else "triangles", max_vertices=options.max_vertices, progress=progress,
+            kept=kept, spacing=_spacing(problem, options), inner="outline",
+            faces="quads" if options.quads else "triangles", progress=progress,
         )  # fmt: skip
 
 

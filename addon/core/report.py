@@ -78,7 +78,7 @@ def make_report(named: list[Named], options: FairOptions, seconds: float, notes:
 
 def is_written(outcomes: list[Fairing], options: FairOptions) -> bool:
     """Return whether the run changes its meshes: all of them, or none."""
-    return options.accept == "ALL" or all(outcome.verdict.grade != UNUSABLE for outcome in outcomes)
+    return options.allow_folds or all(outcome.verdict.grade != UNUSABLE for outcome in outcomes)
 
 
 def standing(report: Report) -> tuple[int, float]:
@@ -112,7 +112,7 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
     """Explain the usual reason why a bulge isn't found: there is no such surface."""
     results = [outcome.result for _, outcome in named]
     found = all(result.converged or result.termination == "folded" for result in results)
-    if options.equation != "CONSTANT" or options.bulge == 0.0 or found:
+    if options.bulge == 0.0 or found:
         return ()
     shares = [
         warning.figures["load_share"] for r in results for warning in r.warnings if "load_share" in warning.figures
@@ -125,7 +125,7 @@ def _bulge_note(named: list[Named], options: FairOptions) -> tuple[str, ...]:
 def shape_checks(results: Sequence[Result], equation: str) -> tuple[Check, ...]:
     """Return the line on the shapes that Automatic has taken; none where the shape was asked for."""
     taken = dict.fromkeys(SHAPES[result.equation] for result in results if result.equation in SHAPES)
-    return (Check("Shape", ", ".join(taken)),) if equation == "AUTOMATIC" and taken else ()
+    return (Check("Shape", ", ".join(taken)),) if equation == "automatic" and taken else ()
 
 
 def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import partial
-from typing import Any
 
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .checked import refuse_negative, refuse_other_kinds
 from .engine import Progress
 from .faces import Faces
-from .fill_options import FILLET
 from .findings import Origin, found
 from .new_part import NewPart
-from .option_table import fields_of, read_named
-from .options import CONTINUITIES
+from .other_options import FilletOptions
 from .outline import two_sided_edges
 from .pairs import edge_keys
 from .reflected import Whole, with_image
@@ -34,45 +29,6 @@ NO_SEAM = said("no_seam")
 
 
 @dataclass(frozen=True)
-class FilletOptions:
-    """What the options of `mesh.fair_fillet` (fill_options.py) come to.
-
-    Raises ValueError for a value it does not know, TypeError for one of another kind.
-    """
-
-    width: float = 0.1  # along the surface, in world space, on the larger side
-    width_2: float = 0.0  # on the smaller one; 0: the same
-    profile: float = 0.0  # -1 flat … 1 sharp
-    continuity: str = "G1"
-    spacing: float = 0.0  # length of new edges; 0: a quarter of the least width
-    quads: bool = True
-    width_group: str = ""  # a vertex group whose weights the widths are multiplied by
-    max_vertices: int = 0
-    limit_total: int = 0
-
-    def __post_init__(self) -> None:
-        refuse_other_kinds(self)
-        if self.continuity not in CONTINUITIES:
-            raise ValueError(f"continuity: expected one of {', '.join(CONTINUITIES)}, got {self.continuity!r}")
-        if not self.width > 0.0:
-            raise ValueError(f"width: expected a length above 0, got {self.width!r}")
-        if not -1.0 <= self.profile <= 1.0:
-            raise ValueError(f"profile: expected -1 … 1, got {self.profile!r}")
-        for name in ("width_2", "spacing", "max_vertices", "limit_total"):
-            refuse_negative(self, name)
-
-    @classmethod
-    def named(cls, properties: dict[str, Any]) -> FilletOptions:
-        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        return cls(**read_named(FILLET, properties, "fillet_mesh"))
-
-    @classmethod
-    def of(cls, properties: Any) -> FilletOptions:
-        """Read every option from an object that has them as attributes."""
-        return cls(**fields_of(FILLET, partial(getattr, properties)))
-
-
-@dataclass(frozen=True)
 class Rounded:
     """What takes the place of the faces at some seams."""
 
@@ -83,7 +39,6 @@ class Rounded:
     verdict: Verdict
     polygons: Faces
     unselected: int  # faces at the beginning that are pieces of old ones, outside
-    limit_total: int
     warnings: tuple[str, ...] = ()
     vertices: Ints = field(default_factory=nothing)  # old ones that move: none
     positions: Floats = field(default_factory=lambda: np.empty((0, 3)))
@@ -164,7 +119,6 @@ def _rounded(
             width=options.width * factors, width_2=None if second == options.width else second * factors,
             walls=world.edges[hard(world) & ~seams], profile=options.profile, spacing=options.spacing,
             faces="quads" if options.quads else "triangles", neighbours=world.edges,
-            max_vertices=options.max_vertices,
             progress=progress,
         )  # fmt: skip
     near = world.triangles[result.origin[0]][np.arange(len(result.vertices)), result.origin[1].argmax(axis=1)]
@@ -180,7 +134,6 @@ def _rounded(
         verdict=_verdict(result, origin),
         polygons=made.polygons,
         unselected=made.outside,
-        limit_total=options.limit_total,
         warnings=sentences(result.warnings, origin),
     )
 

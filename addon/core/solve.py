@@ -15,10 +15,10 @@ from .around import numbered, outside_triangles, wide_outside, wound_alike
 from .arrays import Floats
 from .boundary import boundary
 from .engine import Progress
-from .feather import band_weights, refuse_options
+from .feather import band_weights
 from .findings import Origin
 from .held_curves import faired_curves
-from .local_pins import lone_pins, pulled
+from .local_pins import pulled, without_lone_pins
 from .memory import Memory, digest
 from .options import FairOptions
 from .outline import outline_notes, precision_note
@@ -67,16 +67,15 @@ def solve(
     fairing.SolverError and fairing.Cancelled. `mesh` is never changed.
     """
     options, mesh = options.resolved(mesh.textured), replace(mesh, textured=False)  # asked for by some options only
-    lone = lone_pins(mesh) if options.pulls_locally else None
-    if lone is not None and lone.any():
-        released = replace(mesh, pinned=mesh.pinned & ~lone)
-        without = solve(released, matrix, replace(options, pin_pull="SURFACE"), progress, kept)
+    released, lone = without_lone_pins(mesh, options)
+    if lone.any():
+        without = solve(released, matrix, replace(options, pin_group=""), progress, kept)
         vertices = pulled(without.problem, without.result.vertices, lone, options.pin_radius)
         return replace(without, result=replace(without.result, vertices=vertices))
     share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
     place = digest(mesh, matrix) if kept is not None else ""
-    key = digest(place, replace(options, factor=1.0, accept="ALL"))
+    key = digest(place, replace(options, factor=1.0, allow_folds=True))
     solved = kept.results.get(key) if kept is not None else None
     if solved is None:
         problem, warnings = pose(mesh, matrix, options)
@@ -101,17 +100,16 @@ def _with_detail(solved: Solved, share: float) -> Solved:
 def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine.Problem, tuple[str, ...]]:
     """Return the patch with its boundary data in world space, and warnings."""
     options = options.resolved(mesh.textured)
-    refuse_options(options)
     # What is not finite outside the patch is none of our business, and the engine looks inside.
     with np.errstate(invalid="ignore", over="ignore"):
         world, turned = with_one_winding(mesh.transformed(matrix))
         patch = make_patch(world, by_connectivity=not options.keeps_triangles)
         wide = options.takes_base
-        outside = wide_outside(world, patch, options.feather) if wide else outside_triangles(world, patch)
+        outside = wide_outside(world, patch, options.falloff) if wide else outside_triangles(world, patch)
         known = boundary(world, patch, options.boundary_normals, outside)
         inward = known.inward(patch)
         vertices, around = numbered(patch, wound_alike(world, outside))
-        weights = band_weights(world, patch, vertices, around, options.feather) if options.moves_band else None
+        weights = band_weights(world, patch, vertices, around, options.falloff) if options.moves_band else None
         odd = outline_notes(world, inward) + _odd_in_words(mesh, patch, options)
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
@@ -126,9 +124,9 @@ def _odd_in_words(mesh: MeshArrays, patch: Patch, options: FairOptions) -> tuple
     """Return notes on positions that are too coarse, and on groups of boundary vertices that have none."""
     notes = [precision_note(mesh)]
     if mesh.free_slopes is not None and not len(patch.free_slopes):
-        notes.append(said("position_group_empty", name=options.position_group))
+        notes.append(said("continuity_group_empty", name=options.continuity_group))
     if patch.continued is not None and not patch.continued.any():
-        notes.append(said("curvature_group_empty", name=options.curvature_group))
+        notes.append(said("continuity_group_empty", name=options.continuity_group))
     return tuple(note for note in notes if note)
 
 

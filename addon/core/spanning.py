@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Any
 
 import numpy as np
 
 import fairing
 
 from .arrays import Floats, Ints, Mask
-from .checked import refuse_negative, refuse_other_kinds
 from .engine import Progress
 from .faces import Faces, faces_of, paired_faces
-from .fill_options import CURVES
 from .findings import Origin
 from .harmonic import harmonic, nearest
-from .option_items import INNER
-from .option_shared import LEAST_SPACING
-from .option_table import fields_of, read_named
+from .other_options import CurvesOptions
 from .reflected import Whole, with_image
 from .region import MeshArrays, nothing, to_local
 from .sentences import in_mesh_words, sentences
@@ -30,40 +24,6 @@ WIRES_ALONE = said("wires_alone")
 NOT_SPANNED = said("not_spanned")
 _PLATE = "bilaplacian"  # what stands in where there is no surface of least variation
 _FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
-
-
-@dataclass(frozen=True)
-class CurvesOptions:
-    """What the options of `mesh.fair_from_curves` (fill_options.py) come to.
-
-    Raises ValueError for a value it does not know, TypeError for one of another kind.
-    """
-
-    fill_openings: bool = False  # what the curves go around gets a surface, too
-    spacing: float = 1.0  # of new edges, as a factor of the curves' own
-    inner: str = "OUTLINE"  # in proportion to those nearby; EVEN: of one length
-    quads: bool = False  # triangles are written in pairs, as far as they can be
-    max_vertices: int = 0  # more new ones are refused; 0: twenty times as many as the curves' own edges ask for
-    limit_total: int = 0  # vertex groups of bones of a new vertex; 0: as many as one vertex of the curves has
-
-    def __post_init__(self) -> None:
-        if self.inner not in INNER:
-            raise ValueError(f"inner: expected one of {', '.join(INNER)}, got {self.inner!r}")
-        refuse_other_kinds(self)
-        if not self.spacing >= LEAST_SPACING:
-            raise ValueError(f"spacing: expected {LEAST_SPACING} or more, got {self.spacing!r}")
-        for name in ("max_vertices", "limit_total"):
-            refuse_negative(self, name)
-
-    @classmethod
-    def named(cls, properties: dict[str, Any]) -> CurvesOptions:
-        """Read options from a caller's keyword arguments; raises TypeError for one that does not exist."""
-        return cls(**read_named(CURVES, properties, "fair_from_curves"))
-
-    @classmethod
-    def of(cls, properties: Any) -> CurvesOptions:
-        """Read every option from an object that has them as attributes."""
-        return cls(**fields_of(CURVES, partial(getattr, properties)))
 
 
 @dataclass(frozen=True)
@@ -129,7 +89,7 @@ def _spanned(
     with in_mesh_words(origin):
         result = fairing.surface_from_curves(
             points, wires, creases=creases, closed=options.fill_openings, spacing=spacing,
-            inner=options.inner.lower(), max_vertices=options.max_vertices, progress=progress,
+            inner="outline", progress=progress,
         )  # fmt: skip
     folds = any(warning.code in _FOLDS for warning in result.warnings)
     if folds or not (result.converged or result.equation == _PLATE):

@@ -23,7 +23,7 @@ GRADES = (GOOD, LOOK, UNUSABLE)
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
 EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
 ADD_LEFT_OUT, KEEP_DETAIL, ALL_KEYS = "ADD_LEFT_OUT", "KEEP_DETAIL", "ALL_KEYS"
-_OTHERS = ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY")  # equations that Least Variation may do better than
+_OTHERS = ("automatic", "harmonic", "minimal_energy")  # equations that Least Variation may do better than
 
 
 @dataclass(frozen=True)
@@ -93,12 +93,12 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
         KEEP_DETAIL: evidence.lost.is_smoother and options.detail == 0.0,
         ADD_LEFT_OUT: evidence.left_out.count > 0,
         GROW: has_outside and not len(evidence.problem.inward),  # over a hard edge a flat cap would become a dome
-        SMOOTH_OUTLINE: has_outside and options.outline == "GIVEN" and options.mesh == "KEEP",
-        EVEN_SPREAD: bad and _is_folded(evidence) and options.mesh == "KEEP" and options.inner_fairness != "UNIFORM",
-        AS_SELECTED: len(evidence.rounded) > 0 and options.outline == "MENDED",
-        HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fairs_border,
+        SMOOTH_OUTLINE: has_outside and not options.smooth_boundary and not options.remesh,
+        EVEN_SPREAD: bad and _is_folded(evidence) and not options.remesh and options.inner_fairness != "UNIFORM",
+        AS_SELECTED: len(evidence.rounded) > 0 and options.smooth_boundary,
+        HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fair_open_borders,
         EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _OTHERS,
-        WRITE: bad and options.accept != "ALL",
+        WRITE: bad and not options.allow_folds,
     }
     return tuple(name for name, offer in offered.items() if offer)
 

@@ -38,7 +38,7 @@ def last_options(context: bpy.types.Context) -> FairOptions:
     last = context.window_manager.operator_properties_last("mesh.fair_region")
     if last is None:
         return FairOptions()
-    return replace(FairOptions.of(last), accept="USABLE")  # is asked for each time anew
+    return replace(FairOptions.of(last), allow_folds=False)  # is asked for each time anew
 
 
 def inspect(obj: bpy.types.Object, options: FairOptions) -> Inspection:
@@ -60,7 +60,7 @@ def _inspect_task(task: job.Task, options: FairOptions) -> Inspection:
         return Inspection(task.object_name, faces, refusal=NO_FREE)
     try:
         problem, notes = pose(task.faired_mesh, task.matrix, options)
-        if options.mesh == "KEEP" or len(problem.patch.free):
+        if not options.remesh or len(problem.patch.free):
             engine.check(problem, options.resolved(task.mesh.textured))
         islands = engine.islands(problem.patch)
     except engine.REFUSALS as cause:

@@ -22,7 +22,6 @@ from .columns import elements_of
 from .free_normals import renew
 from .layers import OF_CORNERS, MeanLayers, Shapes
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
-from .parted_edges import parted_edges
 from .selecting import select_new_faces
 from .target import Target, in_edit_mode, in_object_mode
 from .texture import triangles_near
@@ -57,13 +56,9 @@ def add_to_mesh(mesh: bpy.types.Mesh, filled: Filled) -> Added:
 
 
 def _add(target: Target, filled: Filled) -> Added:
-    if filled.parted is not None:
-        target.open()
-    with parted_edges(target.bm, filled.parted) as vertices:
-        rims, new = _read(target, filled.pieces, vertices)
-    if filled.parted is None and target.open():
-        with parted_edges(target.bm, None) as vertices:
-            rims, new = _read(target, filled.pieces, vertices)
+    rims, new = _read(target, filled.pieces)
+    if target.open():
+        rims, new = _read(target, filled.pieces)
     return _made(target, rims, new, filled.whole)
 
 
@@ -86,10 +81,12 @@ def _made(target: Target, rims: list[_Rim], new: list[FaceData], whole: Whole | 
     )
 
 
-def _read(target: Target, pieces: list[Piece], vertices: list[Any]) -> tuple[list[_Rim], list[FaceData]]:
+def _read(target: Target, pieces: list[Piece]) -> tuple[list[_Rim], list[FaceData]]:
     """Read all before the first is written, as tables of vertices don't last; raises MeshRefusal."""
     bm = target.bm
     bm.faces.index_update()
+    bm.verts.index_update()
+    vertices = list(bm.verts)
     rims = [_Rim(bm, piece, vertices) for piece in pieces]
     new = [rim.data(target) for rim in rims]
     for data in new:
@@ -152,7 +149,7 @@ class _Rim:
         examples = [self._vertices[number] for number in near[there:].tolist()]
         new = VertexData(
             piece.positions[there:], self._vertices, lambda values: piece.carried(values)[there:], examples, None,
-            self._keyed, piece.limit_total,
+            self._keyed,
         )  # fmt: skip
         vertices = make_vertices(target, new)
         made = make_faces(target, vertices, data)

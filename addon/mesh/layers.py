@@ -83,13 +83,13 @@ class Weights:
         rows = [[vertex[self._layer].get(group, 0.0) for group in self._groups] for vertex in vertices]
         return np.array(rows, dtype=np.float64).reshape(len(vertices), self.width)
 
-    def limited(self, rows: Floats, sources: Floats, bones: Sequence[int], most: int) -> Floats:
-        """Return rows (k, width) with `most` groups of bones each, 0: as many as one of the sources (n, width) has.
+    def limited(self, rows: Floats, sources: Floats, bones: Sequence[int]) -> Floats:
+        """Return rows (k, width) in as many groups of bones as one of the sources (n, width) is, at most.
 
         Where no group is of a bone all groups count.
         """
         counted = np.isin(self._groups, bones)
-        return limited_like(rows, sources, counted if counted.any() else ~counted, most)
+        return limited_like(rows, sources, counted if counted.any() else ~counted)
 
     def write(self, vertices: Sequence[Any], rows: Floats) -> None:
         """Write them; a weight of 0 is no member."""

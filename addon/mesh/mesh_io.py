@@ -195,7 +195,7 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
         textured=_is_textured(mesh, in_patch[corner_faces]) if options.inner_fairness == "AUTOMATIC" else False,
         sharp=sharp if sharp.any() else None,
     )
-    if options.mesh == "NEW":
+    if options.remesh:
         arrays = replace(arrays, lines=lines(mesh, arrays))
     if arrays.textured and is_spoilt(arrays):
         arrays = replace(arrays, textured=False)
@@ -213,7 +213,7 @@ def _triangles(mesh: bpy.types.Mesh, sizes: Ints, corner_vertices: Ints) -> tupl
 def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:
     """Return the arrays with their pins, and a note on a vertex group that holds none of the vertices inside."""
     arrays = with_pinned_edges(arrays, options, _marked_edges(mesh, options.pin_edges))
-    arrays = replace(arrays, fair_border=options.fairs_border)
+    arrays = replace(arrays, fair_border=options.fair_open_borders)
     if group is None:
         return arrays
     touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])

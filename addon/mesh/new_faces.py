@@ -28,7 +28,6 @@ class VertexData:
     examples: Sequence[Any]  # (k,) vertices
     before: Floats | None = None  # (k, 3) where they were on an old surface, which other shape keys than a Basis keep
     keyed: Callable[[Shapes, Floats, Floats], Floats] | None = None  # better offsets than those carried, from starts
-    limit: int = 0  # of vertex groups of bones; 0: as many as one of the sources is in
 
 
 @dataclass(frozen=True)
@@ -61,7 +60,7 @@ def make_vertices(target: Target, data: VertexData) -> list[Any]:
     own, more, groups, offsets = np.split(values, np.cumsum([part.shape[1] for part in read[:-1]]), axis=1)
     layers.write(made, own)
     aside.write(made, more)
-    weights.write(made, weights.limited(groups, members, target.bones, data.limit))
+    weights.write(made, weights.limited(groups, members, target.bones))
     # As Blender keeps them.
     starts: Floats = data.positions.astype(np.float32).astype(np.float64)
     if data.before is not None and not shapes.follow:

@@ -15,7 +15,6 @@ from ..core.rounding import Rounded
 from .columns import elements_of
 from .free_normals import renew
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
-from .parted_edges import parted_edges
 from .selecting import select_new_faces
 from .target import Target, in_edit_mode, in_object_mode
 
@@ -63,9 +62,11 @@ class _Old:
     new: FaceData
 
 
-def _read(target: Target, outcome: Remeshed | Rounded, vertices: list[Any]) -> _Old:
+def _read(target: Target, outcome: Remeshed | Rounded) -> _Old:
     """Look all of them up; raises MeshRefusal."""
     bm, part = target.bm, outcome.part
+    vertices = list(bm.verts)
+    bm.verts.index_update()
     bm.faces.ensure_lookup_table()
     bm.faces.index_update()
     gone, stay = elements_of(bm.faces, part.gone_faces), elements_of(vertices, part.stay)
@@ -85,15 +86,8 @@ def _read(target: Target, outcome: Remeshed | Rounded, vertices: list[Any]) -> _
 
 
 def _looked_up(target: Target, outcome: Remeshed | Rounded) -> _Old:
-    parted = outcome.parted if isinstance(outcome, Remeshed) else None
-    if parted is not None:
-        target.open()
-    with parted_edges(target.bm, parted) as vertices:
-        old = _read(target, outcome, vertices)
-    if parted is None and target.open():
-        with parted_edges(target.bm, None) as vertices:
-            old = _read(target, outcome, vertices)
-    return old
+    old = _read(target, outcome)
+    return _read(target, outcome) if target.open() else old
 
 
 def _replace(target: Target, outcome: Remeshed | Rounded) -> Written:
@@ -133,7 +127,7 @@ def _vertex_data(old: _Old, outcome: Remeshed | Rounded) -> VertexData:
     stencil = type(part.vertices)(local.reshape(part.vertices.sources.shape), part.vertices.weights)
     before = stencil.mean(np.array([vertex.co[:] for vertex in old.sources]).reshape(-1, 3))
     return VertexData(
-        outcome.new_positions, old.sources, stencil.mean, old.examples, before, limit=outcome.limit_total
+        outcome.new_positions, old.sources, stencil.mean, old.examples, before
     )  # fmt: skip
 
 

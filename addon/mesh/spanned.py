@@ -34,7 +34,7 @@ def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> Added:
         held = elements_of(bm.verts, spanned.outline)
         examples = [held[number] for number in spanned.near.tolist()]
         data = VertexData(
-            spanned.positions, held, spanned.carried, examples, limit=spanned.options.limit_total
+            spanned.positions, held, spanned.carried, examples
         )  # fmt: skip
         vertices = make_vertices(target, data)
         table = [*held, *vertices]

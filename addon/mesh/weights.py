@@ -45,48 +45,23 @@ def members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
 
 
 def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> MeshArrays:
-    """Return the arrays with what vertex groups and the mask say of them; raises what these raise.
-
-    ValueError also where groups contradict each other, wherever their vertices are.
-    """
-    if options.position_group and options.curvature_group:
-        raise ValueError(
-            "Position Group and Curvature Group: no surface finds its slope on one part of its boundary and continues "
-            "the curvature on another: leave one of them empty"
-        )
-    if options.tension != 1.0 and not options.has_tension:
-        raise ValueError(
-            "Tension is for the shape Harmonic with Continuity: Tangent, without Bulge, Multigrid, Position Group and "
-            "Curvature Group: choose these, or 1"
-        )
+    """Return the arrays with what vertex groups and the mask say of them; raises what these raise."""
+    group = _in_group(mesh, obj, options)
     return replace(
         arrays,
         parts=parts_of_the_way(mesh, obj, options),
-        free_slopes=_in_group(mesh, obj, options, "position_group"),
-        continued=_in_group(mesh, obj, options, "curvature_group"),
-        tension=_tension(mesh, obj, options),
+        free_slopes=group if options.frees_slopes else None,
+        continued=group if options.joins_curvature else None,
     )
 
 
-def _tension(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
-    """Return (n,) the tension at each vertex, to the power of its weight; None where it is 1 everywhere."""
-    group = group_index(obj, options.tension_group, "tension_group")
-    if options.tension == 1.0:
-        return None
-    weights = np.ones(len(mesh.vertices)) if group is None else _group_weights(mesh, group)
-    tension: Floats = options.tension**weights
-    return tension
-
-
-def _in_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions, name: str) -> Mask | None:
-    """Return the (n,) mask of the vertex group that the option of that name asks for; None where it asks for none.
+def _in_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Mask | None:
+    """Return the (n,) mask of the vertex group that alone has the continuity chosen; None where there is none.
 
     obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group.
     """
-    group = group_index(obj, getattr(options, name), name)
-    if group is None or name in options.idle:
-        return None
-    return _group_weights(mesh, group) > 0.0
+    group = group_index(obj, options.continuity_group, "continuity_group")
+    return None if group is None else _group_weights(mesh, group) > 0.0
 
 
 def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
@@ -97,10 +72,10 @@ def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options
     if not options.goes_by_weight:
         return None
     parts = np.ones(len(mesh.vertices))
-    group = group_index(obj, options.factor_group, "factor_group")
+    group = group_index(obj, options.vertex_group, "vertex_group")
     if group is not None:
         parts *= _group_weights(mesh, group)
-    if options.factor_mask == "USED":
+    if options.use_mask:
         mask = values(mesh, SCULPT_MASK, np.float32)
         if mask is None:
             raise ValueError("Nothing is masked: paint a mask in sculpt mode, or turn Use Mask off")

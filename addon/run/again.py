@@ -4,7 +4,7 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import Any
 
 import bpy
@@ -29,17 +29,17 @@ from . import last_run
 
 # What each button changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
-    ALL_KEYS: {"keys": "ALL"},
+    ALL_KEYS: {"all_keys": True},
     KEEP_DETAIL: {"detail": 1.0},
     ADD_LEFT_OUT: {},
     GROW: {},
     GROW_OVER: {},
-    SMOOTH_OUTLINE: {"outline": "MENDED"},
-    AS_SELECTED: {"outline": "GIVEN"},
-    HOLD_BORDER: {"open_border": "HELD"},
-    EVEN_CURVATURE: {"equation": "LEAST_VARIATION"},
+    SMOOTH_OUTLINE: {"smooth_boundary": True},
+    AS_SELECTED: {"smooth_boundary": False},
+    HOLD_BORDER: {"fair_open_borders": False},
+    EVEN_CURVATURE: {"shape": "LEAST_VARIATION"},
     EVEN_SPREAD: {"inner_fairness": "UNIFORM"},
-    WRITE: {"accept": "ALL"},
+    WRITE: {"allow_folds": True},
 }
 _WAYS = (
     (ALL_KEYS, "All Keys", "Fair every shape key as well, each from its own surroundings"),
@@ -98,7 +98,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select what the last run had, change one thing, run; what is no better than before isn't written."""
-        options = replace(last_run.options(), **{"accept": "USABLE", **CHANGES[self.way]})
+        options = replace(last_run.options(), **{"allow_folds": False, **CHANGES[self.way]})
         try:
             last_run.select_region(context)
             if self.way == ADD_LEFT_OUT:
@@ -108,7 +108,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
             last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
-            status = bpy.ops.mesh.fair_region(how, True, **options.chosen)
+            status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
         except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}

@@ -120,7 +120,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         for dab in self.dabs:
             paint(weights, positions, np.array(dab.place), dab.reach)
         with painted.masked_by(obj.data, weights * painted.protected(obj.data)):
-            return super()._read_object(obj, replace(options, factor_mask="USED"), level)
+            return super()._read_object(obj, replace(options, use_mask=True), level)
 
     def _faces(self, obj: bpy.types.Object) -> Ints:
         faces = painted.masked_faces(obj.data)

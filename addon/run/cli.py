@@ -6,7 +6,6 @@ import json
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import fields
 from typing import Any
 
 import bpy
@@ -15,13 +14,12 @@ import numpy as np
 from ..core.arrays import Floats
 from ..core.border import Left
 from ..core.engine import REFUSALS
-from ..core.fill_pieces import FillOptions
 from ..core.fill_report import make_fill_report
 from ..core.options import FairOptions
+from ..core.other_options import FillOptions
 from ..core.report import Report, make_report, summary
-from ..core.rounding import FilletOptions
 from ..core.verdict import UNUSABLE
-from .cli_parser import fillet_option, parse
+from .cli_parser import fillet_options, parse
 from .fair_mesh import fair_faces
 from .fill_mesh import fill_borders
 from .fillet_mesh import fillet_edges
@@ -134,7 +132,7 @@ def _filled(chosen: Any) -> tuple[Report, Sequence[Left]]:
 
 def _rounded(chosen: Any) -> int:
     """Round edges, write the file, and print how it went; returns the exit status."""
-    options = FilletOptions(**{field.name: fillet_option(chosen, field.name) for field in fields(FilletOptions)})
+    options = fillet_options(chosen)
     obj = _mesh_object(chosen.object)
     edges = None
     if chosen.region_group is not None:

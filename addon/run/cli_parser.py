@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterable
 from typing import Any
 
-from ..core.fair_options import FAIR
-from ..core.fill_options import FILL, FILLET
-from ..core.option_table import Option, Table, defaults, from_names_before, names_before, warn_of_names_before
+from ..core.option_table import Option, table
+from ..core.options import FairOptions
+from ..core.other_options import FilletOptions, FillOptions
 
 EDGE_LENGTH = "edge_length"  # the fillet's spacing, which is a length
 
 
 def parse(arguments: list[str]) -> Any:
-    """Return what was asked for, with every option by its name of now."""
-    chosen = _parser().parse_args(arguments)
-    table = FILL if chosen.fill else FAIR
-    used = {name: value for name, value in vars(chosen).items() if name in names_before(table)}
-    warn_of_names_before(table, used, "fair")
-    for name, value in from_names_before(table, used).items():
-        setattr(chosen, name, value)
-    return chosen
+    """Return what was asked for, with every option by its name."""
+    return _parser().parse_args(arguments)
 
 
-def fillet_option(chosen: Any, name: str) -> Any:
-    """Return the value of an option of fillets."""
-    return getattr(chosen, EDGE_LENGTH if name == "spacing" else name)
+def fillet_options(chosen: Any) -> FilletOptions:
+    """Return the options of fillets."""
+    names = [option.name for option in table(FilletOptions)]
+    return FilletOptions(**{name: getattr(chosen, EDGE_LENGTH if name == "spacing" else name) for name in names})
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -45,31 +41,22 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--fillet", action="store_true", help="round edges instead")
     parser.add_argument("--output", required=True, help="the .blend file to write")
     parser.add_argument("--report", choices=("text", "json"), default="text")
-    of_fair, of_fill = defaults(FAIR), defaults(FILL)
-    _add(parser, FAIR, "")
-    _add(parser, tuple(option for option in FILL if option.name not in of_fair), "with --fill: ")
-    _add(parser, tuple(option for option in FILLET if option.name not in {**of_fair, **of_fill}), "with --fillet: ")
-    spacing = next(option for option in FILLET if option.name == "spacing")
+    known: set[str] = set()
+    for of, when in ((FairOptions, ""), (FillOptions, "with --fill: "), (FilletOptions, "with --fillet: ")):
+        _add(parser, (option for option in table(of) if option.name not in known), when)
+        known |= {option.name for option in table(of)}
+    spacing = next(option for option in table(FilletOptions) if option.name == "spacing")
     parser.add_argument("--edge-length", type=float, default=spacing.default, help=f"with --fillet: {_help(spacing)}")
-    for name, (option, before) in {**names_before(FILL), **names_before(FAIR)}.items():
-        if name == "factor_group":  # is a flag still: --vertex-group says which faces
-            continue
-        kind = str if before.values else type(option.default)
-        parser.add_argument(_flag(name), dest=name, type=kind, default=argparse.SUPPRESS, help=argparse.SUPPRESS)
     return parser
 
 
-def _add(parser: argparse.ArgumentParser, table: Table, when: str) -> None:
-    for option in table:
+def _add(parser: argparse.ArgumentParser, options: Iterable[Option], when: str) -> None:
+    for option in options:
         kind: dict[str, Any] = {"type": type(option.default)}
         if isinstance(option.default, bool):
             kind = {"action": argparse.BooleanOptionalAction}
-        flag = "--factor-group" if option.name == "vertex_group" else _flag(option.name)
+        flag = "--factor-group" if option.name == "vertex_group" else "--" + option.name.replace("_", "-")
         parser.add_argument(flag, dest=option.name, default=option.default, help=when + _help(option), **kind)
-
-
-def _flag(name: str) -> str:
-    return "--" + name.replace("_", "-")
 
 
 def _help(option: Option) -> str:

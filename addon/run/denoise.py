@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..core.denoising import Denoised, DenoiseOptions, denoise_arrays
+from ..core.denoising import Denoised, denoise_arrays
 from ..core.engine import Progress
 from ..core.options import FairOptions
+from ..core.other_options import DenoiseOptions
 from ..core.words import said
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..translations import translated

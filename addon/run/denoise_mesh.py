@@ -9,8 +9,9 @@ import bpy
 import numpy as np
 
 from ..core.arrays import Floats
-from ..core.denoising import DenoiseOptions, denoise_arrays
+from ..core.denoising import denoise_arrays
 from ..core.options import FairOptions
+from ..core.other_options import DenoiseOptions
 from ..mesh import mesh_io
 from .fair_mesh import read
 

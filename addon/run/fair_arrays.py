@@ -41,7 +41,7 @@ def fair_arrays(
 def _faired(
     mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
 ) -> Fairing:
-    if options.mesh == "NEW":
+    if options.remesh:
         return remesh_arrays(mesh, matrix, options, progress)
     whole = whole_of(mesh)
     if whole is not None:

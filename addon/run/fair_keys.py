@@ -40,7 +40,7 @@ def fair_all_keys(
 
 def _with_key(found: Fairing, name: str, own: Fairing, options: FairOptions) -> Fairing:
     verdict = own.verdict
-    if verdict.grade == UNUSABLE and options.accept != "ALL":
+    if verdict.grade == UNUSABLE and not options.allow_folds:
         text = said("key_follows", name=name, reason=verdict.reason)
         return replace(found, warnings=(*found.warnings, text))
     if GRADES.index(verdict.grade) > GRADES.index(found.verdict.grade):

@@ -31,14 +31,14 @@ def fair_mesh(
 
     faces: their numbers, or a mask of all polygons.
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
-    properties: those of `mesh.fair_region`, with the same names and defaults. With mesh="NEW" the faces are replaced
+    properties: those of `mesh.fair_region`, with the same names and defaults. With remesh=True the faces are replaced
     by others, which come last in the mesh.
     Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
     ascending order, in the space of `matrix`.
     Warns of properties that have no effect beside the others.
     Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property that does not exist
     and for a value of another kind, IndexError, fairing.SolverError and MemoryError; NotUsable where the result folds,
-    crosses itself or is none, unless accept="ALL". The mesh is untouched then.
+    crosses itself or is none, unless allow_folds=True. The mesh is untouched then.
     """
     options = FairOptions.named(properties)
     for name in options.idle:
@@ -66,7 +66,7 @@ def fair_faces(
 
 def read(mesh: bpy.types.Mesh, faces: Sequence[int], matrix: Any, options: FairOptions) -> tuple[MeshArrays, Floats]:
     """Return the mesh with these faces selected, and the matrix as numbers; raises what `fair_mesh` does."""
-    if options.mesh == "NEW":
+    if options.remesh:
         mesh_io.check_new_faces(mesh_io.user_of(mesh))
     chosen = as_indices("faces", faces, len(mesh.polygons))
     arrays = mesh_io.read_mesh(mesh, chosen, options)

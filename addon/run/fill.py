@@ -10,11 +10,12 @@ import numpy as np
 from ..core.arrays import Floats
 from ..core.border import NO_BORDER, left_by
 from ..core.engine import REFUSALS, Progress, sub_range
-from ..core.fill_pieces import Filled, FillOptions
+from ..core.fill_pieces import Filled
 from ..core.fill_report import make_fill_report, writable
 from ..core.filling import fill_borders
 from ..core.holes import Borders, borders_at, chosen_borders
 from ..core.options import FairOptions
+from ..core.other_options import FillOptions
 from ..core.region import MeshArrays
 from ..core.report import summary
 from ..core.spanning import WIRES_ALONE
@@ -150,7 +151,6 @@ class MESH_OT_fair_fill(FillProperties, Redone, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> Asked | None:
         begin = time.perf_counter()
-        self.take_names_before()
         options = FillOptions.of(self)
         tasks = read(context, options)
         if not tasks:

@@ -13,11 +13,12 @@ import fairing
 
 from ..core.border import Left
 from ..core.engine import Progress
-from ..core.fill_pieces import Filled, FillOptions
+from ..core.fill_pieces import Filled
 from ..core.fill_report import Added, is_written, refuse_unusable
 from ..core.filling import fill_borders as fill_chosen
 from ..core.holes import borders_at, chosen_borders
 from ..core.options import FairOptions
+from ..core.other_options import FillOptions
 from ..core.places import as_indices
 from ..mesh import filled as filled_mesh
 from ..mesh import mesh_io
@@ -51,8 +52,8 @@ def fill_mesh(
     can't be filled stays open; `left` of the result lists it.
     Raises, where no surface can be written, fairing.MeshError (elements: vertices of `mesh`), ValueError (also where
     there is no border), fairing.SolverError, and NotUsable where a surface folds, passes through the mesh or is none,
-    unless accept="ALL"; always TypeError for a property that does not exist, IndexError and MemoryError. The mesh is
-    untouched then.
+    unless allow_folds=True; always TypeError for a property that does not exist, IndexError and MemoryError. The mesh
+    is untouched then.
     """
     options = FillOptions.named(properties)
     done = fill_borders(mesh, vertices, matrix, options)

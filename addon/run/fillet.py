@@ -16,8 +16,9 @@ import fairing
 from ..core.arrays import Floats, Mask
 from ..core.engine import Progress
 from ..core.options import FairOptions
+from ..core.other_options import FilletOptions
 from ..core.region import MeshArrays
-from ..core.rounding import NO_SEAM, FilletOptions, Rounded, round_arrays, seams_of
+from ..core.rounding import NO_SEAM, Rounded, round_arrays, seams_of
 from ..core.symmetry import NOT_SYMMETRIC, edges_with_image
 from ..core.typed import Typed
 from ..core.verdict import UNUSABLE, NotUsable
@@ -98,7 +99,7 @@ def read(context: bpy.types.Context, group: str) -> list[Task]:
         try:
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_edit_mesh(obj, FairOptions(factor_group=group), widens=False)
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions(vertex_group=group), widens=False)
             matrix = np.array(obj.matrix_world, dtype=np.float64)
             by_edges = not context.tool_settings.mesh_select_mode[2]
             seams = edges_with_image(mesh, seams_of(mesh.transformed(matrix), edges, by_edges))

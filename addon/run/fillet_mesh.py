@@ -12,8 +12,9 @@ import fairing
 
 from ..core.engine import Progress
 from ..core.options import FairOptions
+from ..core.other_options import FilletOptions
 from ..core.places import as_indices
-from ..core.rounding import FilletOptions, Rounded, hard, round_arrays
+from ..core.rounding import Rounded, hard, round_arrays
 from ..core.verdict import UNUSABLE, NotUsable
 from ..mesh import mesh_io, remeshed
 
@@ -46,7 +47,7 @@ def fillet_edges(
 ) -> Rounded:
     """Do the work of `fillet_mesh`, with all its errors but NotUsable; what is not usable is not written."""
     mesh_io.check_new_faces(mesh_io.user_of(mesh))
-    reading = FairOptions(factor_group=options.width_group)
+    reading = FairOptions(vertex_group=options.width_group)
     arrays = mesh_io.read_mesh(mesh, np.empty(0, dtype=np.int64), reading)
     world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
     if world.shape != (4, 4):

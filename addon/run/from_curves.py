@@ -9,8 +9,9 @@ import numpy as np
 from ..core.arrays import Floats, Mask
 from ..core.engine import Progress
 from ..core.options import FairOptions
+from ..core.other_options import CurvesOptions
 from ..core.region import MeshArrays
-from ..core.spanning import NO_WIRE, CurvesOptions, Spanned, span_arrays
+from ..core.spanning import NO_WIRE, Spanned, span_arrays
 from ..core.symmetry import edges_with_image
 from ..core.words import said
 from ..host.context import edited_objects

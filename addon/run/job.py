@@ -85,15 +85,15 @@ def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
 def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     """Read one object in edit mode; raises ValueError where it can't be faired."""
     key = mesh_io.writable_key(obj)
-    if options.mesh == "NEW":
+    if options.remesh:
         mesh_io.check_new_faces(obj)
     mesh = mesh_io.read_edit_mesh(obj, options)
-    if options.keys == "ALL" and options.mesh == "KEEP":
+    if options.all_keys and not options.remesh:
         mesh = replace(mesh, keys=all_keys.read_keys(obj), shown_offsets=None)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     whole = whole_of(mesh)
     free = whole.free_count if whole is not None else int(np.count_nonzero(free_vertices(mesh)))
-    if options.mesh == "NEW":  # which makes its own
+    if options.remesh:  # which makes its own
         free = max(free, int(np.count_nonzero(mesh.in_patch)))
     return Task(obj.name, mesh, matrix, free, key, whole)
 
@@ -151,7 +151,7 @@ def each_of(
 
 def _preview(task: Task, options: FairOptions, give: Give | None) -> Callable[[Problem, Floats], None] | None:
     """Return what gives a task's first surface; None where the mesh would not show it as it is."""
-    if give is None or task.whole is not None or options.mesh == "NEW" or options.factor != 1.0:
+    if give is None or task.whole is not None or options.remesh or options.factor != 1.0:
         return None
 
     def preview(problem: Problem, points: Floats) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from ..core.fair_options import FAIR
 from ..core.option_table import named
 from ..core.options import FairOptions
 from ..core.report import Check, Report
@@ -43,6 +42,6 @@ def idle_in(report: Report) -> tuple[str, ...]:
 
 
 def _words(name: str) -> tuple[str, str] | None:
-    """Return the label and the description of the option that has, or sets, this name."""
-    found = named(FAIR, name)
+    """Return the label and the description of the option that has this name."""
+    found = named(FairOptions, name)
     return None if found is None else (found.label, found.description)

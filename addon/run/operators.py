@@ -39,7 +39,6 @@ class MESH_OT_fair_region(FairProperties, Redone, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> Asked | None:
         begin, way = time.perf_counter(), last_run.way_to_try()
-        self.take_names_before()
         options = FairOptions.of(self)
         selected = job.read(context, options)
         tasks = [task for task in selected if task.free_count]

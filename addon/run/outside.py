@@ -189,14 +189,13 @@ class FairsOutside(FairProperties, Redone):
         obj = active_object(context)
         if obj.mode == "SCULPT" and not self.is_repeated(context):
             bpy.ops.ed.undo_push(message="Before Fair Masked")  # strokes are steps of another kind
-        self.take_names_before()
         try:
             options = FairOptions.of(self)
             check_shown(obj)
             level = levels.shown_level(obj)
             self._check_level(level, options)
             dynamic = obj.use_dynamic_topology_sculpting
-            if dynamic and options.mesh == "NEW":
+            if dynamic and options.remesh:
                 raise ValueError(said("dynamic_faces"))
             with in_object_mode(obj):
                 return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic), begin)
@@ -205,7 +204,7 @@ class FairsOutside(FairProperties, Redone):
 
     def _check_level(self, level: int, options: FairOptions) -> None:
         """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""
-        if level and options.mesh == "NEW":
+        if level and options.remesh:
             raise ValueError(said("level_keeps_faces"))
 
     def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:

@@ -1,56 +1,57 @@
-"""Presets: files that set every option, those of the add-on (core/presets.py) and one's own.
+# mypy: disable-error-code="valid-type"
+"""Presets: those of the add-on (core/presets.py), and one's own, which are files that set every option.
 
-In the redo panel they change the last run; beside the sidebar's button each is a run of its own.
+In the redo panel they change the last run; beside the sidebar's button each of the add-on's is a run of its own.
+No postponed annotations here: Blender reads them as property definitions.
 """
 
-from __future__ import annotations
-
-import ast
-from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import bpy
 from bl_operators.presets import AddPresetBase
+from bpy.props import StringProperty
 
-from ..core.option_table import Table
+from ..core.option_table import table
 from ..core.presets import PRESETS
 
-_ACTIVE = "op = bpy.context.active_operator"
+
+class MESH_OT_fair_preset(bpy.types.Operator):
+    """Give the last run these options, and the defaults for all others"""
+
+    bl_idname = "mesh.fair_preset"
+    bl_label = "Use Preset"
+    bl_options = {"INTERNAL"}  # noqa: RUF012 - the form that Blender asks for
+
+    operator: StringProperty(options={"HIDDEN"})
+    preset: StringProperty(options={"HIDDEN"})
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Set them."""
+        give(self.operator, self.preset, context.active_operator.properties)
+        return {"FINISHED"}
 
 
-def read(path: Path) -> dict[str, Any]:
-    """Return the options that a preset's file sets."""
-    found = {}
-    for line in path.read_text(encoding="utf-8").splitlines():
-        name, _, value = line.partition(" = ")
-        if name.startswith("op."):
-            found[name.removeprefix("op.")] = ast.literal_eval(value)
-    return found
+def give(operator: str, preset: str, properties: Any) -> None:
+    """Set the options of a preset, and all others to their defaults."""
+    _reset(operator, properties)
+    for name, value in PRESETS[operator][1][preset].items():
+        setattr(properties, name, value)
 
 
-def files(operator: str) -> Iterator[Path]:
-    """Yield the files of an operator's presets, the add-on's first and in their order."""
-    folders = [Path(folder) for folder in bpy.utils.preset_paths(f"operator/{operator}")]
-    found = sorted(path for folder in folders for path in folder.glob("*.py"))
-    own = [name.replace(" ", "_") for name in PRESETS[operator][1]]
-    yield from sorted(found, key=lambda path: own.index(path.stem) if path.stem in own else len(own))
-
-
-def draw_runs(layout: Any, operator: str) -> None:
-    """Draw a button for each preset that runs the operator with it."""
-    for path in files(operator):
-        button = layout.operator(operator, text=bpy.path.display_name(path.stem, title_case=False))
-        for name, value in read(path).items():
-            setattr(button, name, value)
+def _reset(operator: str, properties: Any) -> None:
+    for option in table(PRESETS[operator][0]):
+        properties.property_unset(option.name)
 
 
 class _Runs:
     operator = ""
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw a button for each."""
-        draw_runs(self.layout, self.operator)  # type: ignore[attr-defined]
+        """Draw a button for each preset that runs the operator with it."""
+        for preset, options in PRESETS[self.operator][1].items():
+            button = self.layout.operator(self.operator, text=preset)  # type: ignore[attr-defined]
+            for name, value in options.items():
+                setattr(button, name, value)
 
 
 class MESH_MT_fair_region_runs(_Runs, bpy.types.Menu):
@@ -67,18 +68,30 @@ class MESH_MT_fair_fill_runs(_Runs, bpy.types.Menu):
     operator = "mesh.fair_fill"
 
 
+def draw_own(menu: Any) -> None:
+    """Draw a button for each preset of the add-on's that changes the last run."""
+    for preset in PRESETS[menu.operator][1]:
+        button = menu.layout.operator(MESH_OT_fair_preset.bl_idname, text=preset)
+        button.operator, button.preset = menu.operator, preset
+
+
 class _Presets:
     """The menu of the redo panel."""
 
     preset_operator = "script.execute_preset"
-    draw = bpy.types.Menu.draw_preset
+    preset_subdir = ""
     operator = ""
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Draw those of the add-on, then one's own."""
+        draw_own(self)
+        if bpy.utils.preset_paths(self.preset_subdir):
+            bpy.types.Menu.draw_preset(self, context)
 
     @classmethod
     def reset_cb(cls, context: bpy.types.Context, _filepath: str = "") -> None:
         """Begin with the defaults: a preset of an earlier version may leave options out."""
-        for option in PRESETS[cls.operator][0]:
-            context.active_operator.properties.property_unset(option.name)
+        _reset(cls.operator, context.active_operator.properties)
 
 
 class MESH_MT_fair_region_presets(_Presets, bpy.types.Menu):
@@ -97,33 +110,35 @@ class MESH_MT_fair_fill_presets(_Presets, bpy.types.Menu):
     preset_subdir = "operator/mesh.fair_fill"
 
 
-def _values(table: Table) -> list[str]:
-    return [f"op.{option.name}" for option in table]
+class _Adds(AddPresetBase):
+    bl_label = "Add Preset"
+    preset_defines = ("op = bpy.context.active_operator",)
 
 
-class MESH_OT_fair_region_preset_add(AddPresetBase, bpy.types.Operator):
+def _values(operator: str) -> list[str]:
+    return [f"op.{option.name}" for option in table(PRESETS[operator][0])]
+
+
+class MESH_OT_fair_region_preset_add(_Adds, bpy.types.Operator):
     """Add or remove a preset of Fair Region"""
 
     bl_idname = "mesh.fair_region_preset_add"
-    bl_label = "Add Preset"
     preset_menu = "MESH_MT_fair_region_presets"
     preset_subdir = "operator/mesh.fair_region"
-    preset_defines = (_ACTIVE,)
-    preset_values = _values(PRESETS["mesh.fair_region"][0])
+    preset_values = _values("mesh.fair_region")
 
 
-class MESH_OT_fair_fill_preset_add(AddPresetBase, bpy.types.Operator):
+class MESH_OT_fair_fill_preset_add(_Adds, bpy.types.Operator):
     """Add or remove a preset of Fair Fill"""
 
     bl_idname = "mesh.fair_fill_preset_add"
-    bl_label = "Add Preset"
     preset_menu = "MESH_MT_fair_fill_presets"
     preset_subdir = "operator/mesh.fair_fill"
-    preset_defines = (_ACTIVE,)
-    preset_values = _values(PRESETS["mesh.fair_fill"][0])
+    preset_values = _values("mesh.fair_fill")
 
 
 CLASSES = (
+    MESH_OT_fair_preset,
     MESH_MT_fair_region_runs,
     MESH_MT_fair_fill_runs,
     MESH_MT_fair_region_presets,

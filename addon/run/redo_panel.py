@@ -4,20 +4,20 @@ from typing import Any
 
 import bpy
 
-from ..core.option_shared import FOLDED, GROUPS
-from ..core.option_table import Option, Table
+from ..core.option_table import FOLDED, GROUPS, Option, table
 
 ADVANCED = "fairing_advanced"  # the switch, of the window manager
 
 
 def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manager: Any) -> None:
-    """Draw an operator's options, whose table it names."""
-    table: Table = options.table
+    """Draw the options of an operator that says which class they come to."""
+    shown = _shown(options)
     _draw_presets(layout, options)
     layout.use_property_split = True
-    for title in dict.fromkeys(option.group for option in table if option.group not in FOLDED):
-        _draw_group(layout, title if title in GROUPS[1:] else "", _shown(table, title, options), options, obj)
-    if not any(option.group in FOLDED for option in table):
+    titles = dict.fromkeys(option.group for option in table(options.chosen))
+    for title in (title for title in titles if title not in FOLDED):
+        _draw_group(layout, title if title in GROUPS[1:] else "", shown.get(title, []), options, obj)
+    if not any(title in FOLDED for title in titles):
         return
     opened = bool(getattr(manager, ADVANCED))
     row = layout.row()
@@ -27,7 +27,7 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manage
     row.prop(manager, ADVANCED, icon="DOWNARROW_HLT" if opened else "RIGHTARROW", emboss=False)
     if opened:
         for title in FOLDED:
-            _draw_group(layout, title, _shown(table, title, options), options, obj)
+            _draw_group(layout, title, shown.get(title, []), options, obj)
 
 
 def _draw_presets(layout: Any, options: Any) -> None:
@@ -39,8 +39,14 @@ def _draw_presets(layout: Any, options: Any) -> None:
     row.operator(options.preset_add, text="", icon="REMOVE").remove_active = True
 
 
-def _shown(table: Table, title: str, options: Any) -> list[Option]:
-    return [option for option in table if option.group == title and option.shown(options)]
+def _shown(options: Any) -> dict[str, list[Option]]:
+    """Return the options in sight, by their groups."""
+    given = options.chosen.of(options)
+    found: dict[str, list[Option]] = {}
+    for option in table(options.chosen):
+        if option.counts(given) or option.is_set(options):
+            found.setdefault(option.group, []).append(option)
+    return found
 
 
 def _draw_group(layout: Any, title: str, shown: list[Option], options: Any, obj: Any) -> None:

@@ -10,15 +10,15 @@ from typing import Any
 import bpy
 from bpy.props import StringProperty
 
-from ..core.fair_options import FAIR
 from ..core.option_table import Option, differing, named
+from ..core.options import FairOptions
 from ..run.operators import MESH_OT_fair_region
 
 
 def last_chosen(context: bpy.types.Context) -> dict[str, Any]:
     """Return the options of the last Fair Region that are not the defaults."""
     last = context.window_manager.operator_properties_last(MESH_OT_fair_region.bl_idname)
-    return {} if last is None else differing(FAIR, {option.name: getattr(last, option.name) for option in FAIR})
+    return {} if last is None else differing(FairOptions, last)
 
 
 def shown_value(option: Option, value: Any) -> str:
@@ -37,7 +37,7 @@ def draw(layout: Any, context: bpy.types.Context) -> None:
         return
     column = layout.box().column(align=True)
     for name, value in chosen.items():
-        option = named(FAIR, name)
+        option = named(FairOptions, name)
         assert option is not None
         row = column.row()
         row.label(text=option.label)
@@ -60,6 +60,6 @@ class MESH_OT_fair_reset(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Reset what is remembered of the last run; that run itself stays."""
         last = context.window_manager.operator_properties_last(MESH_OT_fair_region.bl_idname)
-        if last is not None and named(FAIR, self.option) is not None:
+        if last is not None and named(FairOptions, self.option) is not None:
             last.property_unset(self.option)
         return {"FINISHED"}

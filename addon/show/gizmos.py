@@ -14,8 +14,8 @@ import numpy as np
 
 from ..core import runner
 from ..core.arrays import Floats
-from ..core.fair_options import FAIR
 from ..core.option_table import named
+from ..core.options import FairOptions
 from ..host.handlers import call_later
 from ..run import fillet, last_run
 from ..run.fillet import MESH_OT_fair_fillet
@@ -137,8 +137,13 @@ class VIEW3D_GGT_fair_bulge(_Arrow, bpy.types.GizmoGroup):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """A region must have been faired just now, with a surface that can bulge."""
-        options, bulge = cls.chosen(context), named(FAIR, cls.option)
-        return options is not None and last_run.has_regions() and bulge is not None and bool(bulge.shown(options))
+        options, bulge = cls.chosen(context), named(FairOptions, cls.option)
+        return (
+            options is not None
+            and last_run.has_regions()
+            and bulge is not None
+            and bulge.counts(FairOptions.of(options))
+        )
 
     def place(self, context: bpy.types.Context) -> None:
         """Stand on the middle of the surface: the foot is where it would be without a bulge."""

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 import fairing
+from core.other_options import FilletOptions
 from core.region import MeshArrays
-from core.rounding import FilletOptions, hard, round_arrays
+from core.rounding import hard, round_arrays
 from hard_surfaces import FloatArray, Polygons, Problem
 
 Made = tuple[FloatArray, Polygons, Polygons]

@@ -179,9 +179,7 @@ def union(rng: Any, seed: int) -> Job:
     pipe = Scene(np.vstack([pipe.vertices, path[[0, -1]]]), [*pipe.faces, *lids])
     whole = scenes.joined(ball, scenes.moved(pipe, (0, leaning, 0), (shift, 0, 0)))
     on_ball = np.abs(np.linalg.norm(whole.vertices, axis=1) - 1) < 0.012
-    return Job(
-        whole, selections.seam_band(whole, on_ball, float(rng.uniform(0.12, 0.3))), {"mesh": "NEW"} if seed == 3 else {}
-    )
+    return Job(whole, selections.seam_band(whole, on_ball, float(rng.uniform(0.12, 0.3))), {"remesh": seed == 3})
 
 
 def voxel_letter(rng: Any, _seed: int) -> Job:
@@ -261,7 +259,7 @@ def noise(rng: Any, seed: int) -> Job:
     ball = scenes.noisy(scenes.sphere(5), rng, (0.03, 0.12, 0.06, 0.2)[seed])
     swollen = scenes.bump(ball, np.array([0, 0, 1.0]), 0.2, 0.2)
     return Job(
-        swollen, selections.ball(swollen, [0, 0, 1.0], 0.6), ({}, {"outline": "MENDED"}, {}, {"feather": 0.2})[seed]
+        swollen, selections.ball(swollen, [0, 0, 1.0], 0.6), ({}, {"smooth_boundary": True}, {}, {"falloff": 0.2})[seed]
     )
 
 
@@ -297,7 +295,7 @@ def weighted(rng: Any, seed: int) -> Job:
     away = np.linalg.norm(body.vertices - middle, axis=1)
     reach = away[np.unique(np.concatenate([f for f, c in zip(body.faces, chosen, strict=True) if c]))].max()
     weights = np.clip(1.4 - away / reach, 0, 1)
-    return Job(replace(body, groups={"Fade": weights}), chosen, {"factor_group": "Fade"})
+    return Job(replace(body, groups={"Fade": weights}), chosen, {"vertex_group": "Fade"})
 
 
 def keyed(rng: Any, seed: int) -> Job:
@@ -344,7 +342,7 @@ def crease_near(rng: Any, seed: int) -> Job:
     reach = 0.4 - (1, 2, 1, 4)[seed] / 30
     places = selections.centres(badge)
     chosen = (np.abs(places[:, 0] - 0.0) < reach) & (np.abs(places[:, 1]) < 0.35)
-    return Job(badge, chosen, ({}, {"continuity": "G2"}, {"feather": 0.15}, {})[seed])
+    return Job(badge, chosen, ({}, {"continuity": "G2"}, {"falloff": 0.15}, {})[seed])
 
 
 def cloth(rng: Any, seed: int) -> Job:
@@ -355,17 +353,17 @@ def cloth(rng: Any, seed: int) -> Job:
     piece.vertices[at_border] += wild[at_border]
     places = selections.centres(piece)
     chosen = (places[:, 1] > 0.6) & (np.abs(places[:, 0]) < 0.6)
-    return Job(piece, chosen, {"open_border": "FAIRED"} if seed < 3 else {})
+    return Job(piece, chosen, {"fair_open_borders": True} if seed < 3 else {})
 
 
 def shaped(rng: Any, seed: int) -> Job:
     """Other shapes: soap film, minimal energy, bulge, least variation."""
     scene = scenes.real(("penguin", "ict_head", "stuffedtoy", "goathead")[seed])
     option = (
-        {"equation": "SOAP_FILM"},
-        {"equation": "MINIMAL_ENERGY"},
-        {"equation": "CONSTANT", "bulge": 0.1},
-        {"equation": "LEAST_VARIATION"},
+        {"continuity": "G0"},
+        {"shape": "MINIMAL_ENERGY"},
+        {"bulge": 0.1},
+        {"shape": "LEAST_VARIATION"},
     )
     return Job(scene, selections.anywhere(scene, rng, 0.08, 0.14), option[seed])
 
@@ -382,19 +380,19 @@ def marked(_rng: Any, seed: int) -> Job:
 FAMILIES: dict[str, Callable[[Any, int], Job]] = {
     "scan": _anywhere(SCANS, 0.06, 0.16),
     "scan_tip": _tip(SCANS, 0.06, 0.12),
-    "scan_feather": _anywhere(SCANS, 0.06, 0.13, feather=0.15),
+    "scan_feather": _anywhere(SCANS, 0.06, 0.13, falloff=0.15),
     "scan_detail": _tip(SCANS, 0.06, 0.12, detail=1.0),
     "scan_fill": _filled(SCANS, 0.06, 0.12),
-    "scan_new": _tip(SCANS, 0.05, 0.1, mesh="NEW"),
+    "scan_new": _tip(SCANS, 0.05, 0.1, remesh=True),
     "character": _anywhere(CHARACTERS, 0.06, 0.14),
     "character_tip": _tip(CHARACTERS, 0.05, 0.12),
     "character_more": _tip(CHARACTERS, 0.05, 0.12, shift=3),
     "character_g2": _anywhere(CHARACTERS, 0.06, 0.12, continuity="G2"),
     "character_fill": _filled(CHARACTERS, 0.05, 0.12, shift=3),
-    "character_feather": _tip(CHARACTERS, 0.05, 0.1, shift=2, feather=0.2),
+    "character_feather": _tip(CHARACTERS, 0.05, 0.1, shift=2, falloff=0.2),
     "coarse": _tip(COARSE, 0.12, 0.25),
     "coarse_fill": _filled(COARSE, 0.12, 0.22, quads=True),
-    "coarse_new": _anywhere(COARSE, 0.15, 0.25, mesh="NEW"),
+    "coarse_new": _anywhere(COARSE, 0.15, 0.25, remesh=True),
     "solid": _anywhere(SOLIDS, 0.06, 0.14),
     "limb": limb, "cut_limb": cut_limb, "cage": cage, "dented_box": dented_box, "bevel_dent": bevel_dent,
     "bevel_hole": bevel_hole, "box_hole": box_hole, "boss": boss, "lathe": lathe, "union": union,

@@ -102,7 +102,7 @@ def run(name: str, folder: Path) -> dict[str, Any]:
     operator = bpy.ops.mesh.fair_fill if job.rim is not None else bpy.ops.mesh.fair_region
     begin = time.perf_counter()
     try:
-        operator("EXEC_DEFAULT", True, accept="ALL", **job.options)
+        operator("EXEC_DEFAULT", True, allow_folds=True, **job.options)
     except RuntimeError as refusal:
         found["refusal"] = str(refusal)
     found["seconds"] = time.perf_counter() - begin

@@ -92,7 +92,7 @@ def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.Monk
         nothing_solves.setattr(engine, "RepeatedSolve", lambda *_args: pytest.fail("solved again"))
         part = solve(mesh, EYE, FairOptions(detail=0.25), kept=kept).result
     np.testing.assert_allclose(part.vertices, whole.base + 0.25 * (whole.vertices - whole.base), atol=1e-15)
-    longer = FairOptions(detail=1.0, detail_size=0.8)
+    longer = FairOptions(detail=1.0, bulge=0.2)
     again, anew = solve(mesh, EYE, longer, kept=kept).result, solve(mesh, EYE, longer).result
     np.testing.assert_allclose(again.vertices, anew.vertices, atol=1e-5)
     assert np.abs(again.vertices - whole.vertices).max() > 0.01
@@ -157,7 +157,7 @@ def rough_surroundings(noise: float) -> MeshArrays:
 def test_a_fitted_boundary_moves_with_what_is_around_it_and_nothing_else() -> None:
     mesh = rough_surroundings(0.015)
     patch = pose(mesh, EYE, FairOptions())[0].patch
-    given, fitted = fair(mesh), fair(mesh, outline="MENDED")
+    given, fitted = fair(mesh), fair(mesh, smooth_boundary=True)
     assert np.array_equal(given.vertices, patch.vertices[patch.free])
     more = np.setdiff1d(fitted.vertices, given.vertices)
     assert set(more) & set(patch.vertices[patch.outline])
@@ -182,10 +182,10 @@ def cube_corner(size: int = 13, radius: float = 0.5) -> MeshArrays:
     return polygon_mesh(positions, faces.tolist(), near)
 
 
-@pytest.mark.parametrize("outline", ["GIVEN", "MENDED"])
-def test_a_hard_edge_outside_stays_and_one_that_is_rounded_inside_is_reported(outline: str) -> None:
+@pytest.mark.parametrize("smooth", [False, True])
+def test_a_hard_edge_outside_stays_and_one_that_is_rounded_inside_is_reported(smooth: bool) -> None:
     mesh = cube_corner()
-    answered = fair(mesh, outline=outline)
+    answered = fair(mesh, smooth_boundary=smooth)
     assert answered.verdict.grade == LOOK
     assert answered.verdict.reason.startswith("A hard edge runs on outside")
     assert AS_SELECTED not in answered.verdict.remedies

@@ -42,14 +42,14 @@ def test_no_vertex_is_in_more_groups_than_one_around_and_the_sum_stays() -> None
     sources = np.array([[0.5, 0.5, 0.0, 0.0], [0.0, 0.0, 0.75, 0.25]])
     mean = HALF @ sources
     every = np.ones(4, dtype=bool)
-    found = limited_like(mean, sources, every, 0)
+    found = limited_like(mean, sources, every)
     np.testing.assert_allclose(found, [[0.4, 0.0, 0.6, 0.0]])  # .25 and .375 of 1, the first of two equal ones
-    assert np.array_equal(limited_like(mean, sources, every, 4), mean)
-    np.testing.assert_allclose(limited_like(mean, sources, every, 1), [[0.0, 0.0, 1.0, 0.0]])
+    np.testing.assert_allclose(limited_like(mean, np.eye(4), every), [[0.0, 0.0, 1.0, 0.0]])
+    assert np.array_equal(limited_like(mean, mean, every), mean)
 
 
 def test_groups_that_are_of_no_bone_are_not_counted() -> None:
     sources = np.array([[1.0, 0.0, 0.9], [0.0, 1.0, 0.0]])
     bones = np.array([True, True, False])
-    found = limited_like(HALF @ sources, sources, bones, 1)
+    found = limited_like(HALF @ sources, sources, bones)
     np.testing.assert_allclose(found, [[1.0, 0.0, 0.45]])

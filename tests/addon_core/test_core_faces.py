@@ -66,13 +66,13 @@ def test_a_new_mesh_of_quads_stops_at_its_lines(spacing: float) -> None:
     rows = np.arange(len(mesh.in_patch)) // size
     values = (rows < size // 2).astype(np.float64)[mesh.corner_faces][:, None]
     mesh = replace(mesh, lines={"values": parting_edges(mesh, values)})
-    done = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW", quads=True, spacing=spacing))
+    done = remesh_arrays(mesh, np.eye(4), FairOptions(remesh=True, quads=True, spacing=spacing))
     faces = done.faces(np.zeros(len(done.part.triangles), dtype=np.int64))
     of = done.part.faces // size < size // 2
     assert all(len({bool(of[t]) for t in triangles}) == 1 for triangles in beneath(faces))
     quads = sum(len(polygon) == 4 for polygon in faces.polygons)
     assert quads > 0.4 * len(done.part.triangles)
-    plain = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW", spacing=spacing))
+    plain = remesh_arrays(mesh, np.eye(4), FairOptions(remesh=True, spacing=spacing))
     assert plain.faces(np.zeros(len(plain.part.triangles), dtype=np.int64)).polygons == plain.part.triangles.tolist()
 
 
@@ -84,7 +84,7 @@ def test_an_old_quad_does_not_come_again() -> None:
     )
     alone = np.arange(len(mesh.in_patch)) == own
     mesh = replace(mesh, lines={"alone": parting_edges(mesh, alone.astype(np.float64)[mesh.corner_faces][:, None])})
-    done = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW", quads=True))
+    done = remesh_arrays(mesh, np.eye(4), FairOptions(remesh=True, quads=True))
     faces = done.faces(np.zeros(len(done.part.triangles), dtype=np.int64))
     corners = set(mesh.corner_vertices[mesh.corner_faces == own].tolist())
     stay = done.part.stay

@@ -40,10 +40,12 @@ def band(mesh: MeshArrays, done: Fairing) -> Ints:
     return np.setdiff1d(done.vertices, patch.vertices[patch.free])
 
 
-def test_the_band_moves_less_and_less() -> None:
+def test_the_band_moves_less_and_less(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = swollen()
     # Where the join moves most depends on what counts as detail of a swelling this wide: shorter waves than by default.
-    done = fair(mesh, feather=WIDTH, detail_size=0.4)
+    asked = FairOptions.engine_arguments
+    monkeypatch.setattr(FairOptions, "engine_arguments", lambda options: {**asked(options), "detail_size": 0.4})
+    done = fair(mesh, falloff=WIDTH)
     moves = np.linalg.norm(done.positions - mesh.positions[done.vertices], axis=1)
     row = SIZE // 2 * (SIZE + 1) + np.arange(SIZE // 2, SIZE + 1)  # from the middle to the border
     along = [float(moves[done.vertices == vertex][0]) for vertex in row if vertex in done.vertices]
@@ -56,16 +58,16 @@ def test_the_band_moves_less_and_less() -> None:
 
 def test_what_is_pinned_hidden_or_on_a_border_stays_in_the_band() -> None:
     mesh = swollen()
-    usual = band(mesh, fair(mesh, feather=WIDTH))
+    usual = band(mesh, fair(mesh, falloff=WIDTH))
     pin = int(usual[0])
     pinned = mesh.pinned.copy()
     pinned[pin] = True
     hidden = np.zeros(len(mesh.in_patch), dtype=bool)
     hidden[mesh.corner_faces[mesh.corner_vertices == usual[-1]][0]] = True
     of_hidden = mesh.corner_vertices[hidden[mesh.corner_faces]]
-    done = fair(replace(mesh, pinned=pinned, hidden=hidden), feather=WIDTH)
+    done = fair(replace(mesh, pinned=pinned, hidden=hidden), falloff=WIDTH)
     assert np.array_equal(band(mesh, done), np.setdiff1d(usual, [pin, *of_hidden]))
-    wide = fair(mesh, feather=2.0)
+    wide = fair(mesh, falloff=2.0)
     rows = np.arange((SIZE + 1) ** 2).reshape(SIZE + 1, SIZE + 1)
     assert np.array_equal(wide.vertices, rows[1:-1, 1:-1].ravel())
 
@@ -79,18 +81,18 @@ def test_the_mirror_holds_in_the_band() -> None:
     free = fair(mesh).vertices
     points[free] *= 1.0 + 0.02 * np.random.default_rng(3).normal(size=(len(free), 1))  # only there is it not symmetric
     mesh = replace(mesh, positions=points)
-    done = fair(mesh, feather=WIDTH)
+    done = fair(mesh, falloff=WIDTH)
     assert not any("mirror" in warning for warning in done.warnings)
     after = points.copy()
     after[done.vertices] = done.positions
     assert np.array_equal(after[rows], after[rows[:, ::-1]] * (-1.0, 1.0, 1.0))
     pinned = mesh.pinned.copy()
     pinned[band(mesh, done)[0]] = True
-    lopsided = fair(replace(mesh, pinned=pinned), feather=WIDTH)
+    lopsided = fair(replace(mesh, pinned=pinned), falloff=WIDTH)
     assert any("X mirror is on, but the selection is not symmetric" in warning for warning in lopsided.warnings)
 
 
-BY_GROUP = {"factor_group": "Soft"}  # `MeshArrays.parts` are its weights
+BY_GROUP = {"vertex_group": "Soft"}  # `MeshArrays.parts` are its weights
 
 
 def weighed(parts: Floats) -> Fairing:
@@ -136,20 +138,6 @@ def test_feather_and_weights_are_multiplied() -> None:
     """So features in the band are painted out."""
     mesh = swollen()
     left = (mesh.positions[:, 0] < 0.0).astype(np.float64)
-    both = fair(replace(mesh, parts=left), feather=WIDTH, **BY_GROUP)
-    whole = fair(mesh, feather=WIDTH)
+    both = fair(replace(mesh, parts=left), falloff=WIDTH, **BY_GROUP)
+    whole = fair(mesh, falloff=WIDTH)
     assert np.array_equal(both.vertices, whole.vertices[left[whole.vertices] > 0.0])
-
-
-@pytest.mark.parametrize(
-    ("options", "text"),
-    [
-        ({"outline": "MENDED"}, "Smooth Boundary"),
-        ({"continuity": "G2"}, "Continuity: Curvature"),
-    ],
-)
-def test_options_that_a_band_can_not_have_are_refused(options: dict[str, object], text: str) -> None:
-    with pytest.raises(ValueError, match=f"^{text}.*Falloff 0$"):
-        fair(swollen(), feather=WIDTH, **options)
-    with pytest.raises(ValueError, match=f"^{text}.*no Vertex Group and no Mask$"):
-        fair(replace(swollen(), parts=soft(0.6)), **BY_GROUP, **options)

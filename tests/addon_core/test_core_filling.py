@@ -11,11 +11,12 @@ import pytest
 from core.around import nearby
 from core.arrays import Floats, Ints, Mask
 from core.border import BorderRefusal, border_loops
-from core.fill_pieces import FillOptions, Piece
+from core.fill_pieces import Piece
 from core.fill_report import make_fill_report
 from core.fill_verdict import Surface, judge
 from core.filling import fill
 from core.neighbourhood import Neighbourhood
+from core.other_options import FillOptions
 from core.quality import Join
 from core.region import MeshArrays, nothing
 from core.sentences import MeshRefusal
@@ -128,7 +129,7 @@ def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
     assert (report.verdict.grade, report.written) == (LOOK, True)
     assert "2 of 3 holes stay open" in report.verdict.reason
     np.testing.assert_array_equal(report.verdict.spots, done.left_vertices)
-    every = fill(pierced, np.eye(4), loops, FillOptions(accept="ALL"))
+    every = fill(pierced, np.eye(4), loops, FillOptions(allow_folds=True))
     assert (len(every.pieces), every.left) == (2, ())
 
 
@@ -264,14 +265,12 @@ def test_the_curvature_around_is_continued_where_it_can_be() -> None:
 
 def test_unknown_options_are_refused() -> None:
     for options in (
-        {"equation": "BULGE"},
+        {"shape": "BULGE"},
         {"longest": -1},
         {"longest_length": -1.0},
         {"continuity": "G3"},
-        {"inner": "GRADED"},
         {"spacing": 0.0},
         {"spacing": float("nan")},
-        {"accept": "SOME"},
     ):
         with pytest.raises(ValueError, match=next(iter(options))):
             FillOptions(**options)  # type: ignore[arg-type]

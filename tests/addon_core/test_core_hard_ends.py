@@ -10,9 +10,9 @@ import pytest
 from core.across import reported
 from core.arrays import Ints
 from core.border import border_loops
-from core.fill_pieces import FillOptions
 from core.fill_verdict import hard_ends
 from core.filling import fill
+from core.other_options import FillOptions
 from core.region import MeshArrays
 from core.verdict import GOOD, LOOK
 from polygon_mesh import grid_points, grid_quads, polygon_mesh
@@ -43,7 +43,7 @@ def test_a_ridge_ends_on_both_sides_of_a_hole(degrees: float) -> None:
     loop = rim(mesh, 0.0)
     ends = mesh.positions[hard_ends(mesh, loop, mesh.triangles)]
     np.testing.assert_allclose(ends, [[-0.25, 0.0, 0.0], [0.25, 0.0, 0.0]], atol=1e-12)
-    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(accept="ALL", hard_edges="IGNORED")).pieces
+    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(allow_folds=True, run_on=False)).pieces
     assert piece.verdict.grade != GOOD
 
 
@@ -110,14 +110,14 @@ def test_a_drawn_line_is_kept_with_its_vertices() -> None:
     assert len(piece.positions) == len(piece.points) - len(loop)
     assert reported([piece.across]) == "1 drawn"
     assert len(loop) in piece.triangles
-    (other,) = fill(with_line, np.eye(4), [loop], FillOptions(hard_edges="IGNORED")).pieces
+    (other,) = fill(with_line, np.eye(4), [loop], FillOptions(run_on=False)).pieces
     assert not len(other.across.drawn)
 
 
 def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
     """A ridge of 36° leaves kinks that the mesh's own bends hide."""
     mesh = roof(36.0, 0.0)
-    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(hard_edges="IGNORED")).pieces
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(run_on=False)).pieces
     assert (piece.verdict.grade, len(piece.join.seen)) == (LOOK, 0)
     assert "Hard edges end at the hole, at 2 vertices" in piece.verdict.reason
 

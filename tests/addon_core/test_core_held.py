@@ -64,11 +64,9 @@ def test_a_border_that_becomes_fair_is_free_but_where_the_selection_ends() -> No
     [
         ({}, "CREASE"),
         ({"pin_edges": "SHARP"}, "CREASE"),
-        ({"method": "PAPER"}, "AVERAGE"),
         ({"pin_edges": "SEAM"}, "AVERAGE"),
         ({"pin_edges": "SEAM", "pin_slope": "SMOOTH"}, "SMOOTH"),
         ({"pin_edges": "SHARP", "pin_slope": "AVERAGE"}, "AVERAGE"),
-        ({"pin_edges": "SHARP", "method": "PAPER"}, "AVERAGE"),
     ],
 )
 def test_what_automatic_stands_for(options: dict[str, str], slope: str) -> None:
@@ -106,7 +104,7 @@ def test_a_new_mesh_makes_a_dented_edge_fair_and_both_sides_flat(
     moving = inside.vertices[inside.free]
     noisy = mesh.positions.copy()
     noisy[moving] += 0.02 * np.random.default_rng(2).normal(size=(len(moving), 3))
-    done = remesh_arrays(replace(mesh, positions=noisy), matrix, FairOptions(mesh="NEW", spacing=spacing))
+    done = remesh_arrays(replace(mesh, positions=noisy), matrix, FairOptions(remesh=True, spacing=spacing))
     on_edge = np.abs(grid_points(16)[moving, 0]) < 1e-9
     assert set(done.vertices.tolist()) == set(moving[on_edge].tolist())
     assert np.abs(done.positions[:, [0, 2]]).max() < 1e-9
@@ -123,7 +121,7 @@ def test_half_a_factor_takes_a_new_mesh_and_its_edge_half_way() -> None:
     dent = mesh.positions.copy()
     on_edge = np.flatnonzero((np.abs(grid_points(16)[:, 0]) < 1e-9) & (np.abs(grid_points(16)[:, 1]) < 0.3))
     dent[on_edge] += [0.03, 0.0, 0.03]
-    done = remesh_arrays(replace(mesh, positions=dent), np.eye(4), FairOptions(mesh="NEW", factor=0.5))
+    done = remesh_arrays(replace(mesh, positions=dent), np.eye(4), FairOptions(remesh=True, factor=0.5))
     half = np.isin(done.vertices, on_edge)
     assert np.count_nonzero(half) == len(on_edge)
     np.testing.assert_allclose(done.positions[half][:, [0, 2]], 0.015, atol=1e-9)
@@ -172,7 +170,7 @@ def test_a_mesh_that_is_read_again_is_not_searched_again(monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(
-    "options", [{"equation": "CONSTANT"}, {"equation": "SOAP_FILM"}, {"continuity": "G2"}, {"outline": "MENDED"}]
+    "options", [{"bulge": 0.1}, {"continuity": "G0"}, {"continuity": "G2"}, {"smooth_boundary": True}]
 )
 def test_shapes_that_know_no_edges_are_not_changed_by_unmarked_ones(options: dict[str, str]) -> None:
     mesh, _ = dented_fold()
@@ -206,7 +204,7 @@ def off_fold_each(points: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
 
 def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_outline() -> None:
     mesh = with_curve(grid(16, 0.55, folded), "creases")
-    options = FairOptions(pin_edges="SHARP", outline="MENDED")
+    options = FairOptions(pin_edges="SHARP", smooth_boundary=True)
     with pytest.raises(ValueError, match="Smooth Boundary would round off the creases"):
         solve.solve(mesh, np.eye(4), options)
     assert solve.solve(replace(mesh, creases=None), np.eye(4), options).result.converged

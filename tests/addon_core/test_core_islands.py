@@ -6,10 +6,10 @@ import numpy as np
 
 from core.arrays import Ints
 from core.border import border_loops
-from core.fill_pieces import FillOptions
 from core.filling import fill
 from core.holes import Borders, chosen_borders
 from core.islands import islands_inside
+from core.other_options import FillOptions
 from core.reflected import Whole
 from core.region import MeshArrays
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh

@@ -114,9 +114,12 @@ def test_answers_are_in_the_meshs_own_coordinates() -> None:
     np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.0, atol=1e-6)
 
 
-def test_no_convergence_is_no_answer_and_a_stop_is_heard() -> None:
+def test_no_convergence_is_no_answer_and_a_stop_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = grid(SIZE, 0.35, lambda points: on_sphere(points) * (1.0 + 0.2 * np.sin(3.0 * points[:, :1])))
-    region = LiveRegion(mesh, EYE, FairOptions(max_iterations=1, tolerance=1e-13))
+    asked = FairOptions.engine_arguments
+    with monkeypatch.context() as hasty:
+        hasty.setattr(FairOptions, "engine_arguments", lambda o: {**asked(o), "max_iterations": 1, "tolerance": 1e-13})
+        region = LiveRegion(mesh, EYE, FairOptions())
     assert region.answer(mesh.positions[region.vertices], EYE) is None
     patient = LiveRegion(mesh, EYE, FairOptions())
     with pytest.raises(fairing.Cancelled):
@@ -212,7 +215,7 @@ def test_the_first_surface_is_near_the_answer() -> None:
 def test_the_curvature_is_continued_on_the_part_that_asks_for_it_as_by_the_operator() -> None:
     egg = grid(SIZE, 0.6, lambda points: on_sphere(points) * [1.0, 2.5, 1.0])
     mesh = replace(egg, continued=egg.positions[:, 1] > 0.0)
-    options = FairOptions(curvature_group="Upper", tolerance=1e-9)
+    options = FairOptions(continuity="G2", continuity_group="Upper")
     region = LiveRegion(mesh, EYE, options)
     answer = region.answer(mesh.positions[region.vertices], EYE)
     patch = make_patch(mesh)
@@ -220,17 +223,25 @@ def test_the_curvature_is_continued_on_the_part_that_asks_for_it_as_by_the_opera
     assert expected.continuity == "G2" and not expected.warnings
     assert answer is not None
     np.testing.assert_allclose(answer, expected.vertices[patch.free], atol=1e-6)
-    whole = solve(egg, EYE, FairOptions(continuity="G2", tolerance=1e-9)).result
+    whole = solve(egg, EYE, FairOptions(continuity="G2")).result
     assert np.abs(expected.vertices - whole.vertices)[patch.free].max() > 1e-5
 
 
-def test_tension_is_that_of_the_operator() -> None:
-    mesh = replace(sphere(), tension=np.full(len(sphere().positions), 2.0))
-    options = FairOptions(tension=2.0, tolerance=1e-9)
+def test_a_lone_pin_pulls_as_by_the_operator_and_stays_where_it_is_put() -> None:
+    mesh = sphere()
+    pin = int(np.linalg.norm(mesh.positions[:, :2], axis=1).argmin())
+    pinned, places = np.zeros(len(mesh.positions), dtype=bool), mesh.positions.copy()
+    pinned[pin] = True
+    places[pin] *= 1.05
+    mesh, options = replace(mesh, pinned=pinned, positions=places), FairOptions(pin_group="Pin")
     region = LiveRegion(mesh, EYE, options)
-    answer = region.answer(mesh.positions[region.vertices], EYE)
-    assert answer is not None and np.linalg.norm(answer, axis=1).max() > 1.001
-    np.testing.assert_allclose(answer, solve(mesh, EYE, options).result.vertices[make_patch(mesh).free], atol=1e-6)
-    stood_in = region.stand_in(mesh.positions[region.vertices], EYE)  # least variation has none
-    assert stood_in is not None
-    np.testing.assert_allclose(np.linalg.norm(stood_in, axis=1), 1.0, atol=1e-4)
+    assert pin not in region.free and pin in region.vertices
+    for height in (1.05, 1.02):
+        places[pin] = height * places[pin] / np.linalg.norm(places[pin])
+        answer = region.answer(places[region.vertices], EYE)
+        assert answer is not None
+        expected = solve(replace(mesh, positions=places.copy()), EYE, options).result.vertices
+        np.testing.assert_allclose(answer, expected[np.isin(make_patch(mesh).vertices, region.free)], atol=1e-6)
+    still = region.still(places[region.vertices])
+    places[pin] *= 1.1
+    assert not np.array_equal(region.still(places[region.vertices]), still)  # to move it is a change

@@ -1,52 +1,73 @@
-"""Options by name: what is refused, and what the engine gets."""
+"""Options by name: what is refused, what has no effect, and what the engine gets."""
 
 from __future__ import annotations
 
+from dataclasses import asdict, fields
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 import fairing
-from core.fill_options import FILL_EQUATIONS as SHAPES
-from core.fill_pieces import FillOptions
-from core.option_items import DISTRIBUTIONS, EQUATIONS, METHODS, OTHERWISE, identifiers
+from core.option_items import DISTRIBUTIONS, SHAPES
+from core.option_table import FOLDED, GROUPS, table
 from core.options import FairOptions
+from core.other_options import HOLES, CurvesOptions, DenoiseOptions, FilletOptions, FillOptions
+from core.presets import PRESETS
 from fairing import _core
+
+ALL = (FairOptions, FillOptions, FilletOptions, DenoiseOptions, CurvesOptions)
+
+
+def test_fair_region_has_at_most_twenty_four() -> None:
+    assert len(table(FairOptions)) <= 24
+
+
+@pytest.mark.parametrize("of", ALL)
+def test_every_option_is_described_whole_and_accepts_its_default(of: Any) -> None:
+    assert [option.name for option in table(of)] == [field.name for field in fields(of)]
+    for option in table(of):
+        assert option.group in (*GROUPS, *FOLDED, HOLES)
+        assert option.label and option.description and not option.description.endswith(".")
+        option.check(option.default)
+        assert not option.is_set(of())
+    assert of().idle == ()
 
 
 @pytest.mark.parametrize(
     "wrong",
     [
-        {"equation": "harmonic"},
+        {"shape": "harmonic"},
         {"inner_fairness": ""},
-        {"otherwise": "HARMONIC"},
         {"boundary_normals": "NONE"},
-        {"method": "BOTH"},
         {"pin_edges": "ALL"},
         {"factor": 1.0001},
         {"factor": -0.1},
         {"factor": float("nan")},
+        {"bulge": float("inf")},
+        {"spacing": 0.0},
+        {"falloff": -1.0},
     ],
 )
-def test_an_unknown_value_is_refused_by_its_name(wrong: dict[str, Any]) -> None:
+def test_a_value_that_is_not_accepted_is_refused_by_its_name(wrong: dict[str, Any]) -> None:
     (name,) = wrong
     with pytest.raises(ValueError, match=f"^{name}: expected"):
         FairOptions(**wrong)
 
 
 @pytest.mark.parametrize(
-    ("wrong", "says"),
+    ("of", "wrong", "says"),
     [
-        ({"factor": "1"}, "factor: expected a number, got '1'"),
-        ({"factor": None}, "factor: expected a number"),
-        ({"max_iterations": 2.5}, "max_iterations: expected a whole number"),
-        ({"quads": "yes"}, "quads: expected True or False"),
-        ({"pin_group": 3}, "pin_group: expected a text"),
+        (FairOptions, {"factor": "1"}, "factor: expected a number, got '1'"),
+        (FairOptions, {"factor": None}, "factor: expected a number"),
+        (FillOptions, {"longest": 2.5}, "longest: expected a whole number"),
+        (FairOptions, {"quads": "yes"}, "quads: expected True or False"),
+        (FairOptions, {"pin_group": 3}, "pin_group: expected a text"),
     ],
 )
-def test_a_value_of_another_kind_is_refused_by_its_name(wrong: dict[str, Any], says: str) -> None:
+def test_a_value_of_another_kind_is_refused_by_its_name(of: Any, wrong: dict[str, Any], says: str) -> None:
     with pytest.raises(TypeError, match=says):
-        FairOptions(**wrong)
+        of(**wrong)
 
 
 @pytest.mark.parametrize("options", [FairOptions, FillOptions])
@@ -55,58 +76,77 @@ def test_a_property_that_does_not_exist_is_named(options: Any) -> None:
         options.named({"spacings": 1.0})
     with pytest.raises(TypeError, match=r"'nonsense': there are .*shape"):
         options.named({"nonsense": 1})
-    assert options.named({"spacing": 2.0}).spacing == 2.0
+    assert options.named({"spacing": 2.0}).allow_folds is False
 
 
 @pytest.mark.parametrize(
     ("given", "beside"),
     [
-        ({"quads": True}, {"mesh": "NEW"}),
-        ({"spacing": 2.0}, {"mesh": "NEW"}),
-        ({"inner": "EVEN"}, {"mesh": "NEW"}),
-        ({"bulge": 0.1}, {"equation": "CONSTANT"}),
-        ({"levels": 1}, {"method": "PAPER"}),
-        ({"detail_size": 0.1}, {"detail": 0.5}),
+        ({"quads": True}, {"remesh": True}),
+        ({"spacing": 2.0}, {"remesh": True}),
+        ({"pin_radius": 0.2}, {"pin_group": "Pins"}),
+        ({"continuity_group": "Rim"}, {"continuity": "G2"}),
+        ({"continuity_group": "Rim"}, {"continuity": "G0"}),
     ],
 )
-def test_what_nothing_looks_at_is_reported(given: dict[str, Any], beside: dict[str, Any]) -> None:
+def test_what_nothing_looks_at_takes_its_default_and_is_named(given: dict[str, Any], beside: dict[str, Any]) -> None:
     assert FairOptions(**given).idle == tuple(given)
+    assert FairOptions(**given) == FairOptions()
     assert FairOptions(**given, **beside).idle == ()
-    assert FairOptions(**beside).idle == ()
+    assert asdict(FairOptions(**given, **beside)) == asdict(FairOptions()) | given | beside
 
 
-def test_what_belongs_to_pinned_edges_is_idle_without_them() -> None:
-    for given in ({"pin_slope": "SMOOTH"}, {"pin_curve": "HELD"}):
-        assert FairOptions(**given).idle == ()
-        assert FairOptions(**given, pin_edges="NONE").idle == tuple(given)
-    assert FairOptions(pin_curve="HELD", pin_edges="SEAM").idle == ("pin_curve",)
+@pytest.mark.parametrize(
+    ("stays", "idle"),
+    [
+        ({"continuity": "G0"}, {"shape": "LEAST_VARIATION"}),
+        ({"continuity": "G0"}, {"bulge": 0.1}),
+        ({"continuity": "G0"}, {"boundary_normals": "CUSTOM"}),
+        ({"continuity": "G0"}, {"remesh": True}),
+        ({"continuity": "G0"}, {"fallback": False}),
+        ({"shape": "MINIMAL_ENERGY"}, {"bulge": 0.1}),
+        ({"shape": "MINIMAL_ENERGY"}, {"continuity": "G2"}),
+        ({"shape": "LEAST_VARIATION"}, {"fallback": False}),
+        ({"continuity": "G2"}, {"bulge": 0.1}),
+        ({"continuity": "G2"}, {"falloff": 0.1}),
+        ({"continuity": "G2", "continuity_group": "Rim"}, {"vertex_group": "Fade"}),
+        ({"continuity": "G0", "continuity_group": "Rim"}, {"smooth_boundary": True}),
+        ({"remesh": True}, {"detail": 0.5}),
+        ({"remesh": True}, {"falloff": 0.1}),
+        ({"remesh": True}, {"use_mask": True}),
+        ({"remesh": True}, {"smooth_boundary": True}),
+        ({"remesh": True}, {"all_keys": True}),
+        ({"remesh": True}, {"fair_open_borders": True}),
+        ({"remesh": True}, {"inner_fairness": "UNIFORM"}),
+        ({"falloff": 0.1}, {"smooth_boundary": True}),
+        ({"pin_edges": "NONE"}, {"pin_slope": "SMOOTH"}),
+        ({"pin_edges": "SEAM"}, {"fair_pinned_edges": False}),
+    ],
+)
+def test_of_two_that_exclude_each_other_the_first_counts(stays: dict[str, Any], idle: dict[str, Any]) -> None:
+    both = FairOptions(**stays, **idle)
+    assert both.idle == tuple(idle)
+    assert both == FairOptions(**stays)
+    assert FairOptions(**stays).idle == ()
 
 
 def test_every_argument_for_the_engine_is_one_that_it_knows() -> None:
     given = FairOptions().resolved(False).engine_arguments()
     fairing.Options.of(**given)
-    assert FairOptions(tolerance=1e-3, levels=4).engine_arguments()["tolerance"] == 1e-3
-    assert FairOptions(levels=4).engine_arguments()["levels"] == 4
-
-
-def test_the_words_are_the_engines() -> None:
-    """Every word of the engine's can be chosen, in its order; what the add-on leaves out is its default.
-
-    AUTOMATIC is the add-on's own and stands for one of them.
-    """
-    words = _core.WORDS
-    for option, choices in (
-        ("equation", (*EQUATIONS[1:], EQUATIONS[0])),  # the default comes first in Blender's menu
-        ("otherwise", OTHERWISE[::-1]),  # of a checkbox: what stands for off comes first
-        ("inner_fairness", identifiers(DISTRIBUTIONS)[1:]),
-        ("method", METHODS),
-    ):
-        assert tuple(choice.lower() for choice in choices) == words[option]
     groups = vars(fairing.Options()).values()
     defaults = {name: value for group in groups for name, value in vars(group).items()}
     defaults["inner_fairness"] = "uniform"  # which None is for fair
-    given = FairOptions().resolved(False).engine_arguments()
     assert given == {name: defaults[name] for name in given} | {"equation": "automatic"}
+
+
+def test_the_words_are_the_engines() -> None:
+    """Every equation and distribution of the engine's can be chosen."""
+    chosen = [FairOptions(shape=shape).equation for shape, _, _ in SHAPES]
+    chosen += [FairOptions(bulge=0.1).equation, FairOptions(continuity="G0").equation]
+    assert sorted(chosen) == sorted(_core.WORDS["equation"])
+    assert tuple(name.lower() for name, _, _ in DISTRIBUTIONS[1:]) == _core.WORDS["inner_fairness"]
+    words = {FairOptions(fallback=on).engine_arguments()["otherwise"] for on in (True, False)}
+    assert words == {*_core.WORDS["otherwise"]}
 
 
 @pytest.mark.parametrize(("textured", "stands_for"), [(True, "CONFORMAL"), (False, "UNIFORM")])
@@ -115,9 +155,18 @@ def test_automatic_keeps_a_texture(textured: bool, stands_for: str) -> None:
     assert FairOptions(inner_fairness="INVERSE_DISTANCE").resolved(textured).inner_fairness == "INVERSE_DISTANCE"
 
 
-def test_automatic_is_the_shape_that_nobody_chose_and_the_engine_decides() -> None:
-    assert FairOptions().equation == FillOptions().equation == "AUTOMATIC"
-    assert FairOptions().engine_arguments()["equation"] == "automatic"
-    for kind in (FairOptions, FillOptions):
-        joined = {shape: kind(equation=shape, continuity="G2").joins_curvature for shape in SHAPES}
-        assert joined == {shape: shape in ("AUTOMATIC", "HARMONIC") for shape in SHAPES}
+@pytest.mark.parametrize("kind", [FairOptions, FillOptions])
+def test_only_the_harmonic_shape_continues_the_curvature(kind: Any) -> None:
+    joined = {shape: kind(shape=shape, continuity="G2").joins_curvature for shape, _, _ in SHAPES}
+    assert joined == {shape: shape in ("AUTOMATIC", "HARMONIC") for shape, _, _ in SHAPES}
+
+
+def test_every_preset_sets_what_counts() -> None:
+    for of, presets in PRESETS.values():
+        for options in presets.values():
+            assert of.named(options).idle == ()
+
+
+def test_every_option_of_fair_region_has_a_job_in_the_guide() -> None:
+    guide = " ".join((Path(__file__).parents[2] / "docs/user_guide.md").read_text(encoding="utf-8").split())
+    assert [option.label for option in table(FairOptions) if f"*{option.label}" not in guide] == []

@@ -31,7 +31,7 @@ def dent_below_a_plate(height: float, slope: float = 0.0) -> MeshArrays:
 
 def reason(mesh: MeshArrays, anew: bool = False) -> str:
     if anew:
-        verdict = remesh_arrays(mesh, np.eye(4), FairOptions(mesh="NEW")).verdict
+        verdict = remesh_arrays(mesh, np.eye(4), FairOptions(remesh=True)).verdict
     else:
         verdict = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
     if "passes through faces outside" not in verdict.reason:

@@ -24,7 +24,7 @@ SIZE = 16
 
 
 def remesh(mesh: MeshArrays, matrix: Floats = EYE, **options: object) -> Remeshed:
-    return remesh_arrays(mesh, matrix, FairOptions(mesh="NEW", **options))
+    return remesh_arrays(mesh, matrix, FairOptions(remesh=True, **options))
 
 
 def all_points(mesh: MeshArrays, done: Remeshed) -> Floats:

@@ -74,7 +74,7 @@ def test_what_is_not_usable_is_not_written_unless_all_is_accepted(sphere: Fairin
     bad = replace(sphere, verdict=BAD)
     assert not report(bad).written
     assert not report(sphere, bad).written  # all of the objects or none
-    assert report(bad, accept="ALL").written
+    assert report(bad, allow_folds=True).written
     assert summary(report(bad)) == f"Not usable: {BAD.reason}. Nothing was changed"
     look = replace(sphere, verdict=Verdict(LOOK, "A kink shows"))
     assert report(look).written
@@ -99,7 +99,7 @@ def test_counts_must_not_grow(
     assert (values(found)["Faces that cross"], states(found)["Faces that cross"]) == (value, state)
 
 
-@pytest.mark.parametrize("options", [{"equation": "SOAP_FILM"}, {"factor": 0.5}])
+@pytest.mark.parametrize("options", [{"continuity": "G0"}, {"factor": 0.5}])
 def test_a_soap_film_and_a_blend_promise_no_smooth_join(sphere: Fairing, options: dict[str, Any]) -> None:
     assert "Kink at the boundary" not in states(report(sphere, **options))
 
@@ -113,5 +113,5 @@ def test_warnings_name_their_object_where_there_are_several(sphere: Fairing) -> 
 @pytest.mark.parametrize(("converged", "bulge", "found"), [(False, 2.0, True), (True, 2.0, False), (False, 0.0, False)])
 def test_a_bulge_that_is_not_found_is_explained(sphere: Fairing, converged: bool, bulge: float, found: bool) -> None:
     lost = replace(sphere, warnings=(), result=replace(sphere.result, converged=converged))
-    notes = report(lost, equation="CONSTANT", bulge=bulge).warnings
+    notes = report(lost, bulge=bulge).warnings
     assert ["no surface with a bulge of 2" in note for note in notes] == [True] * found

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from core.other_options import FilletOptions
 from core.region import MeshArrays
-from core.rounding import FilletOptions, Rounded, hard, round_arrays
+from core.rounding import Rounded, hard, round_arrays
 from polygon_mesh import polygon_mesh, tube
 
 ALL = np.eye(4)

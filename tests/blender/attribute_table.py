@@ -119,7 +119,7 @@ def apply(
     """Fill, fair or mesh anew what is above CUT; before and after: called in edit mode."""
     high = meshes.faces_where(obj, lambda centre: centre.z > CUT)
     if way == "remesh":
-        properties = {"mesh": "NEW", "spacing": 0.8, **properties}
+        properties = {"remesh": True, "spacing": 0.8, **properties}
     if mode == "object" and way == "fill":
         extension.module("run.fill_mesh").fill_mesh(obj.data, **properties)
     elif mode == "object":

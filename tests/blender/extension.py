@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from dataclasses import asdict
 from typing import Any
 
 import meshes
@@ -26,10 +27,8 @@ def inspect(obj: Any, faces: Any, **options: Any) -> Any:
 
 def give_options(stand: Any, **chosen: Any) -> Any:
     """Give a stand-in for the operator `mesh.fair_region` its options, and return it."""
-    fair = module("core.fair_options").FAIR
-    for name, value in {**module("core.option_table").defaults(fair), **chosen}.items():
+    for name, value in {**asdict(module("core.options").FairOptions()), **chosen}.items():
         setattr(stand, name, value)
-    stand.take_names_before = lambda: None
     return stand
 
 

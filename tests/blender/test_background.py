@@ -6,6 +6,7 @@ from typing import Any
 
 import bpy
 import numpy as np
+import pytest
 
 import meshes
 from extension import module
@@ -78,31 +79,33 @@ def test_factor_is_answered_from_memory_with_the_same_bits() -> None:
     assert asked  # another space is another problem
 
 
-def test_redo_with_other_options_starts_from_the_last_answer() -> None:
+def test_redo_with_other_options_starts_from_the_last_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     """After a run in the background; the answer is the one from scratch, to the tolerance."""
     job, options = module("run.job"), module("core.options").FairOptions
+    asked = options.engine_arguments
+    monkeypatch.setattr(options, "engine_arguments", lambda chosen: {**asked(chosen), "tolerance": 1e-9})
     obj, faces = meshes.domed_grid()
     meshes.enter(obj, faces)
     tasks = job.read(bpy.context, options())
     silent: Any = lambda fraction, stage: True  # noqa: E731
     for changed in (
         {"boundary_normals": "AVERAGE"},
-        {"equation": "CONSTANT", "bulge": 0.3},
-        {"equation": "CONSTANT", "bulge": 0.35},
-        {"equation": "MINIMAL_ENERGY"},
+        {"bulge": 0.3},
+        {"bulge": 0.35},
+        {"shape": "MINIMAL_ENERGY"},
         {"inner_fairness": "CONFORMAL"},
         {},
     ):
         job.memory.clear()
         job.solvers.clear()
-        (scratch,) = job.solve(tasks, options(tolerance=1e-9, **changed), silent)
+        (scratch,) = job.solve(tasks, options(**changed), silent)
         job.memory.clear()
         job.solvers.clear()
-        job.solve(tasks, options(tolerance=1e-9), silent, ahead=True)
+        job.solve(tasks, options(), silent, ahead=True)
         job.memory.clear()
         stages: set[str] = set()
         seen = stages.add
-        (again,) = job.solve(tasks, options(tolerance=1e-9, **changed), lambda _, stage, seen=seen: seen(stage))
+        (again,) = job.solve(tasks, options(**changed), lambda _, stage, seen=seen: seen(stage))
         np.testing.assert_allclose(again.positions, scratch.positions, atol=1e-6)
         if not changed:
             assert "globalisation" not in stages

@@ -39,7 +39,7 @@ def test_the_curvature_is_continued_along_the_group_alone() -> None:
     """Its side of the dent comes nearer to the egg; the other stays as with tangent joins."""
     up = np.array([0.0, 0.0, 1.0])
     tangent, places = faired(None)
-    parted, _ = faired(up, curvature_group="Loose")
+    parted, _ = faired(up, continuity="G2", continuity_group="Loose")
     curved, _ = faired(None, continuity="G2")
     above, below = places[:, 2] > 0.4, places[:, 2] < -0.4
     assert curved.mean() < parted.mean() < tangent.mean()
@@ -49,11 +49,13 @@ def test_the_curvature_is_continued_along_the_group_alone() -> None:
 
 def test_all_of_the_boundary_is_curvature_for_all() -> None:
     everywhere = np.array([1.0, 0.0, 0.0])
-    np.testing.assert_array_equal(faired(everywhere, curvature_group="Loose")[1], faired(None, continuity="G2")[1])
+    np.testing.assert_array_equal(
+        faired(everywhere, continuity="G2", continuity_group="Loose")[1], faired(None, continuity="G2")[1]
+    )
 
 
 def test_a_part_that_is_tangent_as_asked_is_not_reported() -> None:
-    faired(np.array([0.0, 0.0, 1.0]), curvature_group="Loose")
+    faired(np.array([0.0, 0.0, 1.0]), continuity="G2", continuity_group="Loose")
     assert (meshes.report().verdict, meshes.report().warnings) == ("GOOD", "")
 
 
@@ -61,46 +63,21 @@ def test_a_part_that_is_tangent_as_asked_is_not_reported() -> None:
 def test_a_group_off_the_boundary_says_so_and_the_join_is_tangent(remesh: bool) -> None:
     obj, faces, free = rough_egg()
     put(obj, free)
-    notes = inspect(obj, faces, curvature_group="Loose").notes
+    notes = inspect(obj, faces, continuity="G2", continuity_group="Loose").notes
     assert any("tangent all along" in note for note in notes)
-    assert meshes.fair(obj, faces, curvature_group="Loose", remesh=remesh) == {"FINISHED"}
+    assert meshes.fair(obj, faces, continuity="G2", continuity_group="Loose", remesh=remesh) == {"FINISHED"}
     if not remesh:
         np.testing.assert_array_equal(meshes.positions(obj)[free], faired(None)[1])
-
-
-def test_both_groups_are_refused_and_nothing_changes() -> None:
-    obj, faces, _ = rough_egg()
-    above = meshes.positions(obj)[:, 2] > 0.0
-    put(obj, above)
-    obj.vertex_groups.new(name="Curved").add(np.flatnonzero(~above).tolist(), 1.0, "REPLACE")
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match="Position Group and Curvature Group"):
-        meshes.fair(obj, faces, position_group="Loose", curvature_group="Curved")
-    assert meshes.contents(obj) == before
 
 
 def test_a_missing_group_is_refused_and_nothing_changes() -> None:
     obj, faces, _ = rough_egg()
     before = meshes.in_edit_mode_once(obj, faces)
     with pytest.raises(RuntimeError, match="Missing"):
-        meshes.fair(obj, faces, curvature_group="Missing")
+        meshes.fair(obj, faces, continuity="G2", continuity_group="Missing")
     assert meshes.contents(obj) == before
 
 
-def test_a_band_is_refused_beside_it() -> None:
-    obj, faces, _ = rough_egg()
-    put(obj, meshes.positions(obj)[:, 2] > 0.0)
-    with pytest.raises(RuntimeError, match="or a Curvature Group"):
-        meshes.fair(obj, faces, curvature_group="Loose", falloff=0.1)
-
-
-def test_it_is_hidden_where_nothing_looks_at_it_and_counts_as_idle() -> None:
+def test_a_band_has_no_effect_beside_it() -> None:
     options = module("core.options").FairOptions
-    for other in (
-        {"continuity": "G2"},
-        {"method": "PAPER"},
-        {"equation": "LEAST_VARIATION"},
-        {"equation": "SOAP_FILM"},
-    ):
-        assert "curvature_group" in options(curvature_group="Loose", **other).idle
-    assert "curvature_group" not in options(curvature_group="Loose").idle
+    assert options(continuity="G2", continuity_group="Loose", falloff=0.1).idle == ("falloff",)

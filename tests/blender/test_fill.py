@@ -246,7 +246,7 @@ def test_a_surface_through_the_mesh_is_written_on_demand_only() -> None:
     select_vertices(obj, lambda co: co.length > 0.9 and co.z < 1.5)
     refused("through others.*Nothing was changed")
     select_vertices(obj, lambda co: 0.9 < co.length < 1.1)
-    assert fill(accept="ALL") == {"FINISHED"}
+    assert fill(allow_folds=True) == {"FINISHED"}
     meshes.leave()
     assert len(obj.data.polygons) > old
 
@@ -293,7 +293,7 @@ def test_escape_leaves_the_hole_open() -> None:
     obj = open_sphere()
     select_vertices(obj, lambda _: True)
     count = len(bmesh.from_edit_mesh(obj.data).faces)
-    fill_module, options = module("run.fill"), module("core.filling").FillOptions()
+    fill_module, options = module("run.fill"), module("core.other_options").FillOptions()
     tasks = fill_module.read(bpy.context, options)
 
     def work(progress: Any) -> Any:
@@ -375,18 +375,17 @@ def test_a_surface_that_is_not_usable_is_reported_to_scripts(tmp_path: Any) -> N
     given = ["--object", obj.name, "--vertex-group", "Rim", "--output", str(target), "--fill"]
     assert module("run.cli").execute(given) == 1
     assert not target.exists()
-    assert module("run.cli").execute([*given, "--accept", "ALL"]) == 1
+    assert module("run.cli").execute([*given, "--allow-folds"]) == 1
     assert target.exists()
 
 
 def test_operator_has_the_documented_properties() -> None:
     found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
     assert {p.identifier: p.default for p in found if not p.is_hidden} == {
-        "shape": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0, "equal_edges": False,
-        "quads": False, "longest": 0, "longest_length": 0.0, "max_vertices": 0, "limit_total": 0,
-        "allow_folds": False, "run_on": True, "islands": False, "subdivide_boundary": False,
+        "shape": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0,
+        "quads": False, "longest": 0, "longest_length": 0.0, "allow_folds": False, "run_on": True, "islands": False,
     }  # fmt: skip
-    assert {p.identifier for p in found if p.is_hidden} == {"equation", "inner", "hard_edges", "accept"}
+    assert not any(p.is_hidden for p in found)
     assert all(p.description for p in found)
 
 

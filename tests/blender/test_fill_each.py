@@ -219,7 +219,7 @@ def test_a_new_mesh_needs_no_free_vertices() -> None:
     counts = []
     for spacing in (1.0, 0.1, 0.05):
         obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
-        status = meshes.fair(obj, chosen, mesh="NEW", spacing=spacing, accept="ALL")
+        status = meshes.fair(obj, chosen, remesh=True, spacing=spacing, allow_folds=True)
         assert status == {"FINISHED"}
         assert open_borders(obj) == []
         np.testing.assert_array_equal(meshes.positions(obj)[:8], before)

@@ -72,7 +72,7 @@ def test_an_edge_runs_on_and_its_mark_too() -> None:
     assert off_the_faces(soft) < 1e-6
     assert not sharp_edges(soft)
     rounded = box_edge()
-    fill(rounded, hard_edges="IGNORED", accept="ALL")
+    fill(rounded, run_on=False, allow_folds=True)
     assert off_the_faces(rounded) > 0.02
 
 

@@ -70,26 +70,3 @@ def test_with_everything_selected_holes_are_filled_and_the_outer_border_is_named
     (reported,) = warnings()
     assert reported.startswith("1 border runs around the outside of a sheet of faces and stays open (48 edges")
     assert open_edges(obj) == 4 * SIZE
-
-
-def test_more_vertices_than_allowed_are_refused() -> None:
-    obj = sheet(90.0, ((2, 2), (3, 3), (4, 4)))
-    select_loop(obj, 2 * (SIZE + 1) + 2)
-    with pytest.raises(RuntimeError, match="new vertices, and 1 are accepted: raise Spacing, or Vertex Limit"):
-        fill(spacing=0.2, max_vertices=1)
-    assert fill(spacing=0.2, max_vertices=2000) == {"FINISHED"}
-
-
-def test_a_new_mesh_is_refused_likewise() -> None:
-    obj = sheet(90.0, ())
-
-    def select_inside() -> None:
-        select_all(obj)
-        bpy.ops.mesh.select_less()
-        bpy.ops.mesh.select_less()
-
-    select_inside()
-    with pytest.raises(RuntimeError, match="new vertices, and 20 are accepted: raise Spacing, or Vertex Limit"):
-        bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", max_vertices=20)
-    select_inside()
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", max_vertices=500) == {"FINISHED"}

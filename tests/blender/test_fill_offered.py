@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from types import SimpleNamespace
 from typing import Any
 
@@ -18,14 +19,10 @@ from test_panel import Layout
 def redo_panel(**chosen: Any) -> list[str]:
     """Return the options that are in sight."""
     layout = Layout()
-    values = {**module("core.option_table").defaults(fill_table()), **chosen}
-    shown = SimpleNamespace(layout=layout, table=fill_table(), preset_menu="", **values)
+    of = module("core.other_options").FillOptions
+    shown = SimpleNamespace(layout=layout, chosen=of, preset_menu="", **{**asdict(of()), **chosen})
     module("run.fill").MESH_OT_fair_fill.draw(shown, bpy.context)
     return layout.reported
-
-
-def fill_table() -> Any:
-    return module("core.fill_options").FILL
 
 
 def test_the_shape_is_hidden_where_positions_alone_are_met() -> None:

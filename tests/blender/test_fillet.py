@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -179,7 +180,7 @@ def stand() -> Any:
     """The operator's methods without Blender's own part, and what it has read."""
     fillet = module("run.fillet")
     made = stand_in(fillet.MESH_OT_fair_fillet, confirm_on_release=False)
-    for name, value in module("core.option_table").defaults(module("core.fill_options").FILLET).items():
+    for name, value in asdict(module("core.other_options").FilletOptions()).items():
         setattr(made, name, value)
     made._asked = made._read(bpy.context)
     return made
@@ -403,6 +404,6 @@ def test_quads_in_no_rows_are_told() -> None:
         obj.data,
         edge_mask(obj, lambda ends: abs(ends[0, 2] - ends[1, 2]) < 1e-6),
         None,
-        module("core.rounding").FilletOptions(width=WIDTH, quads=True),
+        module("core.other_options").FilletOptions(width=WIDTH, quads=True),
     )
     assert "The quads are in no rows: the lines beside the seam have no pairs" in result.warnings

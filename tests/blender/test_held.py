@@ -91,7 +91,7 @@ def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
     obj, faces = box()
     bumpy(obj, meshes.free_vertices(obj, faces))
     marked = sum(edge.use_edge_sharp for edge in obj.data.edges)
-    meshes.fair(obj, faces, mesh="NEW", spacing=spacing)
+    meshes.fair(obj, faces, remesh=True, spacing=spacing)
     points = meshes.positions(obj)
     sharp = [list(edge.vertices) for edge in obj.data.edges if edge.use_edge_sharp]
     assert len(sharp) == marked
@@ -102,7 +102,7 @@ def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
 def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:
     """By default they move, with Factor one half half of the way; marks that end inside are held for their angle."""
     results = {}
-    for name, options in {"held": {"pin_curve": "HELD"}, "half": {"factor": 0.5}, "fair": {}}.items():
+    for name, options in {"held": {"fair_pinned_edges": False}, "half": {"factor": 0.5}, "fair": {}}.items():
         obj, faces = box()
         on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
         before = bumpy(obj, meshes.free_vertices(obj, faces))
@@ -139,7 +139,7 @@ def test_a_noisy_open_border(border: str) -> None:
     moving = heights > 0.8
     top = np.isclose(heights, height[-1])
     before = bumpy(obj, moving)
-    meshes.fair(obj, selected, open_border=border)
+    meshes.fair(obj, selected, fair_open_borders=border == "FAIRED")
     after = meshes.positions(obj)
     off = np.abs(np.linalg.norm(after[:, :2], axis=1) - 1.0)
     if border == "HELD":

@@ -107,10 +107,8 @@ def shown() -> set[str]:
                 found.update(of_call(node))
             elif isinstance(node, ast.ClassDef):
                 found.update(of_class(node))
-    found.update(
-        of_operators(), of_settings(), module("core.option_shared").GROUPS, module("core.option_shared").FOLDED
-    )
-    found.add(module("core.fill_options").HOLES)
+    found.update(of_operators(), of_settings(), module("core.option_table").GROUPS, module("core.option_table").FOLDED)
+    found.add(module("core.other_options").HOLES)
     for path, tree in sources():
         if path.stem not in FOR_SCRIPTS:
             found.update(refusals(tree))

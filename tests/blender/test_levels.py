@@ -119,7 +119,7 @@ def test_a_new_mesh_on_a_level_is_refused() -> None:
     obj = bumpy()
     before = at(obj, LEVELS)
     with pytest.raises(RuntimeError, match="other faces"):
-        bpy.ops.mesh.fair_masked(source="VERTEX_GROUP", group="Top", mesh="NEW")
+        bpy.ops.mesh.fair_masked(source="VERTEX_GROUP", group="Top", remesh=True)
     assert at(obj, LEVELS).tobytes() == before.tobytes()
 
 
@@ -188,4 +188,4 @@ def test_vertices_that_are_not_told_apart_are_not_written(monkeypatch: pytest.Mo
 def test_a_new_mesh_with_dynamic_topology_is_refused() -> None:
     masked_and_dynamic()
     with pytest.raises(RuntimeError, match="faces of its own"):
-        bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="MASK", mesh="NEW")
+        bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="MASK", remesh=True)

@@ -213,7 +213,7 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     obj = meshes.grid(12)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
     meshes.enter(obj, faces)
-    options = module("core.options").FairOptions(equation="CONSTANT", bulge=0.4)
+    options = module("core.options").FairOptions(bulge=0.4)
     session = module("follow.session").candidate(obj, options)
     first = module("core.live_search").first(session.region, session.positions, session.matrix, lambda *_: True)
     live.take(obj, session, options, first)
@@ -226,7 +226,7 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     assert now()[:, 2].max() == pytest.approx(height, rel=0.05)
     before = now()
     switch(False)
-    meshes.run(equation="CONSTANT", bulge=0.4)
+    meshes.run(bulge=0.4)
     np.testing.assert_allclose(now(), before, atol=2e-5)
 
 

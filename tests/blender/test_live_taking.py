@@ -233,7 +233,7 @@ def test_a_session_put_aside_is_not_taken_for_another(live: Any) -> None:
     session = live.sessions[mesh.name]
     assert home.is_of(session, mesh)
     kept = mesh["fair_live_options"]
-    mesh["fair_live_options"] = kept.replace('"equation": "AUTOMATIC"', '"equation": "MINIMAL_ENERGY"')
+    mesh["fair_live_options"] = kept.replace('"shape": "AUTOMATIC"', '"shape": "MINIMAL_ENERGY"')
     assert not home.is_of(session, mesh)
     mesh["fair_live_options"] = kept
     mesh["fair_live_key"] = "Smile"

@@ -83,7 +83,7 @@ def test_a_new_mesh_is_symmetric_to_the_bit() -> None:
     obj.data.use_mirror_x = True
     group = obj.vertex_groups.new(name="Left")
     group.add([v.index for v in obj.data.vertices if v.co.x < -0.01], 1.0, "REPLACE")
-    assert meshes.fair(obj, faces, mesh="NEW", spacing=0.8) == {"FINISHED"}
+    assert meshes.fair(obj, faces, remesh=True, spacing=0.8) == {"FINISHED"}
     points = meshes.positions(obj)
     there = {tuple(row + 0.0) for row in points}
     assert {tuple(row * (-1.0, 1.0, 1.0) + 0.0) for row in points} == there

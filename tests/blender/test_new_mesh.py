@@ -48,7 +48,7 @@ def fair_new(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
     """Run it from and to object mode."""
     meshes.enter(obj, chosen)
     try:
-        status: set[str] = bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, mesh="NEW", **properties)
+        status: set[str] = bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, remesh=True, **properties)
         return status
     finally:
         meshes.leave()
@@ -124,14 +124,16 @@ def test_marks_and_borders_of_materials_stay() -> None:
 
 @pytest.mark.parametrize(
     ("properties", "text"),
-    [({"detail": 0.5}, "Keep Detail"), ({"method": "PAPER"}, "Multigrid"), ({"outline": "MENDED"}, "Smooth")],
+    [({"detail": 0.5}, "Keep Detail"), ({"falloff": 0.1}, "Falloff"), ({"smooth_boundary": True}, "Smooth Boundary")],
 )
-def test_options_that_need_the_old_vertices_are_refused(properties: Any, text: str) -> None:
+def test_options_that_need_the_old_vertices_have_no_effect_and_are_named(properties: Any, text: str) -> None:
     obj, chosen = dented()
-    count = len(obj.data.polygons)
-    with pytest.raises(RuntimeError, match=text):
-        fair_new(obj, chosen, **properties)
-    assert len(obj.data.polygons) == count
+    assert fair_new(obj, chosen, **properties) == {"FINISHED"}
+    with_it = meshes.contents(obj)
+    assert [check.value for check in meshes.report().checks if check.name == "Without effect"] == [text]
+    obj, chosen = dented()
+    fair_new(obj, chosen)
+    assert meshes.contents(obj) == with_it
 
 
 def test_another_key_than_the_basis_changes_alone() -> None:
@@ -149,7 +151,7 @@ def test_a_script_gets_it_without_edit_mode() -> None:
     obj, chosen = dented()
     spoil(obj, chosen)
     faces = np.flatnonzero(chosen).tolist()
-    result = extension.module().fair_mesh(obj.data, faces, mesh="NEW", spacing=0.7)
+    result = extension.module().fair_mesh(obj.data, faces, remesh=True, spacing=0.7)
     assert result.converged
     assert border_edges(obj) == 0
     assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 1e-3

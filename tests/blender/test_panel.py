@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
+from dataclasses import asdict
 from types import SimpleNamespace
 from typing import Any
 
@@ -170,16 +170,22 @@ def test_report_is_drawn() -> None:
         assert check.value in text
 
 
+def options_of(operator: str) -> Any:
+    """Return the class of an operator's options."""
+    others = module("core.other_options")
+    return {
+        "fair": module("core.options").FairOptions, "fill": others.FillOptions, "fillet": others.FilletOptions,
+    }[operator]  # fmt: skip
+
+
 def in_redo_panel(opened: bool, operator: str = "fair", **chosen: Any) -> list[str]:
     """Return the options that the redo panel shows, in its order."""
-    obj = meshes.grid()
-    panel, table = module("run.redo_panel"), module("core.option_table")
-    options = {"fair": module("core.fair_options").FAIR, **vars(module("core.fill_options"))}[operator]
+    obj, of = meshes.grid(), options_of(operator)
+    panel = module("run.redo_panel")
     layout, manager = Layout(), bpy.context.window_manager
     setattr(manager, panel.ADVANCED, opened)
-    shown = SimpleNamespace(table=options, preset_menu="", **{**table.defaults(options), **chosen})
-    panel.draw_options(layout, shown, obj, manager)
-    return [text for text in layout.reported if table.named(options, text)]
+    panel.draw_options(layout, SimpleNamespace(chosen=of, preset_menu="", **{**asdict(of()), **chosen}), obj, manager)
+    return [text for text in layout.reported if module("core.option_table").named(of, text)]
 
 
 EVERYDAY = [
@@ -203,7 +209,6 @@ STATES: list[dict[str, Any]] = [
         "detail": [0.5],
         "falloff": [0.2],
         "smooth_boundary": [True],
-        "multigrid": [True],
     }.items()
     for value in values
 ]
@@ -220,44 +225,46 @@ def test_redo_panel_never_shows_more_than_twelve(first: Any, second: Any) -> Non
 
 
 def test_redo_panel_has_every_option() -> None:
-    everything = in_redo_panel(True, detail=0.5, pin_group="Pin", pin_edges="SEAM", multigrid=True)
-    found = [*everything, *in_redo_panel(True, remesh=True), *in_redo_panel(True), *in_redo_panel(True, tension=2.0)]
+    everything = in_redo_panel(True, detail=0.5, pin_group="Pin", pin_edges="SEAM", continuity="G2")
+    found = [*everything, *in_redo_panel(True, remesh=True), *in_redo_panel(True)]
     assert len(everything) == len(set(everything))
-    assert set(found) == {option.name for option in module("core.fair_options").FAIR}
+    assert set(found) == {*asdict(options_of("fair")())}
 
 
 @pytest.mark.parametrize("first", STATES)
 @pytest.mark.parametrize("second", STATES)
 def test_what_is_hidden_has_no_effect(first: Any, second: Any) -> None:
-    """Nothing that the panel hides changes what the engine is asked for, but for what is reported as idle."""
-    table, fair = module("core.option_table"), module("core.fair_options").FAIR
-    options = module("core.options").FairOptions
-    chosen = {**table.defaults(fair), **first, **second}
-    plain = options.named(chosen)
-    for option in fair:
-        if option.shown(SimpleNamespace(**chosen)) or option.name.startswith("detail_"):
+    """Nothing that the panel hides changes what the engine is asked for, and it is reported as idle."""
+    of = options_of("fair")
+    chosen = {**asdict(of()), **first, **second}
+    plain = of.named(chosen)
+    for option in module("core.option_table").table(of):
+        if option.counts(plain) or option.is_set(SimpleNamespace(**chosen)):
             continue
         other = {str: "X", float: 0.3, bool: not option.default, int: 3}[type(option.default)]
         if option.items:
             other = option.items[-1][0]
-        changed = options.named({**chosen, option.name: other})
-        refused = ("falloff", "vertex_group", "use_mask", "smooth_boundary", "detail", "tension")
-        if option.name not in refused and not (chosen["remesh"] and option.name == "inner_fairness"):
-            assert table.named(fair, option.name).target in changed.idle or changed == plain, option.name
+        changed = of.named({**chosen, option.name: other})
+        assert changed == plain and option.name in changed.idle, option.name
 
 
-@pytest.mark.parametrize("operator", ["FILL", "FILLET"])
+@pytest.mark.parametrize("chosen", [{"remesh": True, "detail": 0.5}, {"continuity": "G2", "falloff": 0.2}])
+def test_what_is_set_in_vain_stays_in_sight(chosen: Any) -> None:
+    assert {*chosen} <= {*in_redo_panel(False, **chosen)}
+
+
+@pytest.mark.parametrize("operator", ["fill", "fillet"])
 def test_other_redo_panels_are_of_the_same_kind(operator: str) -> None:
     shown = in_redo_panel(False, operator)
     everything = in_redo_panel(True, operator)
     assert 4 <= len(shown) <= 9
-    assert {*everything} == {option.name for option in vars(module("core.fill_options"))[operator]}
+    assert {*everything} == {*asdict(options_of(operator)())}
 
 
 def test_every_kind_of_button_is_drawn_without_an_object() -> None:
-    fair = module("core.fair_options").FAIR
+    fair = options_of("fair")
     layout, manager = Layout(), bpy.context.window_manager
-    shown = SimpleNamespace(table=fair, preset_menu="", **module("core.option_table").defaults(fair))
+    shown = SimpleNamespace(chosen=fair, preset_menu="", **asdict(fair()))
     module("run.redo_panel").draw_options(layout, shown, None, manager)
     assert "factor" in layout.reported
 
@@ -275,33 +282,38 @@ def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
     module("run.report_properties").clear(shown)
 
 
-def presets() -> list[Path]:
-    return [
-        path for operator in ("mesh.fair_region", "mesh.fair_fill") for path in module("run.presets").files(operator)
-    ]
+@pytest.mark.parametrize("operator", ["mesh.fair_region", "mesh.fair_fill"])
+def test_the_menu_of_the_redo_panel_has_the_presets(operator: str) -> None:
+    home = module("run.presets")
+    layout = Layout()
+    menu = {"mesh.fair_region": home.MESH_MT_fair_region_presets, "mesh.fair_fill": home.MESH_MT_fair_fill_presets}
+    shown = SimpleNamespace(layout=layout, operator=operator)
+    home.draw_own(shown)
+    assert menu[operator].operator == operator
+    assert layout.reported == list(module("core.presets").PRESETS[operator][1])
 
 
-def test_presets_are_those_of_the_list_and_set_every_option() -> None:
-    """`python scripts/option_tables.py` renews them."""
-    listed = module("core.presets")
-    for operator, (table, names) in listed.PRESETS.items():
-        found = list(module("run.presets").files(operator))
-        assert [path.stem.replace("_", " ") for path in found] == list(names)
-        for path, name in zip(found, names, strict=True):
-            assert module("run.presets").read(path) == listed.preset(operator, name)
-            assert module("run.presets").read(path).keys() == {option.name for option in table}
-    assert listed.OF_FAIR["Remove Feature"] == {}  # the defaults
+def test_a_preset_gives_the_last_run_its_options_and_the_defaults() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.enter(obj, faces)
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, factor=0.5) == {"FINISHED"}
+    last = bpy.context.window_manager.operators[-1].properties
+    home = module("run.presets")
+    home.give("mesh.fair_region", "Limb or Tube", last)
+    assert (last.factor, last.shape) == (1.0, "LEAST_VARIATION")
+    meshes.leave()
 
 
 @pytest.mark.parametrize("name", ["Remove Feature", "Repair Scan", "Limb or Tube", "Class A", "Fillet", "Soften"])
 def test_presets_run(name: str) -> None:
     obj, faces = meshes.domed_grid()
-    assert meshes.fair(obj, faces, **module("core.presets").preset("mesh.fair_region", name)) == {"FINISHED"}
+    assert meshes.fair(obj, faces, **module("core.presets").PRESETS["mesh.fair_region"][1][name]) == {"FINISHED"}
 
 
 def test_presets_are_offered_beside_the_button() -> None:
     layout = Layout()
-    module("run.presets").draw_runs(layout, "mesh.fair_fill")
+    home = module("run.presets")
+    home.MESH_MT_fair_fill_runs.draw(SimpleNamespace(layout=layout, operator="mesh.fair_fill"), bpy.context)
     assert layout.reported == ["Fill Holes", "Small Holes Only", "Flat Lid", "Bridge", "Class A"]
 
 
@@ -347,7 +359,6 @@ def footprint() -> dict[str, Any]:
         "scene": sorted(name for name in dir(bpy.types.Scene) if "fair" in name),
         "handlers": {name: len(getattr(handlers, name)) for name in lists},
         "menus": [len(menu.draw._draw_funcs) for menu in menus],
-        "presets": presets(),
         "operators": sorted(name for name in dir(bpy.ops.mesh) if name.startswith("fair")),
     }
 
@@ -362,7 +373,6 @@ def test_enabled_and_disabled_twenty_times() -> None:
         addon_utils.disable(ID)
         without = footprint()
         assert without["types"] == without["window manager"] == without["scene"] == without["operators"] == []
-        assert without["presets"] == []
         assert all(without["handlers"][name] <= enabled["handlers"][name] for name in enabled["handlers"])
         assert sum(without["handlers"].values()) == sum(enabled["handlers"].values()) - 7
         addon_utils.enable(ID)

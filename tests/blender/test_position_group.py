@@ -40,7 +40,7 @@ def test_the_slope_is_found_along_the_group_and_met_elsewhere() -> None:
     assert np.abs(meshes.positions(obj)[free, 2]).max() > 0.02
     obj, faces, side = sloping_plate()
     put(obj, side)
-    assert meshes.fair(obj, faces, position_group="Loose") == {"FINISHED"}
+    assert meshes.fair(obj, faces, continuity="G0", continuity_group="Loose") == {"FINISHED"}
     assert np.abs(meshes.positions(obj)[free, 2]).max() < 1e-5
     assert (meshes.report().verdict, meshes.report().reason) == ("GOOD", "")
 
@@ -55,14 +55,14 @@ def test_a_ball_comes_back_from_what_is_met(share: float) -> None:
     put(obj, points[:, 1] < np.quantile(points[free, 1], share))
     points[free] *= 1.0 + 0.1 * np.random.default_rng(2).random((free.sum(), 1))
     meshes.move(obj, points)
-    assert meshes.fair(obj, faces, position_group="Loose") == {"FINISHED"}
+    assert meshes.fair(obj, faces, continuity="G0", continuity_group="Loose") == {"FINISHED"}
     assert np.abs(np.linalg.norm(meshes.positions(obj)[free], axis=1) - 1.0).max() < 1e-3
 
 
 def test_all_of_the_boundary_is_a_position_for_all() -> None:
     """A soap film, but for how its first row is measured where normals are given that count for nothing."""
     found = []
-    for options in ({"position_group": "Loose"}, {"continuity": "G0"}, {}):
+    for options in ({"continuity": "G0", "continuity_group": "Loose"}, {"continuity": "G0"}, {}):
         obj, faces = meshes.domed_grid()
         put(obj, np.ones(len(obj.data.vertices), dtype=bool))
         assert meshes.fair(obj, faces, **options) == {"FINISHED"}
@@ -75,13 +75,13 @@ def test_a_group_without_boundary_vertices_says_so(weight: float) -> None:
     obj, faces = meshes.domed_grid()
     free = meshes.free_vertices(obj, faces)
     put(obj, np.ones_like(free) if weight == 0.0 else free, weight)
-    notes = inspect(obj, faces, position_group="Loose").notes
-    assert any("frees nothing" in note for note in notes)
+    notes = inspect(obj, faces, continuity="G0", continuity_group="Loose").notes
+    assert any("tangent all along" in note for note in notes)
 
 
 def test_a_missing_group_is_refused_and_nothing_changes() -> None:
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)
     with pytest.raises(RuntimeError, match="Missing"):
-        meshes.fair(obj, faces, position_group="Missing")
+        meshes.fair(obj, faces, continuity="G0", continuity_group="Missing")
     assert meshes.contents(obj) == before

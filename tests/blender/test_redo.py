@@ -54,19 +54,19 @@ def _denoise() -> None:
 
 
 KINDS = {
-    "region": Kind(refused={"shape": "HARMONIC", "max_iterations": 1}),
+    "region": Kind(refused={"shape": "HARMONIC", "bulge": 5.0}),
     "fill": Kind(
         "fair_fill", "fill", lambda: select_vertices(open_sphere(), lambda _: True), {}, {"spacing": 1.5},
-        {"quads": True}, {"max_vertices": 1},
+        {"quads": True}, {"longest": 1},
     ),
     "fillet": Kind(
-        "fair_fillet", "fillet", _fillet, {"width": 0.3}, {"width": 0.4}, {"profile": 0.5}, {"max_vertices": 1},
+        "fair_fillet", "fillet", _fillet, {"width": 0.3}, {"width": 0.4}, {"profile": 0.5}, {"width": 1e3},
     ),
     "curves": Kind(
-        "fair_from_curves", "from_curves", _curves, {}, {"spacing": 1.5}, {"quads": True}, {"max_vertices": 1},
+        "fair_from_curves", "from_curves", _curves, {}, {"spacing": 1.5}, {"quads": True},
     ),
     "new mesh": Kind(
-        first={"mesh": "NEW"}, second={"spacing": 1.5}, third={"quads": True}, refused={"max_vertices": 1},
+        first={"remesh": True}, second={"spacing": 1.5}, third={"quads": True},
     ),
     "all keys": Kind(enter=_keys, first={"all_keys": True}),
     "denoise": Kind("fair_denoise", "denoise", _denoise, {}, {"amount": 0.5}, {"size": 0.5}),

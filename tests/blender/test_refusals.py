@@ -39,7 +39,6 @@ REFUSED = [
     (add_nan, {}, "finite"),
     (flatten, {}, "scale"),
     (nothing, {"pin_group": "Missing"}, "Missing"),
-    (nothing, {"levels": 5}, r"Levels: 5 is not accepted; .*of Multigrid"),
 ]
 
 

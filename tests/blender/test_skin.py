@@ -44,8 +44,8 @@ def test_detail_is_the_engines() -> None:
         obj, faces, _ = dented(32)
         whole, _, _ = dented(32)
         chosen = np.flatnonzero(faces)
-        result = fair_mesh(whole.data, chosen, detail=1.0, detail_size=0.3)
-        part = fair_mesh(obj.data, chosen, detail=share, detail_size=0.3)
+        result = fair_mesh(whole.data, chosen, detail=1.0)
+        part = fair_mesh(obj.data, chosen, detail=share)
         assert part.vertices == pytest.approx(result.base + share * (result.vertices - result.base), abs=1e-12)
         own = np.unique([v for face in chosen for v in obj.data.polygons[int(face)].vertices])
         assert meshes.positions(obj)[own] == pytest.approx(part.vertices, abs=1e-6)
@@ -59,7 +59,7 @@ def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
     free = meshes.free_vertices(obj, faces)
     meshes.move(obj, points * (1 + 0.2 * np.clip(points[:, 2:], 0, 1) ** 2))
     before = meshes.positions(obj)
-    changed = fair(obj, faces, feather=0.15)
+    changed = fair(obj, faces, falloff=0.15)
     band = changed & ~free
     assert changed[free].all()
     assert band.any()
@@ -78,7 +78,7 @@ def test_undo_takes_the_band_back() -> None:
     meshes.enter(obj, faces)
     bpy.ops.ed.undo_push(message="start")
     before = meshes.contents_in_edit_mode(obj.name)
-    assert meshes.run(feather=0.4) == {"FINISHED"}
+    assert meshes.run(falloff=0.4) == {"FINISHED"}
     after = meshes.contents_in_edit_mode(obj.name)
     assert np.count_nonzero(meshes.moved(before, after)) > np.count_nonzero(meshes.free_vertices(obj, faces))
     bpy.ops.ed.undo()

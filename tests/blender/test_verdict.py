@@ -23,7 +23,7 @@ def kinked() -> tuple[bpy.types.Object, Any]:
     return obj, meshes.faces_where(obj, lambda centre: centre.z > 0.0)
 
 
-NONE = {"equation": "CONSTANT", "bulge": 0.3}
+NONE = {"bulge": 0.3}
 
 
 def selected_vertices(obj: bpy.types.Object) -> list[int]:
@@ -318,24 +318,22 @@ def test_scripts_are_reported_by_an_exception() -> None:
     assert meshes.contents(obj) == before
     assert not reported.value.result.converged
     assert len(reported.value.elements)
-    result = package.fair_mesh(obj.data, indices, accept="ALL", **NONE)
+    result = package.fair_mesh(obj.data, indices, allow_folds=True, **NONE)
     assert not result.converged
     assert meshes.contents(obj) != before
 
 
-@pytest.mark.parametrize(("accept", "written"), [("USABLE", False), ("ALL", True)])
-def test_the_command_tells_by_its_status(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], accept: str, written: bool
-) -> None:
+@pytest.mark.parametrize("folds", [False, True])
+def test_the_command_tells_by_its_status(tmp_path: Path, capsys: pytest.CaptureFixture[str], folds: bool) -> None:
     obj, faces = kinked()
     meshes.select(obj, faces)
     output = tmp_path / "out.blend"
     status = command(
-        "--object", obj.name, "--output", str(output), "--equation", "CONSTANT", "--bulge", "0.3", "--accept", accept,
-        "--report", "json",
+        "--object", obj.name, "--output", str(output), "--bulge", "0.3", "--report", "json",
+        *(["--allow-folds"] if folds else []),
     )  # fmt: skip
     assert status == 1
-    assert output.exists() == written
+    assert output.exists() == folds
     assert '"verdict": "UNUSABLE"' in capsys.readouterr().out
 
 

@@ -54,7 +54,6 @@ from fairing._shape import (
     sunken,
 )
 from fairing._solver import Solver
-from fairing._subdivided import subdivide_edges
 from fairing._types import CODES, Cancelled, Diagnostic, FairResult, MeshError, SolverError
 from fairing.objects import fair_faces, fill_holes, fillet_edges
 
@@ -123,7 +122,6 @@ __all__ = [
     "rounded_edges",
     "seam_kinks",
     "self_intersections",
-    "subdivide_edges",
     "sunken",
     "surface_from_curves",
     "surrounding_normals",

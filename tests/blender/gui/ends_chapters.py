@@ -16,7 +16,7 @@ import bpy
 import change_scenes
 import scenes
 from driver import OUT, Story, in_view, leave_popup, middle, press, tell
-from panel import ID, change_with, module, run_operator, set_options, wait_until
+from panel import ID, change_with, module, run_operator, set_options, solve_to, wait_until
 
 _radii = itertools.count(5.5, 0.125)
 QUICK = 3.0  # seconds that Blender may stand still, with redraws by software; it was ten
@@ -33,7 +33,8 @@ def _is_running() -> bool:
 def _begin_run() -> Story:
     """Have a run of seconds under way."""
     scenes.hopeless(next(_radii))  # what is found for one is at hand for the next run
-    set_options(shape="HARMONIC", tolerance=1e-14)
+    set_options(shape="HARMONIC")
+    solve_to(1e-14)
     yield 1.0
     bpy.context.window_manager.fairing_report.free_vertices = 0  # of a chapter before
     run_operator()

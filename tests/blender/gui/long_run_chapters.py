@@ -18,6 +18,7 @@ from panel import (
     report,
     run_operator,
     set_options,
+    solve_to,
     wait_until,
 )
 
@@ -86,7 +87,8 @@ def cancel_a_long_run() -> Story:
 def cancel_a_hopeless_run() -> Story:
     """Few vertices that take long: Blender waits a moment, then goes on in the background."""
     scenes.hopeless()
-    set_options(shape="HARMONIC", tolerance=1e-14)  # Automatic has a surface at once
+    set_options(shape="HARMONIC")
+    solve_to(1e-14)  # Automatic has a surface at once
     open_tab()
     yield 1.0
     before = scenes.contents()

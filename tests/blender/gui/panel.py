@@ -79,10 +79,17 @@ def set_options(**options: Any) -> None:
     _options.clear()
     _options.update(options)
     last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    for option in module("core.fair_options").FAIR:
+    for option in module("core.option_table").table(module("core.options").FairOptions):
         last.property_unset(option.name)
     for name, value in options.items():
         setattr(last, name, value)
+
+
+def solve_to(tolerance: float | None) -> None:
+    """Have every solve end at that tolerance, so that it takes long; None: as usual."""
+    options = module("core.options").FairOptions
+    usual = vars(solve_to).setdefault("usual", options.engine_arguments)
+    options.engine_arguments = usual if tolerance is None else (lambda o: {**usual(o), "tolerance": tolerance})
 
 
 def redo_panel() -> Any:
