@@ -1,0 +1,215 @@
+"""Rounded seams."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _arguments, _core, _seams
+from fairing._given import of_own_boundary
+from fairing._groups import Options
+from fairing._new_mesh import FilletResult
+from fairing._patch import refuse_made_here
+from fairing._proportion import Limit
+from fairing._rounded import Given, Made, Wishes, nearest, result_of, solved
+from fairing._rows import FACES, no_rows, quads_of
+from fairing._rows_along_seams import in_rows
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
+from fairing._watch import Progress, Watch
+
+_ROWS = 4  # edges across each side of a fillet by default: 90° then bend by less than 12° from row to row
+
+
+def fillet(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    seam: npt.ArrayLike | None = None,
+    options: Options | None = None,
+    *,
+    width: npt.ArrayLike,
+    width_2: npt.ArrayLike | None = None,
+    walls: npt.ArrayLike | None = None,
+    profile: float = 0.0,
+    spacing: float = 0.0,
+    faces: str = "triangles",
+    neighbours: npt.ArrayLike | None = None,
+    max_vertices: int = 0,
+    progress: Progress | None = None,
+    threads: int = 0,
+    **named: Any,
+) -> FilletResult:
+    """Round seams: replace what lies within ``width`` of them, along the surface, by the fairest surface.
+
+    The mesh is cut along the line at that distance, which is exact: straight beside straight seams, also where
+    triangles are large. Outside nothing changes but the triangles that the line passes; their pieces stay in their
+    planes. Within comes a new mesh. Its slopes at the line are those of each side, fitted without crossing a seam.
+    Between two planes the surface is the circular arc that touches both at the line, but for the ends of the seam,
+    where it fades into what is there. No argument is ever changed.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float
+    triangles : (m, 3) int
+    seam : (e, 2) int
+        Edges between two triangles. Default: all of :func:`fairing.hard_edges`.
+    options : Options
+        Those of :func:`fairing.fair` that don't concern the boundary, ``continuity`` among them: "G1" is tangent to
+        both sides, "G2" continues their curvature, too.
+    width : float or (n,) float
+        How far the fillet reaches on either side, a length; of the vertices, where it varies: those of the seams count,
+        and lengths in between are interpolated along each edge.
+    width_2 : float or (n,) float
+        The same on the other side, where that differs: ``width`` is that of the larger part, by the area that hangs
+        together without seams and walls, ``width_2`` that of the smaller one. Where both are one, or of one size,
+        ``width`` lies on the left of the first edge given, and of those that follow each other from there.
+    walls : (w, 2) int
+        Edges that a fillet does not reach over: it ends there, tangent to its own side. Default: the other hard edges.
+        Open borders always are walls.
+    profile : float
+        −1 … 1, flat to sharp. 0: the fair surface. Towards 1 it is drawn to the old one, towards −1 to the soap film
+        over the line, so that ∫ |Δ(x − fair)|² + |x − that|² / ℓ⁴ is least, with ℓ = width · (1 / |profile| − 1) / 4:
+        over that length the seam, or the chamfer's edges, stay rounded. It is tangent for all but ±1, which are these
+        two themselves.
+    spacing : float
+        Length of the new edges, of quads across the seam. 0: a quarter of the least width.
+    faces : {"triangles", "quads"}
+        "quads": rows along the seams. A column crosses them at each of their vertices and at each edge outside that
+        comes to the line, which so goes on to the other side, and where the surface asks for one. ``result.quads``
+        says which triangles are halves of one. NO_QUAD_ROWS tells where pairs of triangles stand in (docs/quads.md).
+    neighbours : (e, 2) int
+        For quads, those edges of the mesh that count, of quads and polygons. Default: all edges of the triangles.
+    max_vertices : int
+        More new vertices than that are refused, as by :func:`fairing.remesh`.
+    progress : callable(fraction, stage) -> None | bool
+        As for :func:`fairing.fair`.
+    threads : int
+        As for :func:`fairing.fair`.
+    named
+        Fields of ``options`` by their names, as for :func:`fairing.fair`.
+
+    Raises
+    ------
+    MeshError
+        NO_SEAM; SEAM_ON_BORDER; NONMANIFOLD_EDGE (a seam of three triangles and more); INCONSISTENT_WINDING beside a
+        seam; NONMANIFOLD_VERTEX (one lies on another one's edge within the fillet); WIDTH_TOO_LARGE (nothing would be
+        left of a part between seams, whose vertices are the ``elements``, or the surface would leave the solid beside
+        a convex seam, or enter it beside a concave one; ``figures["widest"]``, where that is known, is what fits);
+        OUT_OF_PROPORTION; and those of :func:`fairing.fair`.
+    ValueError, Cancelled, SolverError, MemoryError
+        As for :func:`fairing.fair`.
+    """
+    given = of_own_boundary(options, named, threads)
+    points = _arguments.floats("vertices", vertices)
+    corners = _arguments.triangles_within(triangles, len(points))
+    _seams.check_finite(points, corners)
+    wants_rows = _arguments.choice("faces", faces, FACES) == "quads"
+    counted = None if neighbours is None else _neighbours(neighbours, len(points))
+    refuse_made_here(given, progress)
+    seams, ends = _seams.seams_and_walls(points, corners, seam, walls)
+    widths = (
+        _seams.width_of("width", width, seams, len(points)),
+        _seams.width_of("width_2", width_2, seams, len(points)),
+    )
+    both = widths[0], widths[0] if width_2 is None else widths[1]
+    length = _spacing(spacing, both, seams)
+    _refuse_large(points, seams, both, length, max_vertices)
+    shape = _arguments.finite("profile", profile)
+    if abs(shape) > 1:
+        raise ValueError(f"profile: a number from -1 to 1 is needed, not {profile!r}")
+    watch = Watch(progress)
+    finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
+    wishes = Wishes(finer, shape, both, ends, given, watch)
+    mesh = Given(points, corners, seams)
+    cut = mesh.cut(wishes, watch.part(0, 0.2))
+    _refuse_eaten([part for part in cut["eaten"] if not part[2]], wishes, seams)
+    _seams.refuse_vertices_on_edges(points, corners, cut["parent"])
+    watch.lap("cut")
+    try:
+        made = solved(mesh, cut, wishes)
+    except MeshError as error:
+        raise _named(error, len(points)) from error
+    _refuse_outside(mesh, made, wishes)
+    if not wants_rows:
+        return result_of(mesh, made, wishes)
+    return _with_quads(mesh, made, wishes, length, counted)
+
+
+def _named(error: MeshError, count: int) -> MeshError:
+    """With those of its vertices that are the caller's: others, and triangles, are of the mesh that was cut."""
+    said = error.diagnostic
+    own = said.elements[said.elements < count] if said.kind == "vertex" else said.elements[:0]
+    return MeshError(replace(said, elements=own, kind="vertex"))
+
+
+def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
+    return _arguments.indices_within("neighbours", _arguments.integers("neighbours", value, 2), count)
+
+
+def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:
+    """Quads in rows; where there are none, pairs of triangles."""
+    rows = in_rows(mesh, made, wishes, length, counted, None)
+    if rows:
+        made, pairs = rows
+    else:
+        if length > wishes.spacing:
+            wishes = replace(wishes, spacing=length)
+            made = solved(mesh, mesh.cut(wishes, None), wishes)
+        _, pairs, _ = _core.paired_quads(made.vertices, made.triangles, np.empty((0, 2), np.int32))
+        warning = no_rows(mesh.seams.ravel(), "seams")
+        made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
+    result = result_of(mesh, made, wishes)
+    return replace(result, quads=quads_of(result.triangles, pairs + result.outside))
+
+
+def _spacing(value: Any, widths: tuple[FloatArray, FloatArray], seams: IntArray) -> float:
+    if _arguments.finite("spacing", value) < 0:
+        raise ValueError(f"spacing: a length, or 0 for a quarter of the least width, is needed, not {value!r}")
+    return float(value) or min(float(side[seams].min()) for side in widths) / _ROWS
+
+
+def _refuse_large(
+    points: FloatArray, seams: IntArray, widths: tuple[FloatArray, FloatArray], spacing: float, most: Any
+) -> None:
+    """MeshError where so many vertices are wanted that a slip in the spacing is likelier than a wish."""
+    lengths = np.linalg.norm(points[seams[:, 0]] - points[seams[:, 1]], axis=1)
+    usual, wanted = (
+        sum(float((lengths * side[seams].mean(axis=1) / edge**2).sum()) for side in widths)
+        for edge in (min(float(side[seams].min()) for side in widths) / _ROWS, spacing)
+    )
+    Limit.of(usual, most).check(wanted, seams.ravel())
+
+
+def _refuse_eaten(parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray) -> None:
+    if parts:
+        vertices = np.unique(np.concatenate([part[0] for part in parts]))
+        raise _too_wide("nothing would be left of a part between seams", vertices, parts, wishes, seams)
+
+
+def _refuse_outside(mesh: Given, made: Made, wishes: Wishes) -> None:
+    """Rounded convex edges stay inside the solid, concave ones outside."""
+    count = len(mesh.points)
+    before = np.einsum("kc,kcd->kd", made.weights, mesh.points[mesh.triangles[made.old]])
+    used = np.unique(made.triangles[made.triangles >= count]) - count
+    edges = [*mesh.seams.tolist(), *wishes.walls.tolist()]
+    widest = max(float(side[mesh.seams].max()) for side in wishes.widths)
+    after = made.vertices[count:][used]
+    wrong = _core.on_wrong_side(mesh.points, mesh.triangles, edges, widest, before[used], after, None)
+    if len(wrong):
+        ends = np.unique(mesh.seams)
+        near = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
+        raise _too_wide("the fillet would leave the shape that it rounds", near, made.cut["eaten"], wishes, mesh.seams)
+
+
+def _too_wide(
+    what: str, where: IntArray, parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray
+) -> MeshError:
+    """parts: that the fillet takes whole; a width that fits leaves something of each."""
+    text = f"width: {what}; a smaller width is needed, or one of its seams less"
+    figures = {"width": max(float(side[seams].max()) for side in wishes.widths), "vertices": float(len(where))}
+    if parts:
+        figures["widest"] = min(part[1] for part in parts)
+        text += f"; a fillet of less than {figures['widest']:.4g} fits"
+    return MeshError(Diagnostic("WIDTH_TOO_LARGE", text, where.astype(np.int32), "vertex", figures))
