@@ -13,6 +13,7 @@ PYBIND11_MODULE(_core, module) {
     fairing::bindings::bind_fair(module);
     fairing::bindings::bind_fill(module);
     fairing::bindings::bind_fillet(module);
+    fairing::bindings::bind_hierarchy(module);
     fairing::bindings::bind_holes(module);
     fairing::bindings::bind_measure(module);
     fairing::bindings::bind_outline(module);

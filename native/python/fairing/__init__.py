@@ -15,6 +15,7 @@ from fairing._from_curves import surface_from_curves
 from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Surface
 from fairing._growing import grown_outline
 from fairing._hard_edges import hard_edges
+from fairing._hierarchy import hierarchy
 from fairing._holes import expected_vertices, hole_loops, outer_borders
 from fairing._interpolate import interpolate
 from fairing._measure import (
@@ -108,6 +109,7 @@ __all__ = [
     "grown_outline",
     "hard_edges",
     "has_lost_grain",
+    "hierarchy",
     "hole_loops",
     "interpolate",
     "is_rougher",
