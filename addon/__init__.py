@@ -7,11 +7,11 @@ if loading.problem():
 else:
     import fairing
 
-    from .core.verdict import NotUsable
+    from .denoise.script import denoise_mesh
+    from .fair.script import fair_mesh
+    from .fill.script import fill_mesh
+    from .fillet.script import fillet_mesh
     from .registration import register, unregister
-    from .run.denoise_mesh import denoise_mesh
-    from .run.fair_mesh import fair_mesh
-    from .run.fill_mesh import fill_mesh
-    from .run.fillet_mesh import fillet_mesh
+    from .verdict.verdict import NotUsable
 
 __all__ = ["NotUsable", "denoise_mesh", "fair_mesh", "fairing", "fill_mesh", "fillet_mesh", "register", "unregister"]

@@ -9,12 +9,13 @@ from typing import Any
 
 import bpy
 
-from .core.held_curves import hard_edges
-from .follow.live import live
-from .follow.watch import watch
+from .fair.held_curves import hard_edges
 from .host.handlers import listen, unlisten
-from .run import background, compare, job, last_run, report_properties
-from .show import overlay
+from .live.live import live
+from .overlay import overlay
+from .run import background, compare, job, last_run
+from .selection.watch import watch
+from .verdict import properties as report_properties
 
 
 def forget() -> None:

@@ -5,28 +5,34 @@ from typing import Any
 import bpy
 
 from . import file_owned, translations
-from .follow import live, undone, watch
-from .follow.live_operators import FairLive, MESH_OT_fair_live_forget
-from .follow.taking import MESH_OT_fair_live_region
+from .curves.operator import MESH_OT_fair_from_curves
+from .denoise.operator import MESH_OT_fair_denoise
+from .fair import brush_preview
+from .fair.brush import FairDab, MESH_OT_fair_brush
+from .fair.masked import MESH_OT_fair_masked
+from .fair.operator import MESH_OT_fair_region
+from .fair.strokes import MESH_OT_fair_stroke
+from .fill.operator import MESH_OT_fair_fill
+from .fillet import preview as fillet_preview
+from .fillet.operator import MESH_OT_fair_fillet
 from .host import handlers
+from .live import live
+from .live.operators import FairLive, MESH_OT_fair_live_forget
+from .live.start import MESH_OT_fair_live_region
+from .options import preset_operators as presets
+from .options import redo_panel
+from .options.chosen import MESH_OT_fair_reset
+from .overlay import overlay
+from .overlay.settings import FairOverlay
 from .preferences import FairPreferences
-from .run import cli, compare, presets, redo, redo_panel
+from .run import cli, compare, redo, undone
 from .run.again import MESH_OT_fair_again
 from .run.background import MESH_OT_fair_cancel
-from .run.brush import FairDab, MESH_OT_fair_brush
-from .run.denoise import MESH_OT_fair_denoise
-from .run.fill import MESH_OT_fair_fill
-from .run.fillet import MESH_OT_fair_fillet
-from .run.from_curves import MESH_OT_fair_from_curves
-from .run.masked import MESH_OT_fair_masked
-from .run.operators import MESH_OT_fair_region
 from .run.redo import MESH_OT_fair_follow
-from .run.report_properties import FairCheck, FairProgress, FairReport
-from .run.selection_tools import MESH_OT_fair_select
-from .run.strokes import MESH_OT_fair_stroke
-from .show import brush_preview, fillet_preview, gizmos, keymap, marks, menus, overlay, tab, tools, ui
-from .show.chosen_options import MESH_OT_fair_reset
-from .show.overlay_settings import FairOverlay
+from .selection import watch
+from .selection.tools import MESH_OT_fair_select
+from .show import gizmos, keymap, marks, menus, tab, tools, ui
+from .verdict.properties import FairCheck, FairProgress, FairReport
 
 _CLASSES: tuple[Any, ...] = (
     FairPreferences,

@@ -1,4 +1,4 @@
-"""What Blender calls when the name of the sidebar's tab changes; like core/signals.py it knows nothing of Blender."""
+"""What Blender calls when the name of the sidebar's tab changes; like overlay/signals.py without it."""
 
 from __future__ import annotations
 

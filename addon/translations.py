@@ -14,7 +14,7 @@ from pathlib import Path
 
 import bpy
 
-from .core.words import Message, sentences_of, worded
+from .words.words import Message, sentences_of, worded
 
 _FOLDER = Path(__file__).parent / "languages"
 # Blender's names of a language: older versions know some by country only.

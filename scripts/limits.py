@@ -1,8 +1,8 @@
-"""Every constant of the engine with the reason beside it, room by room: what there is to tune, and why it is as it is.
+"""Every constant of the engine with its reason, module by module: what there is to tune, and why it is as it is.
 
-    python scripts/limits.py [ROOM…]
+    python scripts/limits.py [MODULE…]
 
-A limit that several files of a room share stands in the room's limits.h, every other one beside its only use.
+A limit that several files of a module share stands in the module's limits.h, every other one beside its only use.
 """
 
 from __future__ import annotations
@@ -51,13 +51,13 @@ def _limits_of(file: Path) -> Iterator[Limit]:
             above, in_run = [], False
 
 
-def main(rooms: list[str]) -> None:
-    """Print those of the rooms named, or of all."""
-    names = rooms or sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
-    for room in names:
-        found = list(limits(NATIVE / room))
+def main(modules: list[str]) -> None:
+    """Print those of the modules named, or of all."""
+    names = modules or sorted(path.name for path in NATIVE.iterdir() if path.is_dir())
+    for module in names:
+        found = list(limits(NATIVE / module))
         if found:
-            print(f"{room}: {len(found)}")
+            print(f"{module}: {len(found)}")
         for limit in found:
             place = f"{limit.file.relative_to(NATIVE)}:{limit.line}"
             print(f"  {limit.name} = {limit.value or '…'}  ({place})  {limit.reason}")

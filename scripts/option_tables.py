@@ -12,9 +12,9 @@ from textwrap import fill
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "addon"))
 
-from core.option_table import FOLDED, GROUPS, Chosen, Option, Table, table  # noqa: E402
-from core.options import FairOptions  # noqa: E402
-from core.other_options import CurvesOptions, DenoiseOptions, FilletOptions, FillOptions  # noqa: E402
+from addon.options.options import FairOptions  # noqa: E402
+from addon.options.other_options import CurvesOptions, DenoiseOptions, FilletOptions, FillOptions  # noqa: E402
+from addon.options.table import FOLDED, GROUPS, Chosen, Option, Table, table  # noqa: E402
 
 PAGE = ROOT / "docs" / "options.md"
 OPERATORS: tuple[tuple[str, str, type[Chosen]], ...] = (

@@ -1,7 +1,7 @@
 """How large each part of the tree is, beside its ceiling in meta/size.toml, which only goes down.
 
-    size.py            1 where a part is above its ceiling
-    size.py --lower    lowers the ceilings to what there is
+size.py            1 where a part is above its ceiling
+size.py --lower    lowers the ceilings to what there is
 """
 
 from __future__ import annotations

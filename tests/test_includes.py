@@ -1,4 +1,4 @@
-"""Sources ask for the parts of Eigen that they use: builds without precompiled headers can't load otherwise."""
+"""Includes: the parts of Eigen that sources use, or builds without precompiled headers fail; and one way only."""
 
 from __future__ import annotations
 
@@ -29,3 +29,21 @@ def closure(file: Path, seen: dict[Path, str]) -> dict[Path, str]:
 def test_who_uses_geometry_includes_it(room: str) -> None:
     texts = {file: "".join(closure(file, {}).values()) for file in (NATIVE / room).rglob("*.cpp")}
     assert [file.name for file, text in texts.items() if GEOMETRY.search(text) and not GIVES_IT.search(text)] == []
+
+
+def test_includes_between_folders_point_one_way() -> None:
+    arrows = {
+        folder.name: {
+            name
+            for file in [*folder.glob("*.h"), *folder.glob("*.cpp")]
+            for name in re.findall(r'^#include "(\w+)/', file.read_text(encoding="utf-8"), re.MULTILINE)
+        }
+        - {folder.name}
+        for folder in NATIVE.iterdir()
+        if folder.is_dir()
+    }
+    done: set[str] = set()
+    while len(done) < len(arrows):
+        ready = {folder for folder, needed in arrows.items() if folder not in done and needed <= done}
+        assert ready, f"in a ring: {sorted(set(arrows) - done)}"
+        done |= ready

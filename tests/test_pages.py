@@ -13,7 +13,6 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 FILE = re.compile(r"`((?:addon|benchmarks|docs|native|scripts|tests)/[\w./-]+)`")
 # Figures make some of their lines long.
 GENERATED = ("docs/paper.md", "docs/performance.md", "docs/dev/performance_log.md")
-NOT_FOLDERS = ("addon/door", "addon/ground")  # modules beside the rooms, as the picture of the house calls them
 
 
 def name(page: Path) -> str:
@@ -46,8 +45,7 @@ def test_links_lead_somewhere(page: Path) -> None:
 @pytest.mark.parametrize("page", PAGES, ids=name)
 def test_files_that_are_named_exist(page: Path) -> None:
     for file in FILE.findall(page.read_text(encoding="utf-8")):
-        if file not in NOT_FOLDERS:
-            assert (ROOT / file).exists() or list(ROOT.glob(f"{file}.*")), file
+        assert (ROOT / file).exists() or list(ROOT.glob(f"{file}.*")), file
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if name(page) not in GENERATED], ids=name)

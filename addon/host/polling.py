@@ -6,8 +6,8 @@ from typing import Any
 
 import bpy
 
-from ..core.words import said
 from ..translations import translated
+from ..words.words import said
 
 SELECT_FACES = said("select_faces")
 IN_EDIT_MODE = said("in_edit_mode")

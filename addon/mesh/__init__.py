@@ -1,1 +1,1 @@
-"""Blender's meshes as arrays, and positions back: the only room that touches bmesh."""
+"""Blender's meshes as arrays, and positions back: all that touches bmesh."""

@@ -9,9 +9,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
-from ..core.moved_keys import MovedKey
-from ..core.words import said
+from ..arrays.types import Floats
+from ..fair.moved_keys import MovedKey
+from ..words.words import said
 from .mesh_io import follows
 
 

@@ -8,8 +8,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints, Mask
-from ..core.words import said
+from ..arrays.types import Floats, Ints, Mask
+from ..words.words import said
 
 SCULPT_MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
 

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Ints, Mask
+from ..arrays.types import Ints, Mask
 
 
 def column(items: Any, name: str, width: int, dtype: Any) -> Any:

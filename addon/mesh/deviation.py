@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from mathutils.bvhtree import BVHTree
 
-from ..core.arrays import Floats, Ints
+from ..arrays.types import Floats, Ints
 
 
 def deviation(points: Floats, surface: Floats, triangles: Ints) -> Floats:

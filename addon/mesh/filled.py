@@ -12,12 +12,12 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Mask
-from ..core.fill_pieces import Filled, Piece
-from ..core.fill_report import Added
-from ..core.reflected import Whole
-from ..core.unwrapping import SAME, RimUVs, Surface, unwrapped
-from ..core.uv_overlap import covering
+from ..arrays.types import Floats, Mask
+from ..fill.pieces import Filled, Piece
+from ..fill.report import Added
+from ..mirror.reflected import Whole
+from ..remesh.unwrapping import SAME, RimUVs, Surface, unwrapped
+from ..remesh.uv_overlap import covering
 from .columns import elements_of
 from .free_normals import renew
 from .layers import OF_CORNERS, MeanLayers, Shapes

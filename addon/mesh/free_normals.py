@@ -13,7 +13,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
+from ..arrays.types import Floats, Ints
 from .columns import column, elements_of
 
 NAME = "custom_normal"

@@ -12,9 +12,9 @@ from mathutils import Vector
 from mathutils.bvhtree import BVHTree
 from mathutils.kdtree import KDTree
 
-from ..core.reflected import Whole
-from ..core.region import Reflection
-from ..core.symmetry import ACROSS_X, NEAR
+from ..arrays.region import Reflection
+from ..mirror.reflected import Whole
+from ..mirror.symmetry import ACROSS_X, NEAR
 
 SNAPPED = 0.3  # of an edge across the plane: what is nearer goes onto the plane, or there would be slivers
 

@@ -9,8 +9,8 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.words import said
+from ..arrays.types import Floats, Ints
+from ..words.words import said
 from .painted import positions
 
 # Blender smooths what a level below the finest is given on its way up to that one. Of a hill of .3 on a unit sphere

@@ -15,8 +15,8 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.options import FairOptions
+from ..arrays.types import Floats, Ints
+from ..options.options import FairOptions
 
 _co, _index, _verts = attrgetter("co"), attrgetter("index"), attrgetter("verts")  # called without a frame each
 

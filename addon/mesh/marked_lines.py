@@ -7,9 +7,9 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Mask
-from ..core.lines import WIRES, edges_at_wires, parting_edges
-from ..core.region import MeshArrays
+from ..arrays.lines import WIRES, edges_at_wires, parting_edges
+from ..arrays.region import MeshArrays
+from ..arrays.types import Floats, Mask
 
 _WIDTHS = {
     "FLOAT": ("value", 1, np.float32),

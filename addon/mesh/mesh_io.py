@@ -11,14 +11,14 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints, Mask
-from ..core.held_curves import with_pinned_edges
-from ..core.options import FairOptions
-from ..core.quality import is_spoilt
-from ..core.region import MeshArrays, free_vertices
-from ..core.selection import enclosed_faces
-from ..core.symmetry import with_image
-from ..core.words import said
+from ..arrays.region import MeshArrays, free_vertices
+from ..arrays.types import Floats, Ints, Mask
+from ..fair.held_curves import with_pinned_edges
+from ..mirror.symmetry import with_image
+from ..options.options import FairOptions
+from ..selection.selection import enclosed_faces
+from ..verdict.quality import is_spoilt
+from ..words.words import said
 from .columns import column, elements_of, flags, indices, stored
 from .free_normals import put_at, renew_at, renew_mesh
 from .marked_lines import lines

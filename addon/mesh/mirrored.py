@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
-from ..core.region import Reflection
+from ..arrays.region import Reflection
+from ..arrays.types import Floats
 
 
 def reflections(obj: bpy.types.Object | None) -> tuple[Reflection, ...]:

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.sentences import doubled
+from ..arrays.types import Floats, Ints
+from ..words.sentences import doubled
 from .layers import OF_CORNERS, OF_VERTICES, MeanLayers, Shapes, Weights, copied_layers, copy
 from .live_mesh import LAYER
 from .set_aside import ROW

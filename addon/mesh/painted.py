@@ -8,8 +8,8 @@ from contextlib import contextmanager
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.words import said
+from ..arrays.types import Floats, Ints
+from ..words.words import said
 from .attributes import FACE_SET, SCULPT_MASK, faces_within, values, write_attribute
 from .live_mesh import LAYER
 

@@ -9,9 +9,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Ints
-from ..core.remeshing import Remeshed
-from ..core.rounding import Rounded
+from ..arrays.types import Ints
+from ..fillet.rounding import Rounded
+from ..remesh.remeshing import Remeshed
 from .columns import elements_of
 from .free_normals import renew
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles

@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints, Mask
+from ..arrays.types import Floats, Ints, Mask
 
 
 def select_vertices(mesh: bpy.types.Mesh, vertices: Ints) -> None:

@@ -15,9 +15,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.blended import blended, columns
-from ..core.words import said
+from ..arrays.blended import blended, columns
+from ..arrays.types import Floats, Ints
+from ..words.words import said
 
 _REACHED = {
     "FLOAT": "float",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
+from ..arrays.types import Floats
 from .columns import column
 
 

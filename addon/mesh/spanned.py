@@ -6,9 +6,9 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..core.arrays import Mask
-from ..core.fill_report import Added
-from ..core.spanning import Spanned
+from ..arrays.types import Mask
+from ..curves.spanning import Spanned
+from ..fill.report import Added
 from .columns import elements_of
 from .free_normals import renew
 from .new_faces import VertexData, make_vertices

@@ -10,7 +10,7 @@ from typing import Any
 import bmesh
 import bpy
 
-from ..core.reflected import Whole
+from ..mirror.reflected import Whole
 from .halved import Mirror
 from .layers import Shapes
 from .mesh_io import user_of

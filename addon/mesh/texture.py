@@ -7,8 +7,8 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
-from ..core.uv_overlap import meeting
+from ..arrays.types import Floats
+from ..remesh.uv_overlap import meeting
 from .columns import column
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints, Mask
-from ..core.options import FairOptions
-from ..core.region import MeshArrays
-from ..core.words import said
+from ..arrays.region import MeshArrays
+from ..arrays.types import Floats, Ints, Mask
+from ..options.options import FairOptions
+from ..words.words import said
 from .attributes import SCULPT_MASK, values
 
 

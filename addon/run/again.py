@@ -10,7 +10,8 @@ from typing import Any
 import bpy
 from bpy.props import EnumProperty
 
-from ..core.verdict import (
+from ..host.polling import require, require_edit_mode
+from ..verdict.verdict import (
     ADD_LEFT_OUT,
     ALL_KEYS,
     AS_SELECTED,
@@ -23,8 +24,7 @@ from ..core.verdict import (
     SMOOTH_OUTLINE,
     WRITE,
 )
-from ..core.words import said
-from ..host.polling import require, require_edit_mode
+from ..words.words import said
 from . import last_run
 
 # What each button changes in the options.

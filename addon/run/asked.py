@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import bpy
 
-from ..core.engine import Progress
+from ..fair.engine import Progress
 from ..translations import translated
+from ..verdict.properties import store_refusal
 from . import compare, job, last_run
 from .preview import Preview
-from .report_properties import store_refusal
 
 Say = Callable[[set[str], str], object]  # an operator's report
 Work = Callable[[Progress], Any]

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import bpy
 
-from ..core import runner
-from ..core.engine import Progress
-from ..core.words import said
+from ..fair.engine import Progress
 from ..host.handlers import hear_events
 from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
 from ..preferences import background_from
 from ..translations import translated
-from . import job
+from ..words.words import said
+from . import job, runner
 from .asked import Asked, Work, refuse
 from .preview import Preview
 

@@ -11,18 +11,18 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats
-from ..core.border import Left
-from ..core.engine import REFUSALS
-from ..core.fill_report import make_fill_report
-from ..core.options import FairOptions
-from ..core.other_options import FillOptions
-from ..core.report import Report, make_report, summary
-from ..core.verdict import UNUSABLE
+from ..arrays.border import Left
+from ..arrays.types import Floats
+from ..fair.engine import REFUSALS
+from ..fair.script import fair_faces
+from ..fill.report import make_fill_report
+from ..fill.script import fill_borders
+from ..fillet.script import fillet_edges
+from ..options.options import FairOptions
+from ..options.other_options import FillOptions
+from ..verdict.report import Report, make_report, summary
+from ..verdict.verdict import UNUSABLE
 from .cli_parser import fillet_options, parse
-from .fair_mesh import fair_faces
-from .fill_mesh import fill_borders
-from .fillet_mesh import fillet_edges
 
 WRITTEN, NOT_USABLE, REFUSED = 0, 1, 2
 

@@ -6,9 +6,9 @@ import argparse
 from collections.abc import Iterable
 from typing import Any
 
-from ..core.option_table import Option, table
-from ..core.options import FairOptions
-from ..core.other_options import FilletOptions, FillOptions
+from ..options.options import FairOptions
+from ..options.other_options import FilletOptions, FillOptions
+from ..options.table import Option, table
 
 EDGE_LENGTH = "edge_length"  # the fillet's spacing, which is a length
 

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.outcome import Moves
-from ..core.remeshing import Remeshed
-from ..core.words import said
+from ..arrays.types import Floats, Ints
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
 from ..mesh.free_normals import free_normals
+from ..remesh.remeshing import Remeshed
 from ..translations import translated
+from ..verdict.outcome import Moves
+from ..words.words import said
 from .job import Task, objects_in_mode
 
 ENOUGH = 1000  # vertices that tell whether a run was undone: each step of undo asks

@@ -14,20 +14,20 @@ from typing import Protocol, TypeVar
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.engine import REFUSALS, Problem, Progress, RepeatedSolve, sub_range
-from ..core.memory import Memory
-from ..core.options import FairOptions
-from ..core.outcome import Fairing, Moves
-from ..core.reflected import Whole, whole_of
-from ..core.region import MeshArrays, free_vertices, to_local
-from ..core.remeshing import Remeshed
-from ..core.solve import Kept, Solved
-from ..core.words import said
+from ..arrays.region import MeshArrays, free_vertices, to_local
+from ..arrays.types import Floats, Ints
+from ..fair.engine import REFUSALS, Problem, Progress, RepeatedSolve, sub_range
+from ..fair.fair_keys import fair_all_keys
+from ..fair.memory import Memory
+from ..fair.solve import Kept, Solved
 from ..host.context import edited_objects
 from ..mesh import all_keys, mesh_io, remeshed, selecting
-from .fair_keys import fair_all_keys
-from .labels import reason_of
+from ..mirror.reflected import Whole, whole_of
+from ..options.options import FairOptions
+from ..remesh.remeshing import Remeshed
+from ..verdict.outcome import Fairing, Moves
+from ..words.labels import reason_of
+from ..words.words import said
 
 Answer = TypeVar("Answer")
 Done = TypeVar("Done")

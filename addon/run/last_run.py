@@ -7,13 +7,13 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
-from ..core.options import FairOptions
-from ..core.outcome import Fairing
-from ..core.report import Report, standing
-from ..core.words import said
+from ..arrays.types import Floats, Ints
 from ..mesh import selecting
 from ..mesh.remeshed import Written
+from ..options.options import FairOptions
+from ..verdict.outcome import Fairing
+from ..verdict.report import Report, standing
+from ..words.words import said
 from .job import Task, objects_in_mode
 
 SIGHT = 25.0  # edges around a spot that are in sight

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
-from ..core.arrays import Floats, Ints
+from ..arrays.types import Floats, Ints
 from ..host.context import edited_objects
 from ..mesh import mesh_io
 from .job import Task, is_unchanged

@@ -19,14 +19,14 @@ from bpy.props import BoolProperty
 
 import fairing
 
-from ..core import runner
-from ..core.words import said
 from ..host.handlers import call_later, call_off, hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from ..preferences import background_from
+from ..verdict.properties import clear, kept, message, store_awaited
+from ..words.words import said
+from . import runner
 from .asked import Asked, Say
 from .background import TICK, Watched, has_events, under_way
-from .report_properties import clear, kept, message, store_awaited
 
 PROMPT = 0.06  # seconds for reading and an answer; with writing and undo a change stays below 0.1
 SOON = 0.01  # seconds until the threads in the way are looked at again

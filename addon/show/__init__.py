@@ -1,1 +1,1 @@
-"""What is drawn: panels, menus and the quality overlay. The only room that touches the GPU."""
+"""What is drawn: panels, menus, tools, arrows and marks in the view."""

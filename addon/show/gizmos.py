@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, Any
 import bpy
 import numpy as np
 
-from ..core import runner
-from ..core.arrays import Floats
-from ..core.option_table import named
-from ..core.options import FairOptions
+from ..arrays.types import Floats
+from ..fair.operator import MESH_OT_fair_region
+from ..fillet import operator as fillet
+from ..fillet.operator import MESH_OT_fair_fillet
 from ..host.handlers import call_later
-from ..run import fillet, last_run
-from ..run.fillet import MESH_OT_fair_fillet
-from ..run.operators import MESH_OT_fair_region
+from ..options.options import FairOptions
+from ..options.table import named
+from ..run import last_run, runner
 from .tools import FairFilletTool, FairLassoTool, FairPaintTool
 
 LIFT = 0.25  # of the radius of a flat disc that a bulge of 1 lifts it by

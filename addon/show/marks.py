@@ -10,9 +10,9 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ..core.arrays import Floats
-from ..follow.live import live
-from ..follow.watch import watch
+from ..arrays.types import Floats
+from ..live.live import live
+from ..selection.watch import watch
 from ..translations import translated
 
 BAD = (1.0, 0.0, 0.8, 1.0)  # magenta: Blender selects in orange

@@ -6,14 +6,14 @@ from typing import Any
 
 import bpy
 
-from ..follow.taking import MESH_OT_fair_live_region
+from ..curves.operator import MESH_OT_fair_from_curves
+from ..denoise.operator import MESH_OT_fair_denoise
+from ..fair.masked import MESH_OT_fair_masked
+from ..fair.operator import MESH_OT_fair_region
+from ..fill.operator import MESH_OT_fair_fill
+from ..fillet.operator import MESH_OT_fair_fillet
+from ..live.start import MESH_OT_fair_live_region
 from ..run.compare import MESH_OT_fair_compare
-from ..run.denoise import MESH_OT_fair_denoise
-from ..run.fill import MESH_OT_fair_fill
-from ..run.fillet import MESH_OT_fair_fillet
-from ..run.from_curves import MESH_OT_fair_from_curves
-from ..run.masked import MESH_OT_fair_masked
-from ..run.operators import MESH_OT_fair_region
 
 
 def draw_face_menu(menu: Any, _context: bpy.types.Context) -> None:

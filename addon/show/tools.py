@@ -10,8 +10,8 @@ from typing import Any
 import bpy
 from gpu_extras.presets import draw_circle_2d
 
-from ..run.brush import MESH_OT_fair_brush
-from ..run.masked import MESH_OT_fair_masked
+from ..fair.brush import MESH_OT_fair_brush
+from ..fair.masked import MESH_OT_fair_masked
 
 # Of Fair Region, in the header of a tool.
 _IN_HEADER = ("factor", "shape", "continuity", "detail", "falloff", "remesh")

@@ -4,24 +4,22 @@ from typing import Any
 
 import bpy
 
-from ..follow.live import live
-from ..follow.live_operators import (
-    MESH_OT_fair_live_forget,
-)
-from ..follow.taking import MESH_OT_fair_live_region
+from ..fair.masked import MESH_OT_fair_masked
+from ..fair.operator import MESH_OT_fair_region
+from ..fill.operator import MESH_OT_fair_fill
 from ..host.status import draw_progress
 from ..host.text import draw_text
+from ..live.live import live
+from ..live.operators import MESH_OT_fair_live_forget
+from ..live.start import MESH_OT_fair_live_region
+from ..options import chosen as chosen_options
+from ..options.preset_operators import MESH_MT_fair_fill_runs, MESH_MT_fair_region_runs
+from ..overlay.overlay import overlay
 from ..run.compare import MESH_OT_fair_compare
-from ..run.fill import MESH_OT_fair_fill
-from ..run.masked import MESH_OT_fair_masked
-from ..run.operators import MESH_OT_fair_region
-from ..run.presets import MESH_MT_fair_fill_runs, MESH_MT_fair_region_runs
-from ..run.selection_tools import draw_select
+from ..selection.panel import VIEW3D_PT_fairing_counts, VIEW3D_PT_fairing_selection
+from ..selection.tools import draw_select
 from ..translations import translated
-from . import chosen_options
-from .overlay import overlay
-from .report_panel import VIEW3D_PT_fairing_details, VIEW3D_PT_fairing_report
-from .selection_panel import VIEW3D_PT_fairing_counts, VIEW3D_PT_fairing_selection
+from ..verdict.panel import VIEW3D_PT_fairing_details, VIEW3D_PT_fairing_report
 from .sidebar import SidebarPanel, pair
 
 

@@ -93,9 +93,9 @@ def at_once() -> None:
 
 def in_background() -> None:
     """What the operator does after a click, without Blender's events in between."""
-    job, options = module("run.job"), module("core.options").FairOptions()
+    job, options = module("run.job"), module("options.options").FairOptions()
     tasks = job.read(bpy.context, options)
-    outcomes = module("core.runner").Run(partial(job.solve, tasks, options, ahead=True)).result()
+    outcomes = module("run.runner").Run(partial(job.solve, tasks, options, ahead=True)).result()
     job.write_each(
         bpy.context, [(task.object_name, of) for task, of in zip(tasks, outcomes, strict=True)], job.write_one
     )

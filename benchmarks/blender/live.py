@@ -57,11 +57,11 @@ class Clock:
 def watched() -> Clock:
     """A clock on the parts of a step."""
     clock = Clock()
-    mesh, region = module("mesh.live_mesh"), module("core.live_region")
+    mesh, region = module("mesh.live_mesh"), module("live.region")
     for name in ("positions", "corners", "counts", "has_region"):
         clock.around(mesh, name, "reading")
     clock.around(region.LiveRegion, "_problem", "boundary")
-    clock.around(module("core.engine").RepeatedSolve, "__call__", "solving")
+    clock.around(module("fair.engine").RepeatedSolve, "__call__", "solving")
     clock.around(module("mesh.mesh_io"), "write_edit_mesh", "writing")
     return clock
 
@@ -91,7 +91,7 @@ def drag(obj: bpy.types.Object, vertices: Any, step: float) -> None:
 def line(free_vertices: int, steps: int, clock: Clock) -> str:
     """One row of the table."""
     obj, vertices = scene(free_vertices)
-    live = module("follow.live").live
+    live = module("live.live").live
     region = next(iter(live.sessions.values())).region
     rows = []
     for _ in range(steps):

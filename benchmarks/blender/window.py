@@ -56,7 +56,7 @@ def row(free_vertices: int) -> Story:
         assert bpy.ops.mesh.fair_live_region() == {"FINISHED"}
         yield 0.5
     window = bpy.context.window_manager
-    live = module("follow.live").live
+    live = module("live.live").live
     free = len(next(iter(live.sessions.values())).region.free)
     scenes.select_vertices(lower)
     yield 0.5

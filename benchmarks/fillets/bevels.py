@@ -6,11 +6,11 @@ import importlib
 from typing import Any
 
 import numpy as np
+from addon.arrays.region import MeshArrays
+from addon.fillet.rounding import hard, round_arrays
+from addon.options.other_options import FilletOptions
 
 import fairing
-from core.other_options import FilletOptions
-from core.region import MeshArrays
-from core.rounding import hard, round_arrays
 from hard_surfaces import FloatArray, Polygons, Problem
 
 Made = tuple[FloatArray, Polygons, Polygons]

@@ -36,7 +36,7 @@ def fillet(out: Path) -> Iterator[Path]:
 
 def live(out: Path) -> Iterator[Path]:
     """The neck is dragged aside and back, and the shoulder follows."""
-    sys.modules["bl_ext.user_default.intrinsic_fairing.follow.live"].PATIENCE = 60.0  # no surface depends on it
+    sys.modules["bl_ext.user_default.intrinsic_fairing.live.live"].PATIENCE = 60.0  # no surface depends on it
     lesson = lesson_sheets.LESSONS["tutorial_bottle"]
     lesson_sheets.begun(lesson)
     bpy.ops.object.mode_set(mode="EDIT")

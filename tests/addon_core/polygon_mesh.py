@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-
-from core.arrays import Floats, Ints, Mask
-from core.region import MeshArrays
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats, Ints, Mask
 
 Polygons = Sequence[Sequence[int]]
 

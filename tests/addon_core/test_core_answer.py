@@ -6,17 +6,18 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays, Patch
+from addon.arrays.types import Floats, Ints
+from addon.fair import engine
+from addon.fair.engine import RepeatedSolve
+from addon.fair.memory import Memory
+from addon.fair.solve import Kept, Solved, pose, solve
+from addon.options.options import FairOptions
+from addon.verdict import quality
+from addon.verdict.outcome import Fairing, outcome
+from addon.verdict.verdict import AS_SELECTED, GOOD, LOOK
 
 import fairing
-from core import engine, quality
-from core.arrays import Floats, Ints
-from core.engine import RepeatedSolve
-from core.memory import Memory
-from core.options import FairOptions
-from core.outcome import Fairing, outcome
-from core.region import MeshArrays, Patch
-from core.solve import Kept, Solved, pose, solve
-from core.verdict import AS_SELECTED, GOOD, LOOK
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 EYE = np.eye(4)

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-
-from core.blend import Blend
+from addon.live.blend import Blend
 
 STILL = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
 FIRST = np.array([[0.5, 0.2, 0.0]])

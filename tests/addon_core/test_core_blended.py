@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-
-from core.blended import blended, columns
-from core.limited import limited_like
+from addon.arrays.blended import blended, columns
+from addon.remesh.limited import limited_like
 
 HALF = np.array([[0.5, 0.5]])
 

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.around import RINGS, numbered, outside_triangles
+from addon.arrays.region import MeshArrays, Patch, make_patch
+from addon.arrays.types import Floats, Mask
+from addon.fair.boundary import average_normals, boundary
 
-from core.around import RINGS, numbered, outside_triangles
-from core.arrays import Floats, Mask
-from core.boundary import average_normals, boundary
-from core.region import MeshArrays, Patch, make_patch
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-
-from core import carrier
-from core.carrier import Carrier
+from addon.live import carrier
+from addon.live.carrier import Carrier
 
 RNG = np.random.default_rng(9)
 FIXED = RNG.normal(size=(30, 3))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-from core.combs import LONGEST, comb
+from addon.overlay.combs import LONGEST, comb
 
 
 def chain(count: int) -> np.ndarray:

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats, Ints, Mask
+from addon.fair.engine import Problem
+from addon.fair.solve import pose
+from addon.options.options import FairOptions
+from addon.verdict.eaten import Eaten, eaten_edges
 
-from core.arrays import Floats, Ints, Mask
-from core.eaten import Eaten, eaten_edges
-from core.engine import Problem
-from core.options import FairOptions
-from core.region import MeshArrays
-from core.solve import pose
 from polygon_mesh import grid_points, grid_quads, polygon_mesh
 
 SIZE = 20  # faces along each side of [−1, 1]²

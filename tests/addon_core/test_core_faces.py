@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.lines import parting_edges
+from addon.arrays.types import Floats, Ints
+from addon.options.options import FairOptions
+from addon.remesh.faces import Faces, paired_faces
+from addon.remesh.remeshing import remesh_arrays
 
-from core.arrays import Floats, Ints
-from core.faces import Faces, paired_faces
-from core.lines import parting_edges
-from core.options import FairOptions
-from core.remeshing import remesh_arrays
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere
 
 SIZE = 6

@@ -7,13 +7,13 @@ from functools import cache
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats, Ints
+from addon.fair.solve import pose, solve
+from addon.options.options import FairOptions
+from addon.verdict.outcome import Fairing, outcome
 
 import fairing
-from core.arrays import Floats, Ints
-from core.options import FairOptions
-from core.outcome import Fairing, outcome
-from core.region import MeshArrays
-from core.solve import pose, solve
 from polygon_mesh import grid, on_sphere
 
 EYE = np.eye(4)

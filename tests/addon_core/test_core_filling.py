@@ -7,20 +7,20 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from addon.arrays.around import nearby
+from addon.arrays.border import BorderRefusal, border_loops
+from addon.arrays.neighbourhood import Neighbourhood
+from addon.arrays.region import MeshArrays, nothing
+from addon.arrays.types import Floats, Ints, Mask
+from addon.fill.filling import fill
+from addon.fill.pieces import Piece
+from addon.fill.report import make_fill_report
+from addon.fill.verdict import Surface, judge
+from addon.options.other_options import FillOptions
+from addon.verdict.quality import Join
+from addon.verdict.verdict import GOOD, LOOK, UNUSABLE, Verdict
+from addon.words.sentences import MeshRefusal
 
-from core.around import nearby
-from core.arrays import Floats, Ints, Mask
-from core.border import BorderRefusal, border_loops
-from core.fill_pieces import Piece
-from core.fill_report import make_fill_report
-from core.fill_verdict import Surface, judge
-from core.filling import fill
-from core.neighbourhood import Neighbourhood
-from core.other_options import FillOptions
-from core.quality import Join
-from core.region import MeshArrays, nothing
-from core.sentences import MeshRefusal
-from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from polygon_mesh import grid_points, grid_quads, hexagon, on_sphere, polygon_mesh, tube
 
 SIZE = 8

@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats
+from addon.fair.solve import pose, solve
+from addon.options.options import FairOptions
+from addon.verdict.evidence import Flank
+from addon.verdict.outcome import flank_of
 
-from core.arrays import Floats
-from core.evidence import Flank
-from core.options import FairOptions
-from core.outcome import flank_of
-from core.region import MeshArrays
-from core.solve import pose, solve
 from polygon_mesh import grid, on_sphere
 
 SIZE = 60  # quads from side to side, on 2 units

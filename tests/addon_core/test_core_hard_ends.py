@@ -6,15 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.border import border_loops
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Ints
+from addon.fill.across import reported
+from addon.fill.filling import fill
+from addon.fill.verdict import hard_ends
+from addon.options.other_options import FillOptions
+from addon.verdict.verdict import GOOD, LOOK
 
-from core.across import reported
-from core.arrays import Ints
-from core.border import border_loops
-from core.fill_verdict import hard_ends
-from core.filling import fill
-from core.other_options import FillOptions
-from core.region import MeshArrays
-from core.verdict import GOOD, LOOK
 from polygon_mesh import grid_points, grid_quads, polygon_mesh
 
 SIZE = 24  # faces along each side of [−1, 1]²

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays, make_patch
+from addon.fair import solve
+from addon.fair.held_curves import none, released, with_pinned_edges
+from addon.options.options import FairOptions
+from addon.remesh.remeshing import remesh_arrays
 
-from core import solve
-from core.held_curves import none, released, with_pinned_edges
-from core.options import FairOptions
-from core.region import MeshArrays, make_patch
-from core.remeshing import remesh_arrays
 from polygon_mesh import grid, grid_points, polygon_mesh
 
 SIZE = 8

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+from addon.arrays.border import border_loops
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Ints
+from addon.fill.filling import fill
+from addon.fill.holes import Borders, chosen_borders
+from addon.fill.islands import islands_inside
+from addon.mirror.reflected import Whole
+from addon.options.other_options import FillOptions
 
-from core.arrays import Ints
-from core.border import border_loops
-from core.filling import fill
-from core.holes import Borders, chosen_borders
-from core.islands import islands_inside
-from core.other_options import FillOptions
-from core.reflected import Whole
-from core.region import MeshArrays
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
 
 SIZE = 16

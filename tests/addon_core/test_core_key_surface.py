@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+from addon.arrays.types import Floats
+from addon.remesh.key_surface import NewSurface, Surroundings, key_surfaces
 
 import fairing
 import holes
-from core.arrays import Floats
-from core.key_surface import NewSurface, Surroundings, key_surfaces
 
 RIM = 32
 

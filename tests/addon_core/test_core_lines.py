@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from addon.arrays.lines import WIRES, edges_at_wires, inner_lines
 
-from core.lines import WIRES, edges_at_wires, inner_lines
 from polygon_mesh import grid
 
 

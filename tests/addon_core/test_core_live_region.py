@@ -6,16 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.around import outside_triangles
+from addon.arrays.region import MeshArrays, make_patch
+from addon.arrays.types import Floats, Ints, Mask
+from addon.fair.boundary import boundary
+from addon.fair.held_curves import none, with_pinned_edges
+from addon.fair.solve import solve
+from addon.live.region import LiveRegion, Surroundings, surroundings
+from addon.options.options import FairOptions
 
 import fairing
-from core.around import outside_triangles
-from core.arrays import Floats, Ints, Mask
-from core.boundary import boundary
-from core.held_curves import none, with_pinned_edges
-from core.live_region import LiveRegion, Surroundings, surroundings
-from core.options import FairOptions
-from core.region import MeshArrays, make_patch
-from core.solve import solve
 from polygon_mesh import grid, on_sphere
 
 EYE = np.eye(4)

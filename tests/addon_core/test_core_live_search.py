@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from addon.live.region_search import first, sought
 
 import fairing
-from core.live_search import first, sought
 
 NOWHERE: Any = None
 

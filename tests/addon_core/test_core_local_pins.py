@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats, Ints
+from addon.fair.local_pins import WIDTH, lone_pins, without_lone_pins
+from addon.fair.solve import solve
+from addon.options.options import FairOptions
+from addon.verdict.outcome import outcome
 
-from core.arrays import Floats, Ints
-from core.local_pins import WIDTH, lone_pins, without_lone_pins
-from core.options import FairOptions
-from core.outcome import outcome
-from core.region import MeshArrays
-from core.solve import solve
 from polygon_mesh import grid, on_sphere, polygon_mesh
 
 PULL = 0.06  # a tenth of the selection's half-width

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from core.memory import Memory, digest
-from core.options import FairOptions
+from addon.fair.memory import Memory, digest
+from addon.options.options import FairOptions
 
 
 def test_memory_keeps_what_was_used_last() -> None:

@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from addon.options.items import DISTRIBUTIONS, SHAPES
+from addon.options.options import FairOptions
+from addon.options.other_options import HOLES, CurvesOptions, DenoiseOptions, FilletOptions, FillOptions
+from addon.options.presets import PRESETS
+from addon.options.table import FOLDED, GROUPS, table
 
 import fairing
-from core.option_items import DISTRIBUTIONS, SHAPES
-from core.option_table import FOLDED, GROUPS, table
-from core.options import FairOptions
-from core.other_options import HOLES, CurvesOptions, DenoiseOptions, FilletOptions, FillOptions
-from core.presets import PRESETS
 from fairing import _core
 
 ALL = (FairOptions, FillOptions, FilletOptions, DenoiseOptions, CurvesOptions)

@@ -6,9 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.outline import (
+    face_normals,
+    outline_edges,
+    outline_notes,
+    precision_note,
+    turned_over,
+    turns,
+    two_sided_edges,
+)
+from addon.arrays.types import Floats
 
-from core.arrays import Floats
-from core.outline import face_normals, outline_edges, outline_notes, precision_note, turned_over, turns, two_sided_edges
 from polygon_mesh import grid, grid_points, grid_quads, polygon_mesh
 
 

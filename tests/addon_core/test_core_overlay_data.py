@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.overlay.data import Surface, make_surface
 
-from core.overlay_data import Surface, make_surface
 from polygon_mesh import grid, on_sphere
 
 EYE = np.eye(4)

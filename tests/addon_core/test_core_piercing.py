@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.fair.solve import solve
+from addon.options.options import FairOptions
+from addon.remesh.remeshing import remesh_arrays
+from addon.verdict.outcome import outcome
+from addon.verdict.verdict import LOOK
 
-from core.options import FairOptions
-from core.outcome import outcome
-from core.region import MeshArrays
-from core.remeshing import remesh_arrays
-from core.solve import solve
-from core.verdict import LOOK
 from polygon_mesh import grid_points, grid_quads, polygon_mesh
 
 SIZE = 12

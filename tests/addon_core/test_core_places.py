@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-from core.places import as_indices, renumbered
+from addon.arrays.places import as_indices, renumbered
 
 
 @pytest.mark.parametrize(

@@ -6,13 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from addon.arrays.around import numbered, outside_triangles
+from addon.arrays.region import Patch, make_patch
+from addon.arrays.types import Floats, Ints
+from addon.fair.engine import Problem
+from addon.verdict import quality
 
 import fairing
-from core import quality
-from core.around import numbered, outside_triangles
-from core.arrays import Floats, Ints
-from core.engine import Problem
-from core.region import Patch, make_patch
 from polygon_mesh import grid, grid_points
 
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays, Reflection
+from addon.arrays.types import Floats, Mask
+from addon.fair.solve import solve
+from addon.mirror.reflected import Whole, whole_of
+from addon.options.options import FairOptions
+from addon.verdict.outcome import Fairing, outcome
 
-from core.arrays import Floats, Mask
-from core.options import FairOptions
-from core.outcome import Fairing, outcome
-from core.reflected import Whole, whole_of
-from core.region import MeshArrays, Reflection
-from core.solve import solve
 from polygon_mesh import grid_points, grid_quads, on_sphere, polygon_mesh
 
 SIZE = 16

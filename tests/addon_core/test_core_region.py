@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import fins, free_vertices, make_patch
 
 import fairing
-from core.region import fins, free_vertices, make_patch
 from polygon_mesh import grid, grid_points, grid_quads, polygon_mesh
 
 

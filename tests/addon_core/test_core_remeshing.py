@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from addon.arrays.lines import inner_lines, parting_edges
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats, Mask
+from addon.fair.engine import Problem
+from addon.options.options import FairOptions
+from addon.remesh import remeshing
+from addon.remesh.remeshing import Remeshed, remesh_arrays
+from addon.verdict.verdict import GOOD, LOOK
 
 import fairing
-from core import remeshing
-from core.arrays import Floats, Mask
-from core.engine import Problem
-from core.lines import inner_lines, parting_edges
-from core.options import FairOptions
-from core.region import MeshArrays
-from core.remeshing import Remeshed, remesh_arrays
-from core.verdict import GOOD, LOOK
 from polygon_mesh import grid, on_sphere
 from test_core_answer import EYE, spoilt_sphere
 

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from addon.arrays.types import Ints
+from addon.fair.solve import solve
+from addon.options.options import FairOptions
+from addon.verdict.outcome import Fairing, outcome
+from addon.verdict.quality import Join, Quality
+from addon.verdict.report import MET, MISSED, TOLD, Report, make_report, summary
+from addon.verdict.verdict import GOOD, LOOK, UNUSABLE, Verdict
 
-from core.arrays import Ints
-from core.options import FairOptions
-from core.outcome import Fairing, outcome
-from core.quality import Join, Quality
-from core.report import MET, MISSED, TOLD, Report, make_report, summary
-from core.solve import solve
-from core.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from polygon_mesh import grid, on_sphere
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.fillet.rounding import Rounded, hard, round_arrays
+from addon.options.other_options import FilletOptions
 
-from core.other_options import FilletOptions
-from core.region import MeshArrays
-from core.rounding import Rounded, hard, round_arrays
 from polygon_mesh import polygon_mesh, tube
 
 ALL = np.eye(4)

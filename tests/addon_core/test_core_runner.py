@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from addon.run.runner import NAME, Run, stop_all
 
 import fairing
-from core.runner import NAME, Run, stop_all
 
 
 def test_returns_what_the_work_returns() -> None:
@@ -91,7 +91,7 @@ import sys, time
 sys.path.insert(0, {addon!r})
 import numpy as np
 import fairing
-from core.runner import Run
+from addon.run.runner import Run
 
 size = 60
 y, x = np.mgrid[-1.0 : 1.0 : size * 1j, -1.0 : 1.0 : size * 1j].reshape(2, -1)

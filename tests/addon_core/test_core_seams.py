@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Floats
+from addon.fair.solve import solve
+from addon.options.options import FairOptions
+from addon.verdict.outcome import Fairing, outcome
 
-from core.arrays import Floats
-from core.options import FairOptions
-from core.outcome import Fairing, outcome
-from core.region import MeshArrays
-from core.solve import solve
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 SIZE = 16

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays, make_patch
+from addon.arrays.types import Floats, Mask
+from addon.mirror.symmetry import mirror_map, with_image
+from addon.selection.selection import enclosed_faces, left_out_faces
 
-from core.arrays import Floats, Mask
-from core.region import MeshArrays, make_patch
-from core.selection import enclosed_faces, left_out_faces
-from core.symmetry import mirror_map, with_image
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh, tube
 
 SIZE = 12

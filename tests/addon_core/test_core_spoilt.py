@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.verdict.quality import is_spoilt
 
-from core.quality import is_spoilt
-from core.region import MeshArrays
 from polygon_mesh import grid, on_sphere
 
 MESH = grid(12, 0.6, on_sphere)

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import make_patch
+from addon.mirror.symmetry import FLIP, NEAR, mirror_map, symmetrised
 
-from core.region import make_patch
-from core.symmetry import FLIP, NEAR, mirror_map, symmetrised
 from polygon_mesh import grid, grid_points, grid_quads, polygon_mesh
 
 

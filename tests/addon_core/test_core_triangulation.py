@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-
-from core.triangulation import split_quads, zigzag
+from addon.arrays.triangulation import split_quads, zigzag
 
 
 @pytest.mark.parametrize("size", [5, 6, 9])

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from addon.arrays.types import Ints
+from addon.selection.tunnels import tunnels
 
-from core.arrays import Ints
-from core.tunnels import tunnels
 from polygon_mesh import grid_quads
 
 AROUND, ACROSS = 12, 8

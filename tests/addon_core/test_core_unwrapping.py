@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from addon.arrays.nearest_source import nearest_sources, owners
+from addon.arrays.types import Floats, Ints, Mask
+from addon.remesh.unwrapping import RimUVs, Surface, Unwrapped, unwrapped
 
-from core.arrays import Floats, Ints, Mask
-from core.nearest_source import nearest_sources, owners
-from core.unwrapping import RimUVs, Surface, Unwrapped, unwrapped
 from polygon_mesh import hexagon
 
 RINGS = 8

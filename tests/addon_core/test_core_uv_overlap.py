@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-
-from core.arrays import Floats
-from core.uv_overlap import covering
+from addon.arrays.types import Floats
+from addon.remesh.uv_overlap import covering
 
 
 def sheet(cells: int, low: tuple[float, float] = (0.0, 0.0), size: float = 1.0) -> Floats:

@@ -8,20 +8,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-
-import fairing
-from core.arrays import Ints
-from core.eaten import Eaten
-from core.evidence import Evidence, Flank
-from core.findings import Origin
-from core.lost import Lost
-from core.options import FairOptions
-from core.outcome import outcome
-from core.quality import Join, Quality
-from core.region import MeshArrays
-from core.selection import left_out
-from core.solve import pose, solve
-from core.verdict import (
+from addon.arrays.region import MeshArrays
+from addon.arrays.types import Ints
+from addon.fair.solve import pose, solve
+from addon.options.options import FairOptions
+from addon.selection.selection import left_out
+from addon.verdict.eaten import Eaten
+from addon.verdict.evidence import Evidence, Flank
+from addon.verdict.lost import Lost
+from addon.verdict.outcome import outcome
+from addon.verdict.quality import Join, Quality
+from addon.verdict.verdict import (
     ADD_LEFT_OUT,
     AS_SELECTED,
     EVEN_CURVATURE,
@@ -38,6 +35,9 @@ from core.verdict import (
     Verdict,
     judge,
 )
+from addon.words.findings import Origin
+
+import fairing
 from polygon_mesh import grid, on_sphere, polygon_mesh
 
 MESH = grid(12, 0.6, on_sphere)

@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from addon.arrays.region import MeshArrays
+from addon.arrays.winding import with_one_winding
+from addon.fair.solve import solve
+from addon.options.options import FairOptions
+from addon.verdict.outcome import outcome
 
-from core.options import FairOptions
-from core.outcome import outcome
-from core.region import MeshArrays
-from core.solve import solve
-from core.winding import with_one_winding
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 EYE = np.eye(4)

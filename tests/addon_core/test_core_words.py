@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from addon.arrays.region import make_patch
+from addon.words.findings import Origin, found
+from addon.words.sentences import in_mesh_words, refusal, sentences
+from addon.words.words import ENGLISH, Message, Sentence, case_of, joined, said, sentences_of, worded
 
 import fairing
-from core.findings import Origin, found
-from core.region import make_patch
-from core.sentences import in_mesh_words, refusal, sentences
-from core.words import ENGLISH, Message, Sentence, case_of, joined, said, sentences_of, worded
 from polygon_mesh import grid
 
 ADDON = Path(__file__).parents[2] / "addon"

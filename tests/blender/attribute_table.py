@@ -121,9 +121,9 @@ def apply(
     if way == "remesh":
         properties = {"remesh": True, "spacing": 0.8, **properties}
     if mode == "object" and way == "fill":
-        extension.module("run.fill_mesh").fill_mesh(obj.data, **properties)
+        extension.module("fill.script").fill_mesh(obj.data, **properties)
     elif mode == "object":
-        extension.module("run.fair_mesh").fair_mesh(obj.data, np.flatnonzero(high).tolist(), **properties)
+        extension.module("fair.script").fair_mesh(obj.data, np.flatnonzero(high).tolist(), **properties)
     else:
         meshes.enter(obj, high)
         if way == "fill":

@@ -20,14 +20,14 @@ def inspect(obj: Any, faces: Any, **options: Any) -> Any:
     """Return what the panel would tell about these faces of an object in object mode."""
     meshes.enter(obj, faces)
     try:
-        return module("follow.inspection").inspect(obj, module("core.options").FairOptions(**options))
+        return module("selection.inspection").inspect(obj, module("options.options").FairOptions(**options))
     finally:
         meshes.leave()
 
 
 def give_options(stand: Any, **chosen: Any) -> Any:
     """Give a stand-in for the operator `mesh.fair_region` its options, and return it."""
-    for name, value in {**asdict(module("core.options").FairOptions()), **chosen}.items():
+    for name, value in {**asdict(module("options.options").FairOptions()), **chosen}.items():
         setattr(stand, name, value)
     return stand
 

@@ -13,11 +13,11 @@ from extension import module
 
 
 def run(work: Any) -> Any:
-    return module("core.runner").Run(work)
+    return module("run.runner").Run(work)
 
 
 def tasks_of(obj: Any, faces: Any) -> tuple[Any, Any]:
-    options = module("core.options").FairOptions()
+    options = module("options.options").FairOptions()
     meshes.enter(obj, faces)
     return module("run.job").read(bpy.context, options), options
 
@@ -81,7 +81,7 @@ def test_factor_is_answered_from_memory_with_the_same_bits() -> None:
 
 def test_redo_with_other_options_starts_from_the_last_answer(monkeypatch: pytest.MonkeyPatch) -> None:
     """After a run in the background; the answer is the one from scratch, to the tolerance."""
-    job, options = module("run.job"), module("core.options").FairOptions
+    job, options = module("run.job"), module("options.options").FairOptions
     asked = options.engine_arguments
     monkeypatch.setattr(options, "engine_arguments", lambda chosen: {**asked(chosen), "tolerance": 1e-9})
     obj, faces = meshes.domed_grid()

@@ -79,5 +79,5 @@ def test_a_missing_group_is_refused_and_nothing_changes() -> None:
 
 
 def test_a_band_has_no_effect_beside_it() -> None:
-    options = module("core.options").FairOptions
+    options = module("options.options").FairOptions
     assert options(continuity="G2", continuity_group="Loose", falloff=0.1).idle == ("falloff",)

@@ -79,7 +79,7 @@ def test_a_run_whose_mesh_is_gone_writes_nothing(way: str, refused: bool, go_on:
     operator = started(bpy.context.object, faces, go_on)
     if refused:
         operator._run.cancel()
-        operator._run = module("core.runner").Run(refusal_about(name))
+        operator._run = module("run.runner").Run(refusal_about(name))
     if way == "undone":
         bpy.ops.ed.undo()
         bpy.ops.ed.undo()
@@ -143,7 +143,7 @@ def endless(solve, progress):  # in the engine nearly all the time
 
 def begin_run():
     scene()
-    background, job, options = part("run.background"), part("run.job"), part("core.options").FairOptions()
+    background, job, options = part("run.background"), part("run.job"), part("options.options").FairOptions()
     tasks = job.read(bpy.context, options)
 
     def solve(progress):
@@ -151,13 +151,13 @@ def begin_run():
         job.solve(tasks, options, progress)
 
     background.Signs(bpy.context)
-    return part("core.runner").Run(partial(endless, solve))
+    return part("run.runner").Run(partial(endless, solve))
 
 def begin_search():
-    search = part("follow.search")
+    search = part("live.search")
     search.sought = lambda region, points, matrix, progress: endless(partial(region.afresh, points, matrix), progress)
     scene()
-    home = part("follow.live")
+    home = part("live.live")
     home.PATIENCE, home.moment = 0.15, lambda: 0.0
     assert bpy.ops.mesh.fair_live_region() == {"FINISHED"}
     home.PATIENCE = -1.0  # nothing is found at once

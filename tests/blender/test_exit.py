@@ -31,8 +31,8 @@ for _ in range(20):
     "disabled during a search": """
 import sys
 import bmesh
-home = sys.modules['bl_ext.user_default.intrinsic_fairing.follow.live']
-region = sys.modules['bl_ext.user_default.intrinsic_fairing.core.live_region'].LiveRegion
+home = sys.modules['bl_ext.user_default.intrinsic_fairing.live.live']
+region = sys.modules['bl_ext.user_default.intrinsic_fairing.live.region'].LiveRegion
 answer = region.answer
 
 

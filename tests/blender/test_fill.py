@@ -293,7 +293,7 @@ def test_escape_leaves_the_hole_open() -> None:
     obj = open_sphere()
     select_vertices(obj, lambda _: True)
     count = len(bmesh.from_edit_mesh(obj.data).faces)
-    fill_module, options = module("run.fill"), module("core.other_options").FillOptions()
+    fill_module, options = module("fill.operator"), module("options.other_options").FillOptions()
     tasks = fill_module.read(bpy.context, options)
 
     def work(progress: Any) -> Any:
@@ -302,7 +302,7 @@ def test_escape_leaves_the_hole_open() -> None:
 
     for kind, answer, added in (("ESC", {"CANCELLED"}, False), ("TIMER", {"FINISHED"}, True)):
         operator = stand_in(fill_module.MESH_OT_fair_fill, _asked=fill_module.Asked(tasks, options, 0.0))
-        operator._run = module("core.runner").Run(work)
+        operator._run = module("run.runner").Run(work)
         event = SimpleNamespace(type="TIMER", value="PRESS")
         if not go_on.is_set():
             assert operator.modal(bpy.context, event) == {"RUNNING_MODAL"}

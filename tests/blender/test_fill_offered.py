@@ -19,9 +19,9 @@ from test_panel import Layout
 def redo_panel(**chosen: Any) -> list[str]:
     """Return the options that are in sight."""
     layout = Layout()
-    of = module("core.other_options").FillOptions
+    of = module("options.other_options").FillOptions
     shown = SimpleNamespace(layout=layout, chosen=of, preset_menu="", **{**asdict(of()), **chosen})
-    module("run.fill").MESH_OT_fair_fill.draw(shown, bpy.context)
+    module("fill.operator").MESH_OT_fair_fill.draw(shown, bpy.context)
     return layout.reported
 
 

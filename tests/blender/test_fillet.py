@@ -178,9 +178,9 @@ def test_no_seam_and_open_borders_are_refused() -> None:
 
 def stand() -> Any:
     """The operator's methods without Blender's own part, and what it has read."""
-    fillet = module("run.fillet")
+    fillet = module("fillet.operator")
     made = stand_in(fillet.MESH_OT_fair_fillet, confirm_on_release=False)
-    for name, value in asdict(module("core.other_options").FilletOptions()).items():
+    for name, value in asdict(module("options.other_options").FilletOptions()).items():
         setattr(made, name, value)
     made._asked = made._read(bpy.context)
     return made
@@ -194,7 +194,7 @@ def event(kind: str, value: str = "PRESS", at: tuple[int, int] = (0, 0), ascii: 
 def shown() -> Any:
     """What previews were reported."""
     reported: list[Any] = []
-    fillet = module("run.fillet")
+    fillet = module("fillet.operator")
     fillet.previews.append(reported.append)
     yield reported
     fillet.previews.remove(reported.append)
@@ -277,7 +277,7 @@ def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> Non
 
 def test_scripts_round_the_hard_edges_of_a_mesh() -> None:
     obj = cube()
-    result = module("run.fillet_mesh").fillet_mesh(obj.data, width=WIDTH)
+    result = module("fillet.script").fillet_mesh(obj.data, width=WIDTH)
     assert result.converged
     assert border_edges(obj) == 0
     assert off_the_arc(meshes.positions(obj)).max() < 2e-3
@@ -360,7 +360,7 @@ def test_a_letter_on_a_bent_plate_has_a_fillet_at_its_foot(letter: str) -> None:
     """Of the surface asked for, not of a stand-in; nothing above it moves."""
     obj = letters.on_plate(letter)
     above = [tuple(v.co) for v in obj.data.vertices if v.co.z > letters.HEIGHT - 1e-4]
-    result = module("run.fillet_mesh").fillet_mesh(obj.data, letters.foot(obj), width=0.05)
+    result = module("fillet.script").fillet_mesh(obj.data, letters.foot(obj), width=0.05)
     assert (result.converged, result.provenance) == (True, "equation")
     assert len(result.vertices) > 1000
     assert np.percentile(result.boundary_angle, 80) < 10.0  # more where the letter's upright edges end
@@ -400,10 +400,10 @@ def test_quads_in_no_rows_are_told() -> None:
     obj = cube()
     for vertex in obj.data.vertices:
         vertex.co.z *= 0.2
-    result = module("run.fillet_mesh").fillet_edges(
+    result = module("fillet.script").fillet_edges(
         obj.data,
         edge_mask(obj, lambda ends: abs(ends[0, 2] - ends[1, 2]) < 1e-6),
         None,
-        module("core.other_options").FilletOptions(width=WIDTH, quads=True),
+        module("options.other_options").FilletOptions(width=WIDTH, quads=True),
     )
     assert "The quads are in no rows: the lines beside the seam have no pairs" in result.warnings

@@ -70,7 +70,7 @@ def unmarked_box() -> tuple[bpy.types.Object, meshes.Mask]:
 
 def test_unmarked_edges_that_no_usable_surface_holds_are_let_go(monkeypatch: pytest.MonkeyPatch) -> None:
     """The solve with the edge is made to be not usable: the rounded one is written, and the report says why."""
-    fair_arrays = module("run.fair_arrays")
+    fair_arrays = module("fair.fair_arrays")
     solve = fair_arrays._faired
 
     def spoiled(mesh: Any, *given: Any) -> Any:

@@ -85,7 +85,7 @@ def test_triangles_are_those_that_blender_makes(triangles: bool) -> None:
         bpy.ops.mesh.quads_convert_to_tris()
         meshes.leave()
     mesh = obj.data
-    read = module("mesh.mesh_io").read_shown_mesh(obj, module("core.options").FairOptions())
+    read = module("mesh.mesh_io").read_shown_mesh(obj, module("options.options").FairOptions())
     mesh.calc_loop_triangles()
     assert read.triangles.tolist() == [list(triangle.vertices) for triangle in mesh.loop_triangles]
     assert read.triangle_faces.tolist() == [triangle.polygon_index for triangle in mesh.loop_triangles]

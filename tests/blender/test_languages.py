@@ -107,8 +107,8 @@ def shown() -> set[str]:
                 found.update(of_call(node))
             elif isinstance(node, ast.ClassDef):
                 found.update(of_class(node))
-    found.update(of_operators(), of_settings(), module("core.option_table").GROUPS, module("core.option_table").FOLDED)
-    found.add(module("core.other_options").HOLES)
+    found.update(of_operators(), of_settings(), module("options.table").GROUPS, module("options.table").FOLDED)
+    found.add(module("options.other_options").HOLES)
     for path, tree in sources():
         if path.stem not in FOR_SCRIPTS:
             found.update(refusals(tree))
@@ -136,7 +136,7 @@ def test_no_translation_is_empty(language: str) -> None:
 
 
 def test_a_message_of_a_report_is_worded_though_blender_keeps_its_letters_alone() -> None:
-    said = module("core.words").said("kink", n=2, degrees=31.0)
+    said = module("words.words").said("kink", n=2, degrees=31.0)
     report = bpy.context.window_manager.fairing_report
-    module("run.report_properties").store_refusal(report, "Cube", said)
-    assert module("run.report_properties").message(report.reason) is said
+    module("verdict.properties").store_refusal(report, "Cube", said)
+    assert module("verdict.properties").message(report.reason) is said

@@ -178,7 +178,7 @@ def test_vertices_that_are_not_told_apart_are_not_written(monkeypatch: pytest.Mo
     if not obj.use_dynamic_topology_sculpting:
         bpy.ops.sculpt.dynamic_topology_toggle()
     # As where two vertices lie in one place, and Blender has put them in another order: not each version does.
-    monkeypatch.setattr(module("run.outside"), "renumbered", lambda _before, _now: None)
+    monkeypatch.setattr(module("fair.outside"), "renumbered", lambda _before, _now: None)
     with pytest.raises(RuntimeError, match="lie on each other"):
         bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="MASK")
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -21,7 +21,7 @@ from extension import module
 
 @pytest.fixture
 def live(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    found = module("follow.live")
+    found = module("live.live")
     monkeypatch.setattr(found, "PATIENCE", 60.0)  # a machine with other work is slow; no surface depends on that
     yield found.live
     bpy.context.window_manager.fairing_live.on = False
@@ -213,9 +213,9 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     obj = meshes.grid(12)
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
     meshes.enter(obj, faces)
-    options = module("core.options").FairOptions(bulge=0.4)
-    session = module("follow.session").candidate(obj, options)
-    first = module("core.live_search").first(session.region, session.positions, session.matrix, lambda *_: True)
+    options = module("options.options").FairOptions(bulge=0.4)
+    session = module("live.session").candidate(obj, options)
+    first = module("live.region_search").first(session.region, session.positions, session.matrix, lambda *_: True)
     live.take(obj, session, options, first)
     switch(True)
     height = now()[:, 2].max()
@@ -258,7 +258,7 @@ def test_a_spoilt_outline_is_reported_and_leaves_the_mesh(live: Any) -> None:
 
 def test_a_slow_answer_is_stood_in_for_until_the_end_of_the_drag(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """Out of patience at once: a smooth surface goes along with its outline, and the answer comes when all is quiet."""
-    home = module("follow.live")
+    home = module("live.live")
     monkeypatch.setattr(home, "PATIENCE", -1.0)
     _, faces = table_mountain()
     before = now()
@@ -281,7 +281,7 @@ def test_a_slow_answer_is_stood_in_for_until_the_end_of_the_drag(live: Any, monk
 
 def test_one_surface_fades_into_the_other(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """In a window: no vertex jumps, and in the end the fair surface stands there to the bit."""
-    home = module("follow.live")
+    home = module("live.live")
     table_mountain()
     monkeypatch.setattr(home, "PATIENCE", -1.0)
     drag(flank(now()), (0.0, 0.0, 0.05))
@@ -311,7 +311,7 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
 
     Where it is farthest out, answers come too late: whether they do by themselves is the machine's matter.
     """
-    home = module("follow.live")
+    home = module("live.live")
     obj, _ = table_mountain()
     points = now()
     beside = np.flatnonzero(np.hypot(points[:, 0], points[:, 1]) > 0.9)
@@ -396,7 +396,7 @@ def test_what_cannot_be_live_is_refused() -> None:
     meshes.enter(obj, meshes.faces_where(obj, lambda c: False))
     with pytest.raises(RuntimeError, match="No face is selected"):
         bpy.ops.mesh.fair_live_region()
-    session, options = module("follow.session"), module("core.options")
+    session, options = module("live.session"), module("options.options")
     meshes.leave()
     meshes.enter(obj, meshes.faces_where(obj, lambda c: abs(c.x) < 0.7 and abs(c.y) < 0.7))
     before = now()

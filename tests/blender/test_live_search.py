@@ -46,16 +46,16 @@ class Slow:
 
 @pytest.fixture
 def home(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    found = module("follow.live")
+    found = module("live.live")
     monkeypatch.setattr(found, "moment", lambda: 0.0)
     yield found
     switch(False)
-    module("core.runner").stop_all()
+    module("run.runner").stop_all()
 
 
 @pytest.fixture
 def slow(home: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Slow]:
-    kind = module("core.live_region").LiveRegion
+    kind = module("live.region").LiveRegion
     way = Slow(kind.answer)
     table_mountain()
     monkeypatch.setattr(kind, "answer", lambda *given: way(*given))
@@ -149,7 +149,7 @@ def test_leaving_edit_mode_meanwhile(home: Any, slow: Slow) -> None:
     meshes.leave()
     assert tick(home) is None
     slow.go.set()
-    module("core.runner").stop_all()
+    module("run.runner").stop_all()
     assert tick(home) is None
     obj = bpy.data.objects["Grid"]
     np.testing.assert_array_equal(meshes.positions(obj), carried)
@@ -178,7 +178,7 @@ def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, wa
     assert tick(home) is None
     assert search.stopped
     slow.go.set()
-    module("core.runner").stop_all()
+    module("run.runner").stop_all()
     assert tick(home) is None
     if way in ("switched off", "forgotten"):
         assert np.array_equal(now(), carried)
@@ -187,7 +187,7 @@ def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, wa
 
 def test_a_script_waits_for_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a window nobody would look at the timer: switching Live on gives the fair surface at once."""
-    home = module("follow.live")
+    home = module("live.live")
     assert home.moment() is None
     table_mountain()
     switch(False)

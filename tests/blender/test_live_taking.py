@@ -26,7 +26,7 @@ class Gate:
 
 @pytest.fixture
 def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
-    kind, found = module("core.live_region").LiveRegion, Gate()
+    kind, found = module("live.region").LiveRegion, Gate()
     real = kind.answer
 
     def slow(region: Any, *rest: Any) -> Any:
@@ -40,13 +40,13 @@ def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
     yield found
     found.go.set()
     switch(False)
-    module("core.runner").stop_all()
+    module("run.runner").stop_all()
 
 
 def clicked() -> Any:
     """A stand-in for the operator with its methods, called as a click would."""
     watching = lambda stand, context: setattr(stand, "_signs", module("run.background").Signs(context))  # noqa: E731
-    return stand_in(module("follow.taking").MESH_OT_fair_live_region, _start_watching=watching)
+    return stand_in(module("live.start").MESH_OT_fair_live_region, _start_watching=watching)
 
 
 def mountain() -> bpy.types.Object:
@@ -116,7 +116,7 @@ def test_blender_goes_on_until_the_surface_is_there(gate: Gate) -> None:
     gate.go.set()
     assert operator._run.wait(10.0)
     assert tick(operator) == {"FINISHED"}
-    live = module("follow.live").live
+    live = module("live.live").live
     assert (live.message, live.stands_in(), live.updates) == ("", False, 0)
     assert np.abs(now() - before).max() > 1e-3
     assert bpy.context.window_manager.fairing_live.on
@@ -164,12 +164,12 @@ def test_the_even_surface_stands_in_and_says_so(gate: Gate) -> None:
     gate.go.set()
     assert operator._run.wait(30.0)
     assert tick(operator) == {"FINISHED"}
-    assert module("follow.live").live.message == module("follow.live").STAND_IN
+    assert module("live.live").live.message == module("live.live").STAND_IN
     assert np.abs(now() - before).max() > 1e-3
 
 
 def test_without_a_surface_nothing_changes(gate: Gate, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module("core.live_region").LiveRegion, "stand_in", lambda *_: None)
+    monkeypatch.setattr(module("live.region").LiveRegion, "stand_in", lambda *_: None)
     operator, before = begun()
     gate.stands_in = True
     gate.go.set()
@@ -181,7 +181,7 @@ def test_without_a_surface_nothing_changes(gate: Gate, monkeypatch: pytest.Monke
 
 @pytest.fixture
 def live(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    found = module("follow.live")
+    found = module("live.live")
     monkeypatch.setattr(found, "PATIENCE", 60.0)
     yield found.live
     switch(False)
@@ -229,7 +229,7 @@ def test_a_session_put_aside_is_not_taken_for_another(live: Any) -> None:
     name = dented_ball().name
     bpy.ops.ed.undo_push(message="start")
     bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True)
-    mesh, home = bpy.data.objects[name].data, module("follow.session")
+    mesh, home = bpy.data.objects[name].data, module("live.session")
     session = live.sessions[mesh.name]
     assert home.is_of(session, mesh)
     kept = mesh["fair_live_options"]

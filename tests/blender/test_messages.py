@@ -15,7 +15,7 @@ from extension import give_options, inspect, module, stand_in
 def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     """Return the infos and warnings of a run, from and to object mode."""
     execute = module("run.background").Watched.execute
-    stand = give_options(stand_in(module("run.operators").MESH_OT_fair_region, execute=execute), **properties)
+    stand = give_options(stand_in(module("fair.operator").MESH_OT_fair_region, execute=execute), **properties)
     meshes.edit(*objects)
     try:
         stand.execute(bpy.context)

@@ -22,7 +22,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
     """Return an operator whose run has begun and waits for `go_on`; a stand-in with its methods."""
     import fairing
 
-    job, options = module("run.job"), module("core.options").FairOptions()
+    job, options = module("run.job"), module("options.options").FairOptions()
     meshes.enter(obj, faces)
     job.memory.clear()
     tasks = job.read(bpy.context, options)
@@ -33,10 +33,10 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
                 raise fairing.Cancelled
         return job.solve(tasks, options, progress)
 
-    stand = stand_in(module("run.operators").MESH_OT_fair_region)
-    stand._asked = module("run.finish").Asked(tasks, options, (), 0.0)
+    stand = stand_in(module("fair.operator").MESH_OT_fair_region)
+    stand._asked = module("fair.finish").Asked(tasks, options, (), 0.0)
     stand._signs = module("run.background").Signs(bpy.context)
-    stand._run = module("core.runner").Run(work)
+    stand._run = module("run.runner").Run(work)
     return stand
 
 
@@ -103,7 +103,7 @@ def test_clicks_reach_the_buttons_that_cancel(place: Any, category: str, passes:
 
 def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypatch: pytest.MonkeyPatch) -> None:
     """Sculpt mode goes on meanwhile; what comes out is what a script gets, and nothing where the mesh has changed."""
-    outside, background = module("run.outside"), module("run.background")
+    outside, background = module("fair.outside"), module("run.background")
     scripted, faces = meshes.domed_grid()
     obj, _ = meshes.domed_grid()
     for each in (scripted, obj):
@@ -124,7 +124,7 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
 
     def started_masked() -> Any:
         watching = lambda stand, context: setattr(stand, "_signs", background.Signs(context))  # noqa: E731
-        stand = stand_in(module("run.masked").MESH_OT_fair_masked, _start_watching=watching)
+        stand = stand_in(module("fair.masked").MESH_OT_fair_masked, _start_watching=watching)
         give_options(stand)
         stand.source, stand.face_set, stand.group, stand.under_mouse = "MASK", 0, "", False
         stand.is_repeated = lambda _context: False
@@ -164,7 +164,7 @@ def test_the_first_surface_is_shown_meanwhile(end: str, go_on: threading.Event) 
     """At the next look of the timer; whatever ends the run, the mesh is what the run alone makes of it."""
     job, preview_of = module("run.job"), module("run.preview")
     alone, faces = meshes.domed_grid()
-    fair = module("core.options").FairOptions()
+    fair = module("options.options").FairOptions()
     if end == "the run":
         meshes.fair(alone, faces)
         meshes.leave()
@@ -203,7 +203,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
     quick: bool, go_on: threading.Event, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A selection without a fair surface keeps the engine busy however small it is."""
-    job, operators = module("run.job"), module("run.operators")
+    job, operators = module("run.job"), module("fair.operator")
     background = module("run.background")
     scripted, faces = meshes.domed_grid()
     meshes.fair(scripted, faces)
@@ -276,7 +276,7 @@ def test_refusal_at_the_end_is_reported(go_on: threading.Event) -> None:
     def refused(_progress: Any) -> Any:
         raise module("run.job").Refused(obj.name, ValueError("no"))
 
-    operator._run = module("core.runner").Run(refused)
+    operator._run = module("run.runner").Run(refused)
     assert operator._run.wait(10.0)
     assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
     assert operator.reported == [({"ERROR"}, f"{obj.name}: no")]

@@ -16,7 +16,7 @@ from test_refusals import add_tent
 
 @pytest.fixture
 def overlay() -> Any:
-    found = module("show.overlay")
+    found = module("overlay.overlay")
     yield found.overlay
     found.stop()
 
@@ -61,15 +61,15 @@ def test_a_ball_is_red_in_all_modes(overlay: Any, mode: str, monkeypatch: pytest
     meshes.sphere(48)
     settings().show = True
     sent: dict[str, Any] = {}
-    monkeypatch.setattr(module("show.overlay"), "batch_for_shader", lambda *args, **_: sent.update(args[2]))
-    module("show.overlay")._batch(None, overlay.surfaces[0], mode)
+    monkeypatch.setattr(module("overlay.overlay"), "batch_for_shader", lambda *args, **_: sent.update(args[2]))
+    module("overlay.overlay")._batch(None, overlay.surfaces[0], mode)
     assert (sent["curvature"] > 0.0).all()
-    assert module("core.overlay_data").sense("DEVIATION") == 1.0
+    assert module("overlay.data").sense("DEVIATION") == 1.0
 
 
 def test_gaussian_curvature_tells_saddles_from_cylinders() -> None:
     """z = (x² ± y²) / 2 has K = ±1 in the middle, a parabolic cylinder none; the larger principal one bends alike."""
-    curvatures = module("core.curvatures")
+    curvatures = module("overlay.curvatures")
     steps = np.linspace(-0.3, 0.3, 41)
     x, y = (grid.ravel() for grid in np.meshgrid(steps, steps))
     corner = (np.arange(40)[:, None] * 41 + np.arange(40)).ravel()
@@ -90,7 +90,7 @@ def test_gaussian_curvature_tells_saddles_from_cylinders() -> None:
 def test_gaussian_curvature_survives_triangles_without_an_area() -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0]], dtype=float)
     up = np.tile([0.0, 0.0, 1.0], (4, 1))
-    found = module("core.curvatures").gaussian_curvature(points, np.array([[0, 1, 2], [0, 1, 3]]), up)
+    found = module("overlay.curvatures").gaussian_curvature(points, np.array([[0, 1, 2], [0, 1, 3]]), up)
     np.testing.assert_array_equal(found, 0.0)
 
 
@@ -130,11 +130,11 @@ def test_deviation_has_the_side_of_the_normals() -> None:
 
 
 def test_the_legend_says_what_the_colours_stand_for() -> None:
-    legend = module("show.legend")
+    legend = module("overlay.legend")
     assert legend.texts("DEVIATION", 0.1, -0.25) == ("Deviation   largest -0.25", "-0.1", "0", "+0.1")
     ends = legend.colours(np.array([-1.0, 0.0, 1.0]))
     np.testing.assert_allclose(ends, [legend.LOW, legend.MIDDLE, legend.HIGH])
-    shader = module("show.overlay_shader")._FRAGMENT
+    shader = module("overlay.shader")._FRAGMENT
     for colour in (legend.LOW, legend.HIGH):
         assert "vec3({:.2f}, {:.2f}, {:.2f})".format(*colour) in shader
 
@@ -146,13 +146,13 @@ def test_follows_edits(overlay: Any) -> None:
     before = overlay.surfaces[0].curvature.copy()
     meshes.run()
     bpy.context.view_layer.update()
-    module("show.overlay")._measure_later()  # the timer's function; a background process runs no timers
+    module("overlay.overlay")._measure_later()  # the timer's function; a background process runs no timers
     assert np.abs(overlay.surfaces[0].curvature - before).max() > 0.1
-    assert bpy.app.timers.is_registered(module("show.overlay")._measure_later)
+    assert bpy.app.timers.is_registered(module("overlay.overlay")._measure_later)
 
 
 def test_measuring_is_no_change(overlay: Any) -> None:
-    later = module("show.overlay")._measure_later
+    later = module("overlay.overlay")._measure_later
     obj, faces = meshes.domed_grid()
     meshes.enter(obj, faces)
     settings().show = True

@@ -109,7 +109,7 @@ def test_inspection_without_free_vertices() -> None:
 
 
 def test_drawing_the_panel_never_looks(monkeypatch: pytest.MonkeyPatch) -> None:
-    watch = module("follow.watch")
+    watch = module("selection.watch")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -129,7 +129,7 @@ def test_drawing_the_panel_never_looks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_selecting_makes_the_last_look_stale() -> None:
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -145,7 +145,7 @@ def test_selecting_makes_the_last_look_stale() -> None:
 
 
 def test_large_meshes_are_looked_at_on_demand() -> None:
-    watch = module("follow.watch")
+    watch = module("selection.watch")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
@@ -172,20 +172,20 @@ def test_report_is_drawn() -> None:
 
 def options_of(operator: str) -> Any:
     """Return the class of an operator's options."""
-    others = module("core.other_options")
+    others = module("options.other_options")
     return {
-        "fair": module("core.options").FairOptions, "fill": others.FillOptions, "fillet": others.FilletOptions,
+        "fair": module("options.options").FairOptions, "fill": others.FillOptions, "fillet": others.FilletOptions,
     }[operator]  # fmt: skip
 
 
 def in_redo_panel(opened: bool, operator: str = "fair", **chosen: Any) -> list[str]:
     """Return the options that the redo panel shows, in its order."""
     obj, of = meshes.grid(), options_of(operator)
-    panel = module("run.redo_panel")
+    panel = module("options.redo_panel")
     layout, manager = Layout(), bpy.context.window_manager
     setattr(manager, panel.ADVANCED, opened)
     panel.draw_options(layout, SimpleNamespace(chosen=of, preset_menu="", **{**asdict(of()), **chosen}), obj, manager)
-    return [text for text in layout.reported if module("core.option_table").named(of, text)]
+    return [text for text in layout.reported if module("options.table").named(of, text)]
 
 
 EVERYDAY = [
@@ -238,7 +238,7 @@ def test_what_is_hidden_has_no_effect(first: Any, second: Any) -> None:
     of = options_of("fair")
     chosen = {**asdict(of()), **first, **second}
     plain = of.named(chosen)
-    for option in module("core.option_table").table(of):
+    for option in module("options.table").table(of):
         if option.counts(plain) or option.is_set(SimpleNamespace(**chosen)):
             continue
         other = {str: "X", float: 0.3, bool: not option.default, int: 3}[type(option.default)]
@@ -265,7 +265,7 @@ def test_every_kind_of_button_is_drawn_without_an_object() -> None:
     fair = options_of("fair")
     layout, manager = Layout(), bpy.context.window_manager
     shown = SimpleNamespace(chosen=fair, preset_menu="", **asdict(fair()))
-    module("run.redo_panel").draw_options(layout, shown, None, manager)
+    module("options.redo_panel").draw_options(layout, shown, None, manager)
     assert "factor" in layout.reported
 
 
@@ -279,18 +279,18 @@ def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
     shown.verdict, shown.reason, shown.remedies = "GOOD", "", ""
     assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Good", "One"]
     assert drawn("VIEW3D_PT_fairing_details").splitlines()[:2] == ["Grid", "Two"]
-    module("run.report_properties").clear(shown)
+    module("verdict.properties").clear(shown)
 
 
 @pytest.mark.parametrize("operator", ["mesh.fair_region", "mesh.fair_fill"])
 def test_the_menu_of_the_redo_panel_has_the_presets(operator: str) -> None:
-    home = module("run.presets")
+    home = module("options.preset_operators")
     layout = Layout()
     menu = {"mesh.fair_region": home.MESH_MT_fair_region_presets, "mesh.fair_fill": home.MESH_MT_fair_fill_presets}
     shown = SimpleNamespace(layout=layout, operator=operator)
     home.draw_own(shown)
     assert menu[operator].operator == operator
-    assert layout.reported == list(module("core.presets").PRESETS[operator][1])
+    assert layout.reported == list(module("options.presets").PRESETS[operator][1])
 
 
 def test_a_preset_gives_the_last_run_its_options_and_the_defaults() -> None:
@@ -298,7 +298,7 @@ def test_a_preset_gives_the_last_run_its_options_and_the_defaults() -> None:
     meshes.enter(obj, faces)
     assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, factor=0.5) == {"FINISHED"}
     last = bpy.context.window_manager.operators[-1].properties
-    home = module("run.presets")
+    home = module("options.preset_operators")
     home.give("mesh.fair_region", "Limb or Tube", last)
     assert (last.factor, last.shape) == (1.0, "LEAST_VARIATION")
     meshes.leave()
@@ -307,19 +307,19 @@ def test_a_preset_gives_the_last_run_its_options_and_the_defaults() -> None:
 @pytest.mark.parametrize("name", ["Remove Feature", "Repair Scan", "Limb or Tube", "Class A", "Fillet", "Soften"])
 def test_presets_run(name: str) -> None:
     obj, faces = meshes.domed_grid()
-    assert meshes.fair(obj, faces, **module("core.presets").PRESETS["mesh.fair_region"][1][name]) == {"FINISHED"}
+    assert meshes.fair(obj, faces, **module("options.presets").PRESETS["mesh.fair_region"][1][name]) == {"FINISHED"}
 
 
 def test_presets_are_offered_beside_the_button() -> None:
     layout = Layout()
-    home = module("run.presets")
+    home = module("options.preset_operators")
     home.MESH_MT_fair_fill_runs.draw(SimpleNamespace(layout=layout, operator="mesh.fair_fill"), bpy.context)
     assert layout.reported == ["Fill Holes", "Small Holes Only", "Flat Lid", "Bridge", "Class A"]
 
 
 def test_what_the_last_run_had_is_shown_and_reset() -> None:
     """By its label; the cross brings the default back."""
-    chosen = module("show.chosen_options")
+    chosen = module("options.chosen")
     last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
     for name in chosen.last_chosen(bpy.context):
         last.property_unset(name)

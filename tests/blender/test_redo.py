@@ -402,7 +402,7 @@ def event(kind: str, value: str) -> Any:
 
 def test_the_tools_arrows_wait_until_no_thread_is_left(region: Panel) -> None:
     """One that searches for a live region, say: Blender crashes where it runs beside an operator of a timer."""
-    gizmos, run = module("show.gizmos"), module("core.runner").Run
+    gizmos, run = module("show.gizmos"), module("run.runner").Run
     region.change(shape="LEAST_VARIATION")
     leave = threading.Event()
     other = run(lambda _progress: leave.wait())
@@ -438,7 +438,7 @@ def test_what_is_refused_after_another_selection_leaves_what_is_shown(region: Pa
 
 @pytest.mark.parametrize(("mode", "source"), [("SCULPT", "MASK"), ("OBJECT", "VERTEX_GROUP")])
 def test_outside_edit_mode_nothing_waits_either(mode: str, source: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    redo, outside = module("run.redo"), module("run.outside")
+    redo, outside = module("run.redo"), module("fair.outside")
     scripted, obj = (masked() for _ in range(2))
     before = meshes.positions(obj)
     bpy.context.view_layer.objects.active = scripted

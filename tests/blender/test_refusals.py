@@ -91,7 +91,7 @@ NAMERS = {": Vertex": spoil_middle, ": Free vertex": join_fans}
 @pytest.mark.parametrize("ahead", [False, True])
 @pytest.mark.parametrize("text", sorted(NAMERS))
 def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
-    job, options = module("run.job"), module("core.options").FairOptions()
+    job, options = module("run.job"), module("options.options").FairOptions()
     obj, _ = meshes.domed_grid()
     (vertex,) = NAMERS[text](obj)
     faces = meshes.faces_where(obj, lambda c: not max(abs(c.x), abs(c.y)) >= 0.7)
@@ -110,7 +110,7 @@ def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None
     job = module("run.job")
     job.memory.clear()  # another test may have faired this very mesh: that answer needs no engine
     job.solvers.clear()
-    monkeypatch.setattr(module("core.engine").fairing, "fair", refuse)
+    monkeypatch.setattr(module("fair.engine").fairing, "fair", refuse)
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)
     with pytest.raises(RuntimeError, match=r"7\.0 GB"):

@@ -55,7 +55,7 @@ def test_a_loop_stands_for_the_faces_inside(kind: str) -> None:
     meshes.edit(obj)
     select_loop(obj, faces, kind)
     assert obj.data.total_face_sel == 0 or kind == "VERT"
-    found = module("follow.inspection").inspect(obj, module("core.options").FairOptions())
+    found = module("selection.inspection").inspect(obj, module("options.options").FairOptions())
     assert (found.faces, found.refusal) == (faces.sum(), "")
     assert meshes.run() == {"FINISHED"}
     meshes.leave()
@@ -70,7 +70,7 @@ def test_left_out_faces_are_offered_and_added() -> None:
     assert inspect(obj, faces & ~hole).left_out == 1
     assert inspect(obj, faces).left_out == 0
     meshes.enter(obj, faces & ~hole)
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
     watch.look(bpy.context)
     assert "Add Left-Out Faces" in drawn("VIEW3D_PT_fairing_selection")
     assert bpy.ops.mesh.fair_select(what="LEFT_OUT") == {"FINISHED"}
@@ -95,7 +95,7 @@ def test_bad_outline_vertices_are_marked_and_selected() -> None:
     points = meshes.positions(obj)
     obj.location = (0.0, 0.0, 5.0)
     meshes.enter(obj, faces)
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
     marks = module("show.marks")
     bpy.context.view_layer.update()
     watch.look(bpy.context)

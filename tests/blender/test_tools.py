@@ -70,7 +70,7 @@ def test_a_gesture_is_a_selection_and_a_run(name: str) -> None:
 
 
 def test_a_stroke_leaves_no_gap() -> None:
-    between = module("run.strokes").between
+    between = module("fair.strokes").between
     assert list(between((0, 0), (0, 0), 5.0)) == [(0, 0)]
     places = np.array([(3.0, 1.0), *between((3, 1), (33, -39), 7.0)])
     assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() <= 7.0
@@ -102,7 +102,7 @@ def test_the_arrow_of_a_width_begins_at_the_seam() -> None:
     for edge in bm.edges:
         edge.select_set(all(v.co.x > 0.0 and v.co.z > 0.0 for v in edge.verts))
     assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3) == {"FINISHED"}
-    foot, away = module("run.fillet").handle.flank
+    foot, away = module("fillet.operator").handle.flank
     np.testing.assert_allclose(foot, (1.0, 0.0, 1.0), atol=1e-6)
     assert min(np.linalg.norm(away - d) for d in ((-1, 0, 0), (0, 0, -1))) < 1e-6
     options_of, operator = module("show.gizmos").options_of, bpy.context.window_manager.operators[-1]
@@ -111,7 +111,7 @@ def test_the_arrow_of_a_width_begins_at_the_seam() -> None:
 
 
 def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch) -> None:
-    masked = module("run.masked")
+    masked = module("fair.masked")
     obj, faces = meshes.domed_grid()
     by_number, _ = meshes.domed_grid()
     for each in (obj, by_number):
@@ -124,7 +124,7 @@ def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch)
     parts = (
         module("run.background").Watched,
         module("host.picking").Picks,
-        module("run.outside").FairsOutside,
+        module("fair.outside").FairsOutside,
         masked.MESH_OT_fair_masked,
     )
     methods = {name: value for part in parts for name, value in vars(part).items() if not name.startswith("__")}
@@ -143,5 +143,5 @@ def test_letting_go_accepts_a_fillet_of_the_tool_alone() -> None:
         stand._accept = lambda _context, done=done: done.append(True) or {"FINISHED"}
         stand._say = lambda _context: None
         release = SimpleNamespace(type="LEFTMOUSE", value="RELEASE", ascii="")
-        module("run.fillet").MESH_OT_fair_fillet.modal(stand, bpy.context, release)
+        module("fillet.operator").MESH_OT_fair_fillet.modal(stand, bpy.context, release)
         assert bool(done) == accepted

@@ -30,7 +30,7 @@ LESSONS = {lesson.file: lesson for lesson in lesson_page.lessons()}
 @pytest.fixture(autouse=True)
 def unhurried(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Live has as long as it takes: no surface depends on that."""
-    monkeypatch.setattr(module("follow.live"), "PATIENCE", 60.0)
+    monkeypatch.setattr(module("live.live"), "PATIENCE", 60.0)
     yield
     bpy.context.window_manager.fairing_live.on = False
 

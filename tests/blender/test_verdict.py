@@ -75,7 +75,7 @@ def test_write_it_all_the_same() -> None:
     meshes.edit(obj)
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
-    assert module("follow.inspection").last_options(bpy.context).accept == "USABLE"
+    assert module("selection.inspection").last_options(bpy.context).accept == "USABLE"
     meshes.leave()
 
 
@@ -168,11 +168,11 @@ def test_automatic_keeps_no_texture_that_folds(aside: float) -> None:
 @pytest.mark.usefixtures("takes_any_texture")
 def test_automatic_refuses_where_even_vertices_are_not_usable_either(monkeypatch: pytest.MonkeyPatch) -> None:
     pulled_pin()
-    home, tried = module("run.fair_arrays"), []
+    home, tried = module("fair.fair_arrays"), []
 
     def unusable(mesh: Any, matrix: Any, options: Any, solved: Any, progress: Any) -> Any:
         tried.append(options.inner_fairness)
-        found = module("core.outcome").outcome(mesh, matrix, options, solved, progress)
+        found = module("verdict.outcome").outcome(mesh, matrix, options, solved, progress)
         return replace(found, verdict=replace(found.verdict, grade="UNUSABLE"))
 
     monkeypatch.setattr(home, "outcome", unusable)
@@ -235,11 +235,11 @@ def test_the_region_is_selected_again() -> None:
     for other in ("SPOTS", "BAD"):
         assert bpy.ops.mesh.fair_select(what=other) == {"FINISHED"}
         assert selected_faces(obj) == []
-        module("follow.watch").watch.look(bpy.context)
+        module("selection.watch").watch.look(bpy.context)
         assert "Select Region Again" in drawn("VIEW3D_PT_fairing_selection")
         assert bpy.ops.mesh.fair_select(what="REGION") == {"FINISHED"}
         assert selected_faces(obj) == np.flatnonzero(faces).tolist()
-        module("follow.watch").watch.look(bpy.context)
+        module("selection.watch").watch.look(bpy.context)
         assert "Select Region Again" not in drawn("VIEW3D_PT_fairing_selection")
     meshes.leave()
 
@@ -288,7 +288,7 @@ def test_nothing_is_said_in_both_panels() -> None:
     faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7) & ~hole
     meshes.enter(obj, faces)
     meshes.run()
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
     watch.look(bpy.context)
     assert "single face" in meshes.report().warnings  # scripts get all of it
     assert "single face" in drawn("VIEW3D_PT_fairing_selection").replace("\n", " ")

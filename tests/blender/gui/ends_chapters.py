@@ -50,7 +50,7 @@ class _Held:
 
 
 def _hold_searches() -> None:
-    home = module("follow.search")
+    home = module("live.search")
     seek = home.sought
 
     def sought(*arguments: Any) -> Any:
@@ -64,7 +64,7 @@ def _hold_searches() -> None:
 
 def _begin_search() -> Story:
     """Have Live search for the surface of a large region."""
-    home = module("follow.live")
+    home = module("live.live")
     _hold_searches()
     scenes.large()
     set_options()
@@ -261,7 +261,7 @@ def quits_during_a_run() -> Story:
 
 def quits_after_a_cancel() -> Story:
     """Cancelled, the thread goes on to the engine's next question."""
-    yield from _quit(_begin_run, lambda: module("core.runner")._begun[-1][1].set())
+    yield from _quit(_begin_run, lambda: module("run.runner")._begun[-1][1].set())
 
 
 def quits_during_a_search() -> Story:

@@ -63,7 +63,7 @@ def fillet_is_dragged() -> Story:
     open_tab()
     yield 1.0
     before = scenes.contents()
-    fillet, said, shown = module("run.fillet"), list[Any](), list[Any]()
+    fillet, said, shown = module("fillet.operator"), list[Any](), list[Any]()
     say = fillet.say
     fillet.say = lambda context, text: (said.append(text), say(context, text))
     preview = shown.append

@@ -224,7 +224,7 @@ def live() -> Story:
     yield from drag(10, (90, 20))
     yield from _key("LEFTMOUSE")
     yield 1.0
-    free = next(iter(module("follow.live").live.sessions.values())).region.free
+    free = next(iter(module("live.live").live.sessions.values())).region.free
     assert np.abs(scenes.positions() - before)[free].max() > 0.05
     bpy.context.window_manager.fairing_live.on = False
 

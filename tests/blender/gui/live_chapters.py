@@ -95,7 +95,7 @@ def _off_sphere() -> float:
 
 
 def _live() -> Any:
-    return module("follow.live").live
+    return module("live.live").live
 
 
 def _session() -> Any:
@@ -195,7 +195,7 @@ def _tell_longest(spent: list[tuple[float, float]]) -> None:
 @contextmanager
 def _answers() -> Iterator[list[tuple[float, float]]]:
     """Give the seconds that each change costs Live, from reading to writing: by the wall, of the processor."""
-    home = module("follow.live")
+    home = module("live.live")
     follow, spent = home.follow, list[tuple[float, float]]()
 
     def timed(obj: Any) -> bool:

@@ -79,7 +79,7 @@ def set_options(**options: Any) -> None:
     _options.clear()
     _options.update(options)
     last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    for option in module("core.option_table").table(module("core.options").FairOptions):
+    for option in module("options.table").table(module("options.options").FairOptions):
         last.property_unset(option.name)
     for name, value in options.items():
         setattr(last, name, value)
@@ -87,7 +87,7 @@ def set_options(**options: Any) -> None:
 
 def solve_to(tolerance: float | None) -> None:
     """Have every solve end at that tolerance, so that it takes long; None: as usual."""
-    options = module("core.options").FairOptions
+    options = module("options.options").FairOptions
     usual = vars(solve_to).setdefault("usual", options.engine_arguments)
     options.engine_arguments = usual if tolerance is None else (lambda o: {**usual(o), "tolerance": tolerance})
 

@@ -250,7 +250,7 @@ def _wider_fillet() -> Story:
         bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3)
     yield 1.5
     screenshot("arrow_width")
-    foot, away = module("run.fillet").handle.flank
+    foot, away = module("fillet.operator").handle.flank
     count = len(scenes.positions())
     begin, end = _in_window(foot + 0.35 * away, foot + 0.9 * away)
     yield from _pull(begin, end)

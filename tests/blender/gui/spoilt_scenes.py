@@ -178,7 +178,7 @@ def level_positions() -> Any:
     """The positions (n, 3) of the level that brushes show, by an object of its own."""
     levels, obj = module("mesh.levels"), bpy.context.object
     level = obj.modifiers[0].sculpt_levels
-    with module("run.outside").in_object_mode(obj), levels.at_level(obj, level) as shown:
+    with module("fair.outside").in_object_mode(obj), levels.at_level(obj, level) as shown:
         return module("mesh.painted").positions(shown.data)
 
 

@@ -78,7 +78,7 @@ def look_before_running() -> Story:
     with in_view():
         bpy.ops.view3d.view_selected()
     open_tab()
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
 
     def looked() -> bool:
         return bool(not watch.stale and watch.found)
@@ -98,7 +98,7 @@ def reported_before_running() -> Story:
     """The panel says why nothing would happen, and running says the same and changes nothing."""
     scenes.single_face()
     open_tab()
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
 
     def has_said() -> bool:
         return bool(not watch.stale and watch.found and "No vertex is free" in watch.found[0].refusal)
@@ -185,7 +185,7 @@ def judge() -> Story:
 
 def _overlay_is_measured() -> bool:
     """Whether the overlay shows the mesh as it is: it is measured between two redraws, which take a while here."""
-    (surface,) = module("show.overlay").overlay.surfaces
+    (surface,) = module("overlay.overlay").overlay.surfaces
     return np.allclose(surface.positions, scenes.positions(), atol=1e-6)
 
 

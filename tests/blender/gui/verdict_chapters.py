@@ -37,7 +37,7 @@ def run_and_wait(**options: Any) -> Story:
 
 def _look() -> Story:
     """Wait until the panel has looked at the selection."""
-    watch = module("follow.watch").watch
+    watch = module("selection.watch").watch
     open_tab()
 
     def looked() -> bool:
@@ -61,7 +61,7 @@ def marks_before_a_run() -> Story:
     set_options()
     yield from framed(spoilt_scenes.spoilt_rim)
     yield from _look()
-    (found,) = module("follow.watch").watch.found
+    (found,) = module("selection.watch").watch.found
     assert len(found.bad) > 3, found
     tell(f"bad outline vertices: {len(found.bad)}")
     screenshot("marks")

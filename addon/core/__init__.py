@@ -1,1 +1,0 @@
-"""Arrays in, arrays out: the patch, its boundary, the engine's answer, the report. numpy and `fairing`, no Blender."""

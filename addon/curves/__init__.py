@@ -1,0 +1,1 @@
+"""Fair From Curves: a surface over edges that have no faces."""

@@ -1,0 +1,1 @@
+"""Fair Denoise: faces without their roughness."""

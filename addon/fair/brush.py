@@ -1,0 +1,134 @@
+# mypy: disable-error-code="valid-type"
+"""The brush of sculpt mode: what is painted over becomes fair when the button is let go, with the brush's falloff.
+
+No postponed annotations here: Blender reads them as property definitions.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import bpy
+import numpy as np
+from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty
+
+from ..arrays.types import Floats, Ints
+from ..host.context import active_object
+from ..host.dragging import pixel_size
+from ..host.picking import place_at
+from ..host.polling import require
+from ..mesh import levels, painted
+from ..options.options import FairOptions
+from ..run.background import Watched
+from ..translations import translated
+from ..words.words import said
+from .brushed import paint
+from .outside import FairsOutside, Task, check_shown
+from .strokes import Stroke
+
+ABOVE = 0.01  # of the brush's reach, by which what is painted is shown above the surface
+
+# Given places (n, 3) in world space, triangles (t, 3) and weights (n,); no triangles: the end.
+shows: list[Callable[[Floats, Ints, Floats], None]] = []
+
+
+class FairDab(bpy.types.PropertyGroup):
+    """One place of the brush on the surface"""
+
+    place: FloatVectorProperty(size=3)
+    reach: FloatProperty()
+
+
+class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
+    """Paint over what is to become fair and let go. Masked vertices stay"""
+
+    bl_idname = "mesh.fair_brush"
+    bl_label = "Fair Brush"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    dabs: CollectionProperty(type=FairDab, options={"HIDDEN", "SKIP_SAVE"})
+
+    _positions: Floats  # (n, 3), while the stroke is painted
+    _normals: Floats  # (n, 3)
+    _triangles: Ints
+    _weights: Floats
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Sculpt mode has brushes."""
+        return require(cls, context.mode == "SCULPT", said("in_sculpt_mode")) and super().poll(context)
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin to paint; what can't be faired is refused before."""
+        obj = active_object(context)
+        try:
+            check_shown(obj)
+            self._check_level(levels.shown_level(obj), FairOptions())
+            if obj.use_dynamic_topology_sculpting:
+                raise ValueError(said("brush_dynamic"))
+        except ValueError as cause:
+            self.report({"ERROR"}, translated(said("named", name=obj.name, text=str(cause))))
+            return {"CANCELLED"}
+        self.dabs.clear()
+        self._positions = painted.positions(obj.data)
+        self._normals, self._triangles = painted.shell(obj.data)
+        self._weights = np.zeros(len(self._positions))
+        return self.begin_stroke(context, event)
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Paint until the button is let go, then wait for the surface."""
+        return Watched.modal(self, context, event) if self._run is not None else self.follow_stroke(context, event)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Leave all as it was."""
+        self._hide()
+        Watched.cancel(self, context)
+
+    def dab(self, context: bpy.types.Context, x: float, y: float) -> None:
+        """Paint at a place on the surface; beside it nothing happens."""
+        obj = active_object(context)
+        place = place_at(context, (x, y), obj)
+        if place is None:
+            return
+        matrix = np.array(obj.matrix_world)
+        there = matrix[:3, :3] @ np.array(place) + matrix[:3, 3]
+        reach = self.radius * pixel_size(context, there) / float(np.cbrt(abs(np.linalg.det(matrix[:3, :3]))))
+        dab = self.dabs.add()
+        dab.place, dab.reach = place, reach
+        paint(self._weights, self._positions, np.array(place), reach)
+        places = (self._positions + ABOVE * reach * self._normals) @ matrix[:3, :3].T + matrix[:3, 3]
+        for show in shows:
+            show(places, self._triangles[self._weights[self._triangles].any(axis=1)], self._weights)
+        context.area.tag_redraw()
+
+    def let_go(self, context: bpy.types.Context) -> set[str]:
+        """Fair, in the background where that takes a while."""
+        self._hide()
+        if not len(self.dabs):
+            self.report({"INFO"}, translated(said("no_face_there")))
+            return {"CANCELLED"}
+        return self._begin_with(context, self._start)
+
+    def _check_level(self, level: int, options: FairOptions) -> None:
+        FairsOutside._check_level(self, level, options)
+        if level:
+            raise ValueError(said("brush_levels"))
+
+    def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:
+        """Read the mesh with what was painted as its mask, which each vertex goes by."""
+        positions = painted.positions(obj.data)
+        weights = np.zeros(len(positions))
+        for dab in self.dabs:
+            paint(weights, positions, np.array(dab.place), dab.reach)
+        with painted.masked_by(obj.data, weights * painted.protected(obj.data)):
+            return super()._read_object(obj, replace(options, use_mask=True), level)
+
+    def _faces(self, obj: bpy.types.Object) -> Ints:
+        faces = painted.masked_faces(obj.data)
+        if not len(faces):
+            raise ValueError(said("brush_nothing"))
+        return faces
+
+    @staticmethod
+    def _hide() -> None:
+        for show in shows:
+            show(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), np.empty(0))

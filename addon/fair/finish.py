@@ -1,0 +1,94 @@
+"""What becomes of a fair surface: written and reported, or left out with a word on why."""
+
+from __future__ import annotations
+
+import time
+from functools import partial
+
+import bpy
+
+from ..host.status import redraw_sidebars
+from ..mirror.symmetry import NOT_SYMMETRIC
+from ..options.options import FairOptions
+from ..run import compare, job, last_run
+from ..run.asked import AskedInEditMode, Say, Work
+from ..run.preview import Preview
+from ..translations import translated
+from ..verdict.outcome import Fairing
+from ..verdict.properties import store
+from ..verdict.report import GRADE_NAMES, Report, make_report, summary
+from ..words import labels
+from ..words.words import said
+from .engine import Progress
+
+
+class Asked(AskedInEditMode):
+    """What one run was asked for."""
+
+    moves = True
+
+    def __init__(
+        self, tasks: list[job.Task], options: FairOptions, notes: tuple[str, ...], begin: float, way: str = ""
+    ) -> None:
+        """notes: on objects that there is nothing to do for; begin: of the performance counter.
+
+        way: tried after a run that was not good, and written only where the verdict improves.
+        """
+        self.tasks: list[job.Task] = tasks
+        self.options, self.notes, self.begin, self.way = options, notes, begin, way
+
+    @property
+    def size(self) -> int:
+        """Free vertices."""
+        return job.size(self.tasks)
+
+    def work(self, progress: Progress) -> list[Fairing]:
+        """Find the surfaces."""
+        return job.solve(self.tasks, self.options, progress)
+
+    def work_aside(self, large: bool) -> Work:
+        """Find them with a preview, and where they are large, prepare for a change of options."""
+        self.preview = preview = Preview(self.tasks)
+        return partial(job.solve, self.tasks, self.options, ahead=large, give=preview.give)
+
+    def refuse(self, context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[str]:
+        """Keep what was selected as well, and say why nothing is written."""
+        status = super().refuse(context, refusal, say)
+        last_run.keep_selection(self.tasks)
+        return status
+
+    def finish(self, context: bpy.types.Context, outcomes: list[Fairing], say: Say) -> set[str]:
+        """Write and report what the run came to; return an operator's status."""
+        named = [(task.object_name, outcome) for task, outcome in zip(self.tasks, outcomes, strict=True)]
+        report = make_report(named, self.options, time.perf_counter() - self.begin, self.notes)
+        report = labels.with_idle(report, self.options)
+        if self.way and not last_run.is_improved_by(report):
+            return _keep(context, self.way, report, say)
+        store(context.window_manager.fairing_report, report)
+        last_run.remember(self.tasks, outcomes, self.options, report)
+        if not report.written:
+            last_run.select_spots(context)
+            say({"ERROR"}, translated(summary(report)))
+            return {"CANCELLED"}
+        compare.remember(self.tasks, outcomes)
+        written = job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one)
+        last_run.renumber(written)
+        if any(each is not None and not each.is_symmetric for each in written):
+            say({"WARNING"}, translated(NOT_SYMMETRIC))
+        for warning in report.warnings:
+            say({"WARNING"}, translated(warning))
+        for idle in labels.idle_in(report):
+            say({"INFO"}, f"{labels.IDLE} with these options: {idle}")
+        say({"INFO"}, translated(summary(report)))
+        return {"FINISHED"}
+
+
+def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:
+    """Leave what the last run has left, offer this change no more, and report how it would have come out."""
+    last_run.select_region(context)
+    shown = context.window_manager.fairing_report
+    shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
+    outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
+    say({"INFO"}, translated(said("no_better", outcome=outcome)))
+    redraw_sidebars(context)
+    return {"CANCELLED"}

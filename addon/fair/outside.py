@@ -1,0 +1,222 @@
+"""Fairing outside edit mode: what such operators share. They say which faces it is about."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import bpy
+import numpy as np
+
+from ..arrays.places import renumbered
+from ..arrays.region import MeshArrays, free_vertices
+from ..arrays.types import Floats, Ints
+from ..host.context import active_object
+from ..host.polling import require, require_idle
+from ..mesh import levels, mesh_io, painted
+from ..mesh.free_normals import free_normals
+from ..options.options import FairOptions
+from ..options.properties import FairProperties
+from ..run import compare, last_run
+from ..run.asked import Asked, Say
+from ..run.job import Refused
+from ..run.redo import Redone
+from ..translations import translated
+from ..verdict.outcome import Fairing
+from ..verdict.properties import store
+from ..verdict.report import make_report, summary
+from ..words.labels import with_idle
+from ..words.words import said
+from .engine import REFUSALS, Progress
+from .fair_arrays import fair_arrays
+from .script import read, write
+
+# Where dynamic topology has put the vertices cannot be told.
+MIXED = said("dynamic_mixes")
+MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
+
+
+@dataclass(frozen=True)
+class Task:
+    """The object's mesh, as it was read."""
+
+    object_name: str
+    mesh: MeshArrays
+    matrix: Floats  # (4, 4) to world space
+    options: FairOptions
+    before: Floats  # (n, 3) positions
+    level: int = 0  # of a Multiresolution modifier that the mesh is of; 0: the object's own mesh
+    dynamic: bool = False  # with dynamic topology, which puts the vertices in another order at each change of mode
+
+
+def solve(task: Task, progress: Progress) -> Fairing:
+    """Solve on arrays alone; raises Refused and fairing.Cancelled."""
+    try:
+        return fair_arrays(task.mesh, task.matrix, task.options, progress)
+    except REFUSALS as cause:
+        raise Refused(task.object_name, cause) from cause
+
+
+@contextmanager
+def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
+    """Go to object mode and back: sculpt mode keeps the mesh for itself."""
+    mode, dynamic = obj.mode, obj.use_dynamic_topology_sculpting
+    if mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        if mode != "OBJECT":
+            bpy.ops.object.mode_set(mode=mode)
+        if dynamic and not obj.use_dynamic_topology_sculpting:  # Blender leaves it off where it would lose some layers
+            bpy.ops.sculpt.dynamic_topology_toggle()
+
+
+@contextmanager
+def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
+    """Give an object whose mesh is the one that is seen, where sculpt mode keeps that for itself."""
+    level = levels.shown_level(obj)
+    if level == 0 and not obj.use_dynamic_topology_sculpting:
+        yield obj
+        return
+    with in_object_mode(obj), levels.at_level(obj, level) as shown:
+        bpy.context.view_layer.update()
+        yield shown
+
+
+class AskedOutside(Asked):
+    """What one run was asked for."""
+
+    def __init__(self, task: Task, begin: float) -> None:
+        """begin: of the performance counter."""
+        self.task, self.begin = task, begin
+        self._shown = task.before
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the object."""
+        return (self.task.object_name,)
+
+    @cached_property
+    def size(self) -> int:
+        """Free vertices."""
+        return int(np.count_nonzero(free_vertices(self.task.mesh)))
+
+    def work(self, progress: Progress) -> Fairing:
+        """Find the surface."""
+        return solve(self.task, progress)
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the mesh is as it was read."""
+        return self._is_at(context, self.task.before)
+
+    def keep_shown(self, context: bpy.types.Context) -> None:
+        """Remember the mesh as it is now."""
+        obj = active_object(context)
+        if obj is not None and obj.name == self.task.object_name and obj.mode in MODES:
+            with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
+                self._shown = painted.positions(shown.data)
+
+    def is_as_shown(self, context: bpy.types.Context) -> bool:
+        """Return whether it still is."""
+        return self._is_at(context, self._shown)
+
+    def _is_at(self, context: bpy.types.Context, positions: Floats) -> bool:
+        obj = active_object(context)
+        if obj is None or obj.name != self.task.object_name or obj.mode not in MODES:
+            return False
+        if levels.shown_level(obj) != self.task.level:
+            return False
+        with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
+            return renumbered(positions, painted.positions(shown.data)) is not None
+
+    def finish(self, context: bpy.types.Context, outcome: Fairing, say: Say) -> set[str]:
+        """Write and report what the run came to; return an operator's status."""
+        task, obj = self.task, active_object(context)
+        report = make_report([(task.object_name, outcome)], task.options, time.perf_counter() - self.begin)
+        report = with_idle(report, task.options)
+        store(context.window_manager.fairing_report, report)
+        last_run.forget()  # buttons for the next run belong to edit mode
+        if not report.written:
+            say({"ERROR"}, translated(summary(report)))
+            return {"CANCELLED"}
+        with in_object_mode(obj):
+            written = self._write(obj, outcome)
+        if not written:
+            return self.refuse(context, Refused(task.object_name, ValueError(MIXED)), say)
+        say({"INFO"}, translated(summary(report)))
+        return {"FINISHED"}
+
+    def _write(self, obj: bpy.types.Object, outcome: Fairing) -> bool:
+        """Write what was found, but not where its vertices are no longer told apart; return whether it was."""
+        compare.forget()  # it goes to and fro between positions of the mesh itself, by their numbers
+        if self.task.level:
+            levels.write(obj, self.task.level, outcome.vertices, outcome.positions)
+        elif self.task.dynamic:
+            there = renumbered(self.task.before, painted.positions(obj.data))
+            if there is None:
+                return False
+            mesh_io.write_mesh(obj.data, there[outcome.vertices], outcome.positions)
+        else:
+            normals = free_normals(obj.data)
+            write(obj.data, outcome)
+            compare.remember_one(obj.name, self.task.before, outcome, normals)
+        return True
+
+
+class FairsOutside(FairProperties, Redone):
+    """An operator that fairs the active object outside edit mode, but for `_faces`, which says what of it."""
+
+    if TYPE_CHECKING:
+        _faces: Callable[[bpy.types.Object], Ints]  # in object mode; raises ValueError where there are none
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Needs a mesh outside edit mode."""
+        obj = active_object(context)
+        return (
+            require(cls, obj is not None and obj.type == "MESH", said("make_active"))
+            and require(cls, obj.mode in MODES, said("outside_edit_mode"))
+            and require_idle(cls, context)
+        )
+
+    def _read(self, context: bpy.types.Context) -> AskedOutside:
+        begin = time.perf_counter()
+        obj = active_object(context)
+        if obj.mode == "SCULPT" and not self.is_repeated(context):
+            bpy.ops.ed.undo_push(message="Before Fair Masked")  # strokes are steps of another kind
+        try:
+            options = FairOptions.of(self)
+            check_shown(obj)
+            level = levels.shown_level(obj)
+            self._check_level(level, options)
+            dynamic = obj.use_dynamic_topology_sculpting
+            if dynamic and options.remesh:
+                raise ValueError(said("dynamic_faces"))
+            with in_object_mode(obj):
+                return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic), begin)
+        except REFUSALS as cause:
+            raise Refused(obj.name, cause) from cause
+
+    def _check_level(self, level: int, options: FairOptions) -> None:
+        """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""
+        if level and options.remesh:
+            raise ValueError(said("level_keeps_faces"))
+
+    def _read_object(self, obj: bpy.types.Object, options: FairOptions, level: int) -> Task:
+        faces = levels.faces_at(obj.data, self._faces(obj), level)
+        matrix = np.array(obj.matrix_world, dtype=np.float64)
+        with levels.at_level(obj, level) as shown:
+            mesh, matrix = read(shown.data, faces.tolist(), matrix, options)
+            return Task(obj.name, mesh, matrix, options, painted.positions(shown.data), level)
+
+
+def check_shown(obj: bpy.types.Object) -> None:
+    """Raise ValueError where what is seen is not the mesh's own shape."""
+    key: Any = obj.active_shape_key
+    if key is not None and key != obj.data.shape_keys.reference_key:
+        raise ValueError(said("key_is_active", name=key.name))

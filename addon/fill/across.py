@@ -1,0 +1,115 @@
+"""What runs across holes: edges that were drawn there, and hard edges that run on. Plain numpy, no bpy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+import fairing
+
+from ..arrays.region import MeshArrays, nothing
+from ..arrays.types import Floats, Ints, Mask
+from ..words.words import joined, said
+
+
+def _no_edges() -> Ints:
+    return np.empty((0, 2), dtype=np.int64)
+
+
+@dataclass(frozen=True)
+class Loose:
+    """What a mesh has of edges without a face."""
+
+    edges: Ints  # (w, 2)
+    at_faces: Mask  # (n,) the vertices of faces
+
+    @classmethod
+    def of(cls, mesh: MeshArrays) -> Loose:
+        """Look for them once, however many holes there are."""
+        used = np.zeros(len(mesh.edges), dtype=bool)
+        used[mesh.corner_edges] = True
+        at_faces = np.zeros(len(mesh.positions), dtype=bool)
+        at_faces[mesh.corner_vertices] = True
+        return cls(mesh.edges[~used], at_faces)
+
+
+def drawn_edges(loose: Loose, outline: Ints) -> Ints:
+    """Return the (w, 2) edges without a face that hang on the vertices of an outline, directly or by others."""
+    ends = loose.at_faces.copy()  # where they end: at faces, but for the outline's own
+    ends[outline] = False
+    reached = np.zeros(len(ends), dtype=bool)
+    reached[outline] = True
+    while True:
+        onward: Ints = loose.edges[(reached & ~ends)[loose.edges].any(axis=1)]
+        if reached[onward].all():
+            return onward
+        reached[onward] = True
+
+
+def marked_edges(mesh: MeshArrays) -> Ints:
+    """Return the (m, 2) edges that are marked sharp."""
+    return _no_edges() if mesh.sharp is None else mesh.edges[mesh.sharp]
+
+
+def within(edges: Ints, vertices: Ints) -> Ints:
+    """Return the edges (e, 2) both of whose ends are among the vertices (ascending), in their numbers."""
+    chosen = edges[np.isin(edges, vertices).all(axis=1)]
+    numbered: Ints = np.searchsorted(vertices, chosen).reshape(-1, 2).astype(np.int64)
+    return numbered
+
+
+@dataclass(frozen=True)
+class Across:
+    """What runs across one hole; edges in numbers of the surface's points."""
+
+    drawn: Ints = field(default_factory=nothing)  # (d,) mesh vertices of drawn edges, the first points inside
+    edges: Ints = field(default_factory=_no_edges)  # (c, 2)
+    sharp: Ints = field(default_factory=_no_edges)  # (s, 2) those among them that continue marked ones
+    hard: int = 0  # curves that continue hard edges
+    as_drawn: int = 0  # curves that were drawn
+    bands: int = 0  # bevels and rolled edges that run on, whose rows are among the edges
+
+
+def reported(all_of_them: Sequence[Across]) -> str:
+    """Say what surfaces follow; nothing where they follow nothing."""
+    hard, drawn, bands = (sum(getattr(each, name) for each in all_of_them) for name in ("hard", "as_drawn", "bands"))
+    counts = (("runs_on", hard), ("drawn", drawn), ("bevels_run_on", bands))
+    return joined([said(key, n=count) for key, count in counts if count])
+
+
+@dataclass(frozen=True)
+class Numbering:
+    """The points of a surface: those of its outline, of edges drawn across it, and new ones."""
+
+    outline: Ints  # (r,) of the mesh
+    drawn: Ints  # (d,) of the mesh
+    of: Ints  # for each number of the engine, old vertices first
+
+    @classmethod
+    def made(cls, outline: Ints, vertices: Ints, result: fairing.FillResult) -> Numbering:
+        """vertices: (q,) of the mesh that the engine was given, ascending."""
+        lying = np.unique(np.concatenate([nothing(), *result.curves]))
+        drawn = np.setdiff1d(vertices[lying[lying < len(vertices)]], outline)
+        of = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
+        of[np.searchsorted(vertices, outline)] = np.arange(len(outline))
+        of[np.searchsorted(vertices, drawn)] = len(outline) + np.arange(len(drawn))
+        of[len(vertices) :] = len(outline) + len(drawn) + np.arange(len(result.vertices))
+        return cls(outline, drawn, of)
+
+    def places(self, positions: Floats, new: Floats) -> Floats:
+        """Return the points inside: drawn ones, whose `positions` are those of the mesh, and new ones."""
+        return np.concatenate([positions[self.drawn], new])
+
+    def across(self, result: fairing.FillResult, wires: Ints) -> Across:
+        """wires: (w, 2) in the engine's numbers."""
+        drawn = {tuple(pair) for pair in np.sort(wires, axis=1).tolist()}
+        parts, rows = (
+            [np.column_stack([curve[:-1], curve[1:]]) for curve in curves]
+            for curves in (result.curves, [row for band in result.bands for row in band])
+        )
+        as_drawn = sum(tuple(sorted(part[0].tolist())) in drawn for part in parts)
+        marked = [part for part, is_marked in zip(parts, result.marked, strict=True) if is_marked]
+        whole, sharp = (self.of[np.concatenate([_no_edges(), *chosen])] for chosen in (parts + rows, marked))
+        return Across(self.drawn, whole, sharp, len(parts) - as_drawn, as_drawn, len(result.bands))

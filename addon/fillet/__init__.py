@@ -1,0 +1,1 @@
+"""Fair Fillet: rounded seams, from selected edges to new faces, operator, script and preview."""

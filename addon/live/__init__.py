@@ -1,0 +1,1 @@
+"""Live: a region that is made fair again after every change around it."""

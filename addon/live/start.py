@@ -1,0 +1,122 @@
+"""The operator that makes the selection the live region: its first answer is sought like that of any long run.
+
+Nothing is marked, and nothing moves, before the surface is there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import bpy
+
+from ..fair.engine import REFUSALS, Progress, sub_range
+from ..host.context import edited_objects
+from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
+from ..mesh import mesh_io
+from ..options.options import FairOptions
+from ..run.asked import Asked, Say
+from ..run.background import Watched
+from ..run.job import Refused, objects_in_mode
+from ..selection.inspection import last_options
+from ..translations import translated
+from .live import live
+from .region_search import Found, first
+from .session import Session, candidate, is_current
+
+
+def enclosing(obj: bpy.types.Object) -> bool:
+    """Return whether selected edges of an object in edit mode enclose faces."""
+    return bool(obj.data.total_edge_sel and mesh_io.read_edit_mesh(obj, FairOptions()).in_patch.any())
+
+
+def read(context: bpy.types.Context, options: FairOptions) -> dict[str, Session]:
+    """Read every object in edit mode that has a selection, by name; raises Refused."""
+    edited = edited_objects(context)
+    chosen = [obj for obj in edited if obj.data.total_face_sel] or [obj for obj in edited if enclosing(obj)]
+    found = {}
+    for obj in chosen:
+        try:
+            found[obj.name] = candidate(obj, options)
+        except REFUSALS as cause:
+            raise Refused(obj.name, cause) from cause
+    return found
+
+
+def solve(candidates: dict[str, Session], progress: Progress) -> list[Found]:
+    """Find the first surface of each, on arrays alone; raises Refused and fairing.Cancelled."""
+    found = []
+    for k, (name, session) in enumerate(candidates.items()):
+        part = sub_range(progress, k / len(candidates), (k + 1) / len(candidates))
+        assert part is not None
+        try:
+            found.append(first(session.region, session.positions, session.matrix, part))
+        except REFUSALS as cause:
+            raise Refused(name, cause) from cause
+    return found
+
+
+@dataclass
+class AskedLive(Asked):
+    """What one run was asked for."""
+
+    candidates: dict[str, Session]
+    options: FairOptions
+
+    @property
+    def size(self) -> int:
+        """Free vertices."""
+        return sum(len(session.region.free) for session in self.candidates.values())
+
+    def work(self, progress: Progress) -> list[Found]:
+        """Find the first surfaces."""
+        return solve(self.candidates, progress)
+
+    def is_as_read(self, context: bpy.types.Context) -> bool:
+        """Return whether the meshes are as they were read."""
+        objects = objects_in_mode(context)
+        return context.mode == "EDIT_MESH" and all(
+            name in objects and is_current(objects[name], session) for name, session in self.candidates.items()
+        )
+
+    def finish(self, context: bpy.types.Context, answers: list[Found], _say: Say) -> set[str]:
+        """Let Live have them."""
+        objects = objects_in_mode(context)
+        for (name, session), found in zip(self.candidates.items(), answers, strict=True):
+            live.take(objects[name], session, self.options, found)
+        context.window_manager.fairing_live.on = True
+        return {"FINISHED"}
+
+    def refuse(self, _context: bpy.types.Context, refusal: Refused, say: Say) -> set[str]:
+        """Say why there is none."""
+        return refuse(refusal, say)
+
+
+def refuse(refusal: Refused, say: Say) -> set[str]:
+    """Say why, and leave the last run as it is: it was another one."""
+    say({"ERROR"}, translated(str(refusal)))
+    return {"CANCELLED"}
+
+
+class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
+    """Make the selected faces the live region of their mesh, fair now and after every change around them.
+    The options are those of the last Fair Region; the region is saved with the mesh"""
+
+    bl_idname = "mesh.fair_live_region"
+    bl_label = "Live Region"
+    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Edit mode has a selection; while a run is under way, the mesh is its own."""
+        return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
+
+    def _read(self, context: bpy.types.Context) -> AskedLive | None:
+        options = last_options(context)
+        candidates = read(context, options)
+        if not candidates:
+            self.report({"ERROR"}, translated(NO_FACE))
+            return None
+        return AskedLive(candidates, options)
+
+    def _refuse(self, _context: bpy.types.Context, refusal: Refused) -> set[str]:
+        return refuse(refusal, self.report)

@@ -1,0 +1,140 @@
+"""The options of Fair Fill, Fair Fillet, Fair Denoise and Fair From Curves. Plain Python, no bpy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from . import shared
+from .items import CURVATURE, TANGENT
+from .table import PARTS, SURFACE, VERTICES, Chosen, option
+
+HOLES = "Holes"
+
+
+@dataclass(frozen=True)
+class FillOptions(Chosen):
+    """The options of `mesh.fair_fill`."""
+
+    shape: str = shared.shape(counts=lambda o: o.continuity != "G0")
+    continuity: str = shared.continuity(counts=lambda o: o.continuity != "G2" or shared.is_harmonic(o))
+    bridge: bool = option(
+        SURFACE,
+        "Bridge",
+        "One surface joins all boundary loops of an object: a tube between two, a blend between more",
+        False,
+    )
+    run_on: bool = option(
+        SURFACE,
+        "Continue Hard Edges",
+        "Hard edges that end at a hole, marked sharp or by their angle, are joined by fair curves, and edges that were "
+        "drawn across it are taken as they are. Otherwise the surface is smooth",
+        True,
+        counts=lambda o: not o.bridge,
+    )
+    spacing: float = shared.spacing()
+    quads: bool = shared.quads()
+    islands: bool = option(
+        HOLES,
+        "Join Islands",
+        "Loose pieces of faces inside a hole are joined with it by one surface; otherwise the hole is closed over them",
+        False,
+        counts=lambda o: not o.bridge,
+    )
+    longest: int = option(
+        HOLES,
+        "Most Edges",
+        "Borders with more edges than that stay open; 0: any number",
+        0,
+        bounds=shared.ANY_COUNT,
+        slider=(0, 100),
+    )
+    longest_length: float = shared.length(
+        HOLES, "Longest Border", "Borders that are longer than that stay open; 0: any length", 0.0, slider=(0.0, 10.0)
+    )
+    allow_folds: bool = shared.allow_folds()
+
+    @property
+    def equation(self) -> str:
+        """The engine's word."""
+        return "soap_film" if self.continuity == "G0" else self.shape.lower()
+
+    @property
+    def joins_curvature(self) -> bool:
+        """Whether the curvature around is continued."""
+        return self.continuity == "G2"
+
+    @property
+    def runs_on(self) -> bool:
+        """Whether edges that end at a hole go on through it."""
+        return self.run_on and not self.bridge
+
+
+@dataclass(frozen=True)
+class FilletOptions(Chosen):
+    """The options of `mesh.fair_fillet`."""
+
+    width: float = shared.length(
+        SURFACE,
+        "Width",
+        "How far the fillet reaches along the surface, in world space, on the larger side of each seam",
+        0.1,
+        bounds=(1e-6, 1e9),
+        slider=(0.0, 10.0),
+    )
+    width_2: float = shared.length(
+        SURFACE, "Width 2", "The same on the smaller side; 0: as wide", 0.0, slider=(0.0, 10.0)
+    )
+    profile: float = option(
+        SURFACE,
+        "Profile",
+        "-1 is flat as a chamfer, 0 round, 1 as sharp as the edge was",
+        0.0,
+        bounds=(-1.0, 1.0),
+        digits=2,
+    )
+    continuity: str = shared.continuity(items=(TANGENT, CURVATURE))
+    spacing: float = shared.length(
+        VERTICES,
+        "Edge Length",
+        "Length of the new edges, in world space, with Quads across the seam; 0: a quarter of the least width",
+        0.0,
+        slider=(0.0, 1.0),
+    )
+    quads: bool = option(
+        VERTICES,
+        "Quads",
+        "Quads in rows along the seam that continue the edges outside from side to side. Where the sides have no "
+        "pairs, pairs of triangles",
+        True,
+    )
+    width_group: str = shared.group(
+        PARTS, "Vertex Group", "The widths are multiplied by the weights of this vertex group along the seam"
+    )
+
+
+@dataclass(frozen=True)
+class DenoiseOptions(Chosen):
+    """The options of `mesh.fair_denoise`."""
+
+    size: float = shared.length(
+        SURFACE,
+        "Size",
+        "What is shorter than this goes, what is longer stays, in world space; 0: twelve of the edges around",
+        0.0,
+        slider=(0.0, 10.0),
+    )
+    amount: float = shared.factor(SURFACE, "Amount", "How much of the roughness goes", 1.0, digits=2)
+
+
+@dataclass(frozen=True)
+class CurvesOptions(Chosen):
+    """The options of `mesh.fair_from_curves`."""
+
+    fill_openings: bool = option(
+        SURFACE,
+        "Fill Openings",
+        "What the curves only go around gets a surface, too: a bottle's mouth, the rim of a boat",
+        False,
+    )
+    spacing: float = shared.spacing()
+    quads: bool = shared.quads()

@@ -1,0 +1,1 @@
+"""The quality overlay: what it measures, its shader, its legend."""

@@ -1,0 +1,104 @@
+"""Triangles, normals and mean curvature of what an overlay shows. Arrays in, arrays out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import fairing
+
+from ..arrays.pairs import edge_keys
+from ..arrays.region import MeshArrays
+from ..arrays.types import Floats, Ints, Mask
+from ..words.findings import Origin
+from ..words.sentences import in_mesh_words
+from .curvatures import gaussian_curvature, largest_principal
+
+RINGS = 2  # around what is shown, so that its border is measured from both sides
+
+
+HIGH_INWARDS = ("CURVATURE", "PRINCIPAL")  # H is positive where the surface caves in
+
+
+def sense(mode: str) -> float:
+    """Return by what values are multiplied before they are coloured, so that outwards has one colour in all modes."""
+    return -1.0 if mode in HIGH_INWARDS else 1.0
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What is drawn: n vertices in world space."""
+
+    positions: Floats  # (n, 3)
+    triangles: Ints  # (t, 3)
+    normals: Floats  # (n, 3) unit, fitted
+    curvature: Floats  # (n,) H in 1/length, negative where it is convex from outside
+    gaussian: Floats  # (n,) K in 1/length²
+    deviation: Floats  # (n,) from the surface before the last run, in world space
+    boundary: Floats  # (e, 2, 3) edges around the patch
+
+    def values(self, mode: str) -> Floats:
+        """Return what is drawn in colours (n,): CURVATURE, GAUSSIAN, PRINCIPAL or DEVIATION."""
+        if mode == "PRINCIPAL":
+            return largest_principal(self.curvature, self.gaussian)
+        return {"GAUSSIAN": self.gaussian, "DEVIATION": self.deviation}.get(mode, self.curvature)
+
+    def usual(self, mode: str) -> float:
+        """The 90th percentile of the values' sizes, so that a few spikes don't wash the colours out.
+
+        Of deviations the largest: most are 0.
+        """
+        used = np.unique(self.triangles)
+        sizes = np.abs(self.values(mode)[used])
+        return float(np.percentile(sizes, 100 if mode == "DEVIATION" else 90)) if len(used) else 0.0
+
+    def largest(self, mode: str) -> float:
+        """The value of the largest size, with its sign."""
+        shown = self.values(mode)[np.unique(self.triangles)]
+        return float(shown[np.abs(shown).argmax()]) if len(shown) else 0.0
+
+
+def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Floats | None = None) -> Surface:
+    """Measure the patch of the mesh, or the whole of it, in world space; deviation: (n,) of all its vertices.
+
+    Raises MeshRefusal where the triangles are no surface, and ValueError for a flat object.
+    """
+    world = mesh.transformed(matrix)
+    shown = np.ones(len(world.triangles), dtype=bool) if whole else world.in_patch[world.triangle_faces]
+    grown = _grown(world.triangles, shown)
+    near = world.triangles[grown]
+    used, triangles = np.unique(near, return_inverse=True)
+    triangles = triangles.reshape(-1, 3).astype(np.int64)
+    positions = world.positions[used]
+    number = np.zeros(len(world.positions), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    with in_mesh_words(Origin(used, triangles, world.triangle_faces[grown])):
+        normals = fairing.vertex_normals(positions, triangles)
+        return Surface(
+            positions=positions,
+            triangles=number[world.triangles[shown]],
+            normals=normals,
+            curvature=fairing.mean_curvature(positions, triangles),
+            gaussian=gaussian_curvature(positions, triangles, normals),
+            deviation=np.zeros(len(used)) if deviation is None else deviation[used],
+            boundary=world.positions[_edges_around(world.triangles[world.in_patch[world.triangle_faces]])],
+        )
+
+
+def _edges_around(triangles: Ints) -> Ints:
+    """Return the edges (e, 2) of one triangle alone."""
+    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    _, first, counts = np.unique(edge_keys(sides), return_index=True, return_counts=True)
+    around: Ints = sides[first[counts == 1]]
+    return around
+
+
+def _grown(triangles: Ints, shown: Mask) -> Mask:
+    """Return the mask of the triangles within RINGS of those in `shown`."""
+    near: Mask = shown
+    reached = np.zeros(int(triangles.max(initial=-1)) + 1, dtype=bool)
+    for _ in range(RINGS):
+        reached[triangles[near]] = True
+        near = reached[triangles].any(axis=1)
+    return near

@@ -1,0 +1,1 @@
+"""A patch on a new mesh: its faces, UVs, shape keys, and where their values come from."""

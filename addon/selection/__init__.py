@@ -1,0 +1,1 @@
+"""What is selected, and what would be refused, before anything runs."""

@@ -1,0 +1,88 @@
+"""What makes a result unusable: no answer, folds, crossings."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..arrays.types import Ints
+from ..fair.engine import Problem, bad_outline
+from ..options.options import FairOptions
+from ..words.words import said
+from .evidence import NOTHING, Evidence, Found, corners_of
+
+
+def failing(evidence: Evidence, options: FairOptions) -> Found:
+    """Return the first reason, with its places."""
+    for look in (_no_answer, _folded, _crossing):
+        reason = look(evidence, options)
+        if reason[0]:
+            return reason
+    return NOTHING
+
+
+def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
+    result, patch = evidence.result, evidence.problem.patch
+    if result.converged or result.termination == "folded":
+        return NOTHING
+    reason = evidence.failures[0] if evidence.failures else said("no_fair_surface")
+    reason = _ended(reason, evidence, options)
+    return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
+
+
+def _ended(reason: str, evidence: Evidence, options: FairOptions) -> str:
+    """Add how the search ended, where the engine does not say why, and what there is instead."""
+    if options.fair_open_borders:
+        return said("rough_border", reason=reason)
+    if any(evidence.reported("NOT_CONVERGED", "load_share", "area", "from_behind")):
+        return reason
+    count = evidence.result.iterations
+    text = said("halted" if count else "no_initial_surface", reason=reason)
+    if evidence.result.termination != "stalled":
+        text = said("steps_ran_out", reason=reason, n=count)
+    after = evidence.after
+    if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
+        return text
+    return said("usable_so_far", reason=text)
+
+
+def _troubled(problem: Problem) -> Ints:
+    """Return the bad vertices of the boundary, or all of it where none stands out."""
+    outline = problem.patch.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
+    bad = bad_outline(problem)
+    return bad if len(bad) else outline
+
+
+def _folded(evidence: Evidence, options: FairOptions) -> Found:
+    after = evidence.after.folded
+    if options.detail > 0.0:
+        after = np.setdiff1d(after, evidence.before.folded)  # the skin's own folds come back with it
+    if options.factor < 1.0 and len(after) <= len(evidence.before.folded):
+        return NOTHING  # half-way to a fair surface something of the old one is left
+    if evidence.result.termination == "folded" and not len(after):
+        return _named_folds(evidence)
+    if not len(after):
+        return NOTHING
+    text = said("folded_faces", n=len(after))
+    corners, patch = corners_of(evidence.problem, after), evidence.problem.patch
+    pins = np.intersect1d(corners, patch.vertices[np.setdiff1d(patch.fixed, patch.outline)])
+    if len(pins):
+        text = said("at_pins", reason=text, n=len(pins))
+    return text, corners
+
+
+def _named_folds(evidence: Evidence) -> Found:
+    """Return the engine's sentence on folds that show as crossings only."""
+    reason = evidence.failures[0] if evidence.failures else said("only_with_folds")
+    return reason, evidence.named("FOLDED")
+
+
+def _crossing(evidence: Evidence, options: FairOptions) -> Found:
+    before, after = evidence.before.crossing, evidence.after.crossing
+    if after is None or not len(after):
+        return NOTHING
+    new = after if before is None else np.setdiff1d(after, before)
+    if options.factor < 1.0 and before is not None and len(after) <= len(before):
+        return NOTHING
+    if not len(new):
+        return NOTHING
+    return said("new_crossings", n=len(new)), corners_of(evidence.problem, new)

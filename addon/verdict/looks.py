@@ -1,0 +1,240 @@
+"""What the eye would see of a result that is usable."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+import fairing
+
+from ..arrays.types import Floats, Ints
+from ..fair.engine import Result
+from ..options.options import FairOptions
+from ..words.words import said
+from .evidence import NOTHING, Evidence, Found
+from .quality import Join
+
+MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
+# What stands in for a surface that there is none of, by the engine's name for it.
+STAND_INS = {
+    "loft": said("loft_stands_in"),
+    "bilaplacian": said("bilaplacian_stands_in"),
+    "smoothed": said("smoothed_stands_in"),
+}
+
+
+def visible(evidence: Evidence, options: FairOptions) -> Found:
+    """Return the first reason to look at it, with its places, the worst first."""
+    for look in _LOOKS:
+        reason = look(evidence, options)
+        if reason[0]:
+            return reason
+    return NOTHING
+
+
+def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.pierced):
+        return NOTHING
+    return said("passes_outside", n=len(evidence.pierced)), evidence.pierced
+
+
+def _seamed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.seams):
+        return NOTHING
+    return said("held_by_seam", n=len(evidence.seams)), evidence.seams
+
+
+def _kinked(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return NOTHING
+    seen = evidence.join.seen
+    if len(seen):
+        return kink_reason(evidence.join), seen
+    kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
+    if not len(kinks):
+        return NOTHING
+    return said("slope_not_continued", n=len(kinks)), kinks
+
+
+def kink_reason(join: Join) -> str:
+    """Return the sentence for a join that is seen."""
+    turned_back = join.worst_seen >= fairing.LIMITS["turned_back"]
+    return said("turns_back" if turned_back else "kink", n=len(join.seen), degrees=join.worst_seen)
+
+
+def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
+    tips = evidence.named("PINS_NOT_SPREAD", "tips")
+    if not len(tips):
+        return NOTHING
+    return said("spike", n=len(tips)), tips
+
+
+def _rounded(evidence: Evidence, options: FairOptions) -> Found:
+    if not len(evidence.rounded):
+        return NOTHING
+    key = "smooth_boundary_rounded" if options.smooth_boundary else "falloff_rounded"
+    return said(key, n=len(evidence.rounded)), evidence.rounded
+
+
+def _eaten(evidence: Evidence, options: FairOptions) -> Found:
+    if not judges_join(options):
+        return NOTHING
+    marked, running = evidence.eaten.marked, evidence.eaten.running_on
+    if len(marked):
+        return _with_kinks(evidence, said("sharp_rounded", n=len(marked)), marked)
+    if len(running):
+        return _with_kinks(evidence, said("edge_rounded", n=len(running)), running)
+    return NOTHING
+
+
+def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
+    """Add the kinks at the boundary, or begin with them where these are the worse of both.
+
+    Another selection may be what helps then.
+    """
+    seen = evidence.join.seen
+    if not len(seen):
+        return reason, spots
+    if evidence.join.worst_seen >= fairing.LIMITS["steep_kink"]:
+        return said("and_rounded", reason=kink_reason(evidence.join), n=len(spots)), _both(seen, spots)
+    return said("or_grow", reason=reason, degrees=evidence.join.worst_seen), _both(spots, seen)
+
+
+def _both(spots: Ints, others: Ints) -> Ints:
+    joined: Ints = np.concatenate([spots, others])
+    return joined
+
+
+def _swollen(evidence: Evidence, options: FairOptions) -> Found:
+    if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
+        return NOTHING
+    return said("knob", n=len(evidence.swollen)), evidence.swollen
+
+
+def _flanked(evidence: Evidence, options: FairOptions) -> Found:
+    if evidence.flank is None or not judges_join(options) or _is_meant_to_swell(options):
+        return NOTHING
+    reason = said("on_bump" if evidence.flank.is_bump else "on_dent")
+    return reason, evidence.problem.patch.vertices[evidence.flank.outline]
+
+
+def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
+    """Report a loft, which may be as flat as a strap, and of the old shape smoothed, which may keep part of it."""
+    for figure, reason in STAND_INS.items():
+        if any(evidence.reported("NO_SOLUTION", figure)):
+            return reason, _most_bent(evidence)
+    return NOTHING
+
+
+def _uneven(evidence: Evidence, options: FairOptions) -> Found:
+    reason = girth_reason(evidence.result)
+    if not reason or not judges_join(options) or _is_meant_to_swell(options):
+        return NOTHING
+    patch = evidence.problem.patch
+    girth = fairing.girth(_points(evidence), patch.triangles, fixed=patch.fixed)
+    if girth is None:  # curves that stay part it
+        return reason, patch.vertices[patch.outline]
+    return reason, patch.vertices[girth.thinnest if _is_thin(evidence.result) else girth.thickest]
+
+
+def girth_reason(result: Result) -> str:
+    """Return the sentence for a tube that is too thin or too thick; empty where it is neither."""
+    least, largest = result.girth or (1.0, 1.0)
+    if _is_thin(result):
+        return said("thin_tube", share=least)
+    return said("thick_tube", share=largest) if largest > fairing.LIMITS["balloon"] else ""
+
+
+def _is_thin(result: Result) -> bool:
+    return bool(result.girth and result.girth[0] < fairing.LIMITS["waist"])
+
+
+def _most_bent(evidence: Evidence) -> Ints:
+    """Return the mesh vertices of the free ones where the surface bends most, the worst first."""
+    patch = evidence.problem.patch
+    bent = np.abs(fairing.mean_curvature(_points(evidence), patch.triangles, fixed=patch.fixed))
+    order = patch.free[np.argsort(-bent[patch.free], kind="stable")]
+    worst: Ints = patch.vertices[order[: int(np.ceil(MOST_BENT * len(order)))]]
+    return worst
+
+
+def _points(evidence: Evidence) -> Floats:
+    """Return the places of the patch's vertices after the run."""
+    points = evidence.problem.points if evidence.points is None else evidence.points
+    own: Floats = points[: len(evidence.problem.patch.vertices)]
+    return own
+
+
+def _refused(evidence: Evidence, _options: FairOptions) -> Found:
+    """Report the old skin where it was asked for and not given."""
+    if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin")):
+        return said("no_detail"), _outline(evidence)
+    return NOTHING
+
+
+def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.squeezed):
+        return NOTHING
+    return said("knot", n=len(evidence.squeezed)), evidence.squeezed
+
+
+def _sunken(evidence: Evidence, options: FairOptions) -> Found:
+    lost = evidence.lost
+    if len(evidence.problem.patch.free_slopes):  # a bend there is asked for, so that what is around says less
+        return NOTHING
+    # Detail is skin; what it is put on sinks all the same.
+    if not len(lost.deepest) or not judges_join(options) or _is_meant_to_swell(replace(options, detail=0.0)):
+        return NOTHING
+    return sunken_reason(lost.depth), lost.deepest
+
+
+def sunken_reason(depth: float) -> str:
+    """Return the sentence for a surface that sinks by a share of its width below the lines that run on across it."""
+    return said("sinks", depth=depth)
+
+
+def _smoother(evidence: Evidence, options: FairOptions) -> Found:
+    if not evidence.lost.is_smoother or options.detail > 0.0 or options.factor < 1.0:
+        return NOTHING
+    return said("too_smooth"), _outline(evidence)
+
+
+def _rougher(evidence: Evidence, options: FairOptions) -> Found:
+    if not evidence.lost.is_rougher or not judges_join(options):
+        return NOTHING
+    return said("crumpled"), _most_bent(evidence)
+
+
+def _outline(evidence: Evidence) -> Ints:
+    patch = evidence.problem.patch
+    found: Ints = patch.vertices[patch.outline]
+    return found
+
+
+def _moved_border(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.lost.border):
+        return NOTHING
+    return said("border_moved"), evidence.lost.border
+
+
+def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
+    if not len(evidence.lost.key):
+        return NOTHING
+    return said("key_kept"), evidence.lost.key
+
+
+# The first that finds something gives the reason.
+_LOOKS = (
+    *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
+    *(_substituted, _uneven, _rougher, _sunken, _refused, _squeezed, _smoother),
+)
+
+
+def _is_meant_to_swell(options: FairOptions) -> bool:
+    return options.detail > 0.0 or options.pulls_locally or options.bulge != 0.0
+
+
+def judges_join(options: FairOptions) -> bool:
+    """Return whether the result is meant to continue its surroundings: a soap film and a blend are not."""
+    return options.factor == 1.0 and options.equation != "soap_film"
