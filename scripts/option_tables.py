@@ -5,12 +5,12 @@ usage: python scripts/option_tables.py
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from textwrap import fill
 
+import plain_addon  # noqa: F401
+
 ROOT = Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "addon"))
 
 from addon.options.options import FairOptions  # noqa: E402
 from addon.options.other_options import CurvesOptions, DenoiseOptions, FilletOptions, FillOptions  # noqa: E402

@@ -17,11 +17,12 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "addon"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "quads"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 import bevels
+import plain_addon  # noqa: F401
 from hard_surfaces import MAKERS, FloatArray, Polygons, Problem
 from judged import corner_angles
 
