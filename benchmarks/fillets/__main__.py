@@ -22,7 +22,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "quads"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 import bevels
-import plain_addon  # noqa: F401
 from hard_surfaces import MAKERS, FloatArray, Polygons, Problem
 from judged import corner_angles
 

@@ -5,6 +5,9 @@ from __future__ import annotations
 import importlib
 from typing import Any
 
+import plain_addon  # noqa: F401
+
+# isort: split
 import numpy as np
 from addon.arrays.region import MeshArrays
 from addon.fillet.rounding import hard, round_arrays
