@@ -200,7 +200,7 @@ private:
 
 }  // namespace
 
-HoledMesh::HoledMesh(OpenMesh mesh)
+HoledMesh::HoledMesh(BorderedMesh mesh)
     : mesh_(std::move(mesh)), stars_(mesh_.triangles, static_cast<int>(mesh_.vertices.cols())) {}
 
 LocalMesh HoledMesh::around(const Indices& vertices, Indices also) const {

@@ -10,7 +10,7 @@ namespace fairing {
 
 // Any triangles; what is wrong with them away from a hole is no matter. Triangles with a corner that is not finite
 // count as missing for slopes, but bound no hole.
-struct OpenMesh {
+struct BorderedMesh {
     View<Points> vertices;  // outlive it
     Triangles triangles;
     VertexPairs hard = {};  // edges across which no slope is fitted
@@ -49,18 +49,18 @@ struct Holes {
 // The mesh with its adjacency, for any number of calls and threads.
 class HoledMesh {
 public:
-    explicit HoledMesh(OpenMesh mesh);
+    explicit HoledMesh(BorderedMesh mesh);
     HoledMesh(const HoledMesh&) = delete;
     HoledMesh& operator=(const HoledMesh&) = delete;
     ~HoledMesh() = default;
 
-    [[nodiscard]] const OpenMesh& mesh() const { return mesh_; }
+    [[nodiscard]] const BorderedMesh& mesh() const { return mesh_; }
     // Finite triangles within the rings that slopes depend on, all of these vertices, and others.
     [[nodiscard]] LocalMesh around(const Indices& vertices, Indices also = {}) const;
     [[nodiscard]] const Stars& stars() const { return stars_; }
 
 private:
-    OpenMesh mesh_;
+    BorderedMesh mesh_;
     Stars stars_;
 };
 

@@ -78,7 +78,7 @@ public:
                 int threads)
         : vertices_(std::move(vertices)) {
         PythonRun run;
-        OpenMesh mesh{view_points(vertices_), to_triangles(triangles), to_pairs(hard)};
+        BorderedMesh mesh{view_points(vertices_), to_triangles(triangles), to_pairs(hard)};
         const NamedLoops loops = to_named(named);
         run.without_gil([&](const ProgressCallback&) {
             const Threads team(threads);
@@ -168,7 +168,7 @@ py::tuple hole_loops_of(const DoubleArray& vertices, const IntArray& triangles, 
 std::vector<LoopShape> shapes_of(const DoubleArray& vertices, const IntArray& triangles,
                                  const std::vector<IntArray>& loops) {
     PythonRun run;
-    OpenMesh mesh{view_points(vertices), to_triangles(triangles)};
+    BorderedMesh mesh{view_points(vertices), to_triangles(triangles)};
     const std::vector<Indices> named = each(loops, to_indices);
     return run.without_gil([&](const ProgressCallback&) { return loop_shapes(HoledMesh(std::move(mesh)), named); });
 }
