@@ -17,12 +17,14 @@ import tubes
 from rough_sphere import rough_sphere
 from solving import fair_patch
 
-BALL, CAP = rough_sphere(4_000), shapes.cap(4000)
+# Made once: made again, Qhull may cut the same points into other triangles.
+BALL, CAP, CATENOID, LARGE = rough_sphere(4_000), shapes.cap(4000), shapes.catenoid(300), shapes.catenoid(12000)
+PIPE = tubes.pipe(4.0, 5.0, seed=3)
 TORUS = test_joins.joined("torus", 1000)[0]
 CALLS: dict[str, Callable[..., Any]] = {
-    "fair": lambda **n: fair_patch(shapes.catenoid(300), **n),
-    "fair a large patch": lambda **n: fair_patch(shapes.catenoid(12000), **n),
-    "least variation": lambda **n: tubes.pipe(4.0, 5.0, seed=3).faired(**n),
+    "fair": lambda **n: fair_patch(CATENOID, **n),
+    "fair a large patch": lambda **n: fair_patch(LARGE, **n),
+    "least variation": lambda **n: PIPE.faired(**n),
     "curvature": lambda **n: test_joins.with_curvature(TORUS, TORUS.mean_curvature[TORUS.fixed], **n),
     "detail": lambda **n: test_detail.fair(CAP, test_detail.rough(CAP), detail=1.0, **n),
     "fill": lambda **n: fairing.fill(*holes.bowl(48), spacing=0.8 * np.sin(np.pi / 48), **n),

@@ -21,7 +21,7 @@ struct Rows {
 
 // The corners of a quad, from one at which the shorter diagonal does not end.
 std::array<int, 4> turned(const std::array<int, 4>& quad, const Points& points) {
-    constexpr double shorter = 1.0 - 1e-6;
+    constexpr double shorter = 1.0 - 1e-6;  // by more than roundoff: equal diagonals keep their order
     const auto& [a, b, c, d] = quad;
     const double one = (points.col(a) - points.col(c)).norm();
     const double other = (points.col(b) - points.col(d)).norm();

@@ -13,7 +13,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double tiny = std::numeric_limits<double>::min();
+constexpr double tiny = std::numeric_limits<double>::min();  // no division by zero
 constexpr double whole = 1e-3;  // 1 + τ of what is a whole ball in all but name, and how unlike a flat sheet's normals
 const double per_square = 2.0 / std::sqrt(3.0);  // vertices of equilateral triangles, per square of their edge
 
@@ -73,7 +73,7 @@ double most_bent(const LoopShape& loop) {
 }  // namespace
 
 Indices spread(int count) {
-    constexpr int most = 400;
+    constexpr int most = 400;  // vertices stand for a loop of any length
     const int few = std::min(count, most);
     Indices places;
     for (int k = 0; k < few; ++k)
@@ -134,10 +134,10 @@ double least_count(const LoopShape& loop, double spacing) {
 // It does around a sheet: the loop runs clockwise, seen from the normals. So does the hole that leaves little of a ball
 // or a limb, but the normals there lean outwards, or inwards, at most places, and by 6° in the mean.
 bool leads_outside(const LoopShape& loop) {
-    constexpr double clockwise = -0.5;
-    constexpr double one_sided = 0.5;
-    constexpr double least_lean = 0.1;
-    constexpr double no_area = 1e-9;  // of the squared distances from the middle
+    constexpr double clockwise = -0.5;  // mean cosine between the normals and the loop's axis: 120° and more
+    constexpr double one_sided = 0.5;   // of the normals lean out more than in, or the other way round
+    constexpr double least_lean = 0.1;  // sine of the mean lean, 6°
+    constexpr double no_area = 1e-9;    // of the squared distances from the middle
     Points out = loop.points.colwise() - loop.points.rowwise().mean();
     Vector3 area = Vector3::Zero();
     for (int k = 0; k < loop.size(); ++k) area += out.col(k).cross(out.col((k + 1) % loop.size()));

@@ -116,7 +116,7 @@ Diagnostic not_joined(const std::vector<BoundaryLoop>& loops) {
 }
 
 std::string listed(const Indices& vertices) {
-    constexpr std::size_t most = 5;
+    constexpr std::size_t most = 5;  // names in one sentence
     std::string text = vertices.size() == 1 ? "vertex " : "vertices ";
     for (std::size_t k = 0; k < std::min(vertices.size(), most); ++k)
         text += (k > 0 ? ", " : "") + std::to_string(vertices[k]);

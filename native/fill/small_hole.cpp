@@ -39,7 +39,7 @@ Triangles face_over(const BoundaryLoop& loop, const Triangles& around) {
     if (at.size() == 3) return Eigen::Vector3i(at[0], at[1], at[2]);
     const Vector3 normal = loop.shape.normals.rowwise().sum();
     const auto facing = [&](const Cut& cut, bool is_there) {
-        constexpr double never = 10.0;
+        constexpr double never = 10.0;  // above any difference of two cosines
         double least = std::numeric_limits<double>::infinity();
         for (const auto& corners : cut)
             least = std::min(least, std::cos(radians_between(area_of(loop.shape, corners), normal)));
@@ -75,10 +75,9 @@ VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face) {
 }
 
 bool takes_hub(const LoopShape& loop, const Vector3& hub) {
-    constexpr int fewest = 5;
-    constexpr int most = 8;
-    constexpr double longest_spoke =
-        1.45;  // of the mean edge: 1.31 in a regular octagon, 1.41 in a square of eight edges
+    constexpr int fewest = 5;               // below, the hole is one face
+    constexpr int most = 8;                 // beyond, a fan's angles fall below 40°
+    constexpr double longest_spoke = 1.45;  // of the mean edge: 1.31 in a regular octagon, 1.41 in a square of 8 edges
     if (loop.size() < fewest || loop.size() > most) return false;
     const Vector3 normal = loop.normals.rowwise().sum();
     const double mean = loop.perimeter() / loop.size();

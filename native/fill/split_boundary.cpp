@@ -16,7 +16,7 @@ constexpr double away = 0.1;  // of the shorter edge there: enough to tell two p
 
 // A short way into the surface at a place of a loop, half way between the edges there.
 Vector3 into_surface(const LoopShape& loop, int k) {
-    constexpr double tiny = 1e-300;
+    constexpr double tiny = 1e-300;  // no division by zero
     const Vector3 after = loop.edge(k);
     const Vector3 before = -loop.edge((k + loop.size() - 1) % loop.size());
     const Vector3 normal = loop.normals.col(k);
