@@ -151,6 +151,7 @@ HoleJob::HoleJob(const HoledMesh& mesh, const Hole& hole, const CurvesThrough* t
 
 double HoleJob::flat_count() const {
     std::vector<LoopShape> shapes;
+    shapes.reserve(loops_.size());
     for (const BoundaryLoop& loop : loops_) shapes.push_back(loop.shape);
     return fairing::flat_count(shapes, options_.spacing, options_.bridge);
 }

@@ -194,6 +194,7 @@ private:
         if (!each.is_outer) throw MeshError(each.reason);
     }
     std::vector<Indices> outer;
+    outer.reserve(left.size());
     for (const LeftOpen& each : left) outer.push_back(each.loop);
     throw MeshError(outer_borders_left(outer));
 }

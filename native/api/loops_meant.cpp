@@ -48,7 +48,7 @@ void orient(const HoledMesh& mesh, BoundaryLoop& loop) {
         both.push_back(along.back() && against.back() ? 1 : 0);
     }
     const auto count = [](const std::vector<char>& flags) { return std::count(flags.begin(), flags.end(), 1); };
-    const auto refuse = [&](const std::string& text, std::vector<char> where) {
+    const auto refuse = [&](const std::string& text, const std::vector<char>& where) {
         Indices ends = ends_where(at, where);
         const std::string message = text + listed(ends);
         throw MeshError(at_vertices(Code::not_a_loop, message, std::move(ends)));

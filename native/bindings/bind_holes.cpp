@@ -14,6 +14,7 @@ namespace {
 template <typename Array, typename Convert>
 auto each(const std::vector<Array>& arrays, Convert convert) {
     std::vector<decltype(convert(arrays[0]))> result;
+    result.reserve(arrays.size());
     for (const Array& array : arrays) result.push_back(convert(array));
     return result;
 }

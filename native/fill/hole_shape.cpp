@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -15,7 +16,8 @@ namespace {
 
 constexpr double tiny = std::numeric_limits<double>::min();  // no division by zero
 constexpr double whole = 1e-3;  // 1 + τ of what is a whole ball in all but name, and how unlike a flat sheet's normals
-const double per_square = 2.0 / std::sqrt(3.0);  // vertices of equilateral triangles, per square of their edge
+constexpr double per_square =
+    2.0 * std::numbers::inv_sqrt3;  // vertices of equilateral triangles, per square of their edge
 
 // To the left, in the tangent plane.
 double turn_at(const LoopShape& loop, int k) {

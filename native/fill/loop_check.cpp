@@ -145,7 +145,7 @@ void refuse_doubles(const Triangles& made, const Triangles& around) {
         if (there.contains(found)) again.insert(again.end(), found.begin(), found.end());
     }
     if (again.empty()) return;
-    const auto count = static_cast<double>(again.size() / 3);
+    const auto count = static_cast<double>(again.size()) / 3.0;
     const bool is_one = again.size() == 3;
     const std::string what =
         is_one ? "1 triangle that sticks" : std::to_string(again.size() / 3) + " triangles that stick";

@@ -98,6 +98,7 @@ void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
 
 Diagnostic not_joined(const std::vector<BoundaryLoop>& loops) {
     std::vector<double> ways;
+    ways.reserve(loops.size());
     for (std::size_t l = 0; l < loops.size(); ++l) ways.push_back(way_to_others(loops, l));
     const auto worst = static_cast<std::size_t>(std::min_element(ways.begin(), ways.end()) - ways.begin());
     if (ways[worst] > leads_aside) {

@@ -50,7 +50,7 @@ std::vector<WallPoint> RowLine::wall_way(const Spot& spot, int vertex, int parts
     std::vector<Vector3> places{spot.place};
     std::vector<double> ways{0.0};
     for (const WallPoint& step : steps) {
-        places.push_back(mesh_.points.col(step.vertex));
+        places.emplace_back(mesh_.points.col(step.vertex));
         ways.push_back(ways.back() + (places.back() - places[places.size() - 2]).norm());
     }
     std::vector<WallPoint> found;

@@ -1,12 +1,14 @@
 // Ways around the seams, and the line where a fillet ends in the order in which these reach it.
 #pragma once
 
+#include <exception>
+
 #include "fillet/level_line.h"
 
 namespace fairing {
 
 // Thrown where no rows of quads fit a fillet.
-struct NoRows {};
+struct NoRows : std::exception {};
 
 // A seam from one meeting to the next: from vertices that two seams don't come to.
 struct SeamArc {

@@ -72,6 +72,7 @@ public:
         const std::vector<Pair>& spokes = spokes_.at(vertex);
         const std::vector<Pair> fans = in_order(vertex, open_fans(spokes), points_, spokes);
         std::vector<Pair> sectors;
+        sectors.reserve(fans.size());
         // Counter-clockwise a sector begins at the last spoke of a fan, along which its loop leaves.
         for (std::size_t k = 0; k < fans.size(); ++k)
             sectors.push_back({fans[k][0], fans[(k + fans.size() - 1) % fans.size()][1]});
@@ -220,6 +221,7 @@ std::vector<PartedLoop> parted_loops(const std::vector<Indices>& loops, const Vi
         in_order.emplace(begins, PartedLoop{of_loop[begins], std::move(loop)});
     }
     std::vector<PartedLoop> result;
+    result.reserve(in_order.size());
     for (auto& [begins, parted] : in_order) result.push_back(std::move(parted));
     return result;
 }
