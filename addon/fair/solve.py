@@ -71,7 +71,8 @@ def solve(
     if lone.any():
         without = solve(released, matrix, replace(options, pin_group=""), progress, kept)
         vertices = pulled(without.problem, without.result.vertices, lone, options.pin_radius)
-        return replace(without, result=replace(without.result, vertices=vertices))
+        if not _folds(without, vertices):
+            return replace(without, result=replace(without.result, vertices=vertices))
     share, options = options.detail, replace(options, detail=float(options.detail > 0.0))
     # Of two results for the same input the bits are the same, so that a former one is as good.
     place = digest(mesh, matrix) if kept is not None else ""
@@ -86,6 +87,13 @@ def solve(
         else:
             solved = _solved(problem, engine.solve(problem, options, progress), warnings)
     return _with_detail(solved, share)
+
+
+def _folds(without: Solved, vertices: Floats) -> bool:
+    """Return whether the pull turns faces over, as pins far aside do: the surface passes through these as a whole."""
+    triangles = without.problem.patch.triangles
+    found, before = (len(fairing.flipped_triangles(v, triangles)) for v in (vertices, without.result.vertices))
+    return found > before
 
 
 def _with_detail(solved: Solved, share: float) -> Solved:

@@ -32,7 +32,7 @@ class Kind:
     """An operator that is run, and where its answers come from."""
 
     operator: str = "fair_region"
-    home: str = "job"  # the module whose `solve` finds them
+    home: str = "run.job"  # the module whose `solve` finds them
     enter: Callable[[], None] = _dome  # makes an object and edits it, with what is to be selected
     first: dict[str, Any] = field(default_factory=dict)  # options of the run
     second: dict[str, Any] = field(default_factory=lambda: {"shape": "LEAST_VARIATION"})  # of a change
@@ -60,7 +60,7 @@ class Panel:
     """One."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, kind: Kind) -> None:
-        self.kind, self.redo, home = kind, module("run.redo"), module(f"run.{kind.home}")
+        self.kind, self.redo, home = kind, module("run.redo"), module(kind.home)
         self.is_open = False
         self.waits = 0  # answers that were searched for in the main thread
         self.gates: list[threading.Event] = []

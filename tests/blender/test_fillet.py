@@ -102,7 +102,7 @@ def test_all_hard_edges_of_selected_faces_are_rounded() -> None:
     obj = cube()
     meshes.enter(obj, np.ones(6, dtype=bool))
     try:
-        assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH) == {"FINISHED"}
+        assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=WIDTH, quads=False) == {"FINISHED"}
     finally:
         meshes.leave()
     assert border_edges(obj) == 0
@@ -152,7 +152,7 @@ def snapshot() -> Any:
     )
 
 
-@pytest.mark.parametrize(("width", "reason"), [(1.2, "leaves nothing")])
+@pytest.mark.parametrize(("width", "reason"), [(1.2, "is too large")])
 def test_what_is_refused_stays_and_its_spots_are_selected(width: float, reason: str) -> None:
     obj = cube()
     meshes.enter(obj, np.ones(6, dtype=bool))
@@ -180,7 +180,7 @@ def stand() -> Any:
     """The operator's methods without Blender's own part, and what it has read."""
     fillet = module("fillet.operator")
     made = stand_in(fillet.MESH_OT_fair_fillet, confirm_on_release=False)
-    for name, value in asdict(module("options.other_options").FilletOptions()).items():
+    for name, value in asdict(module("options.other_options").FilletOptions(quads=False)).items():
         setattr(made, name, value)
     made._asked = made._read(bpy.context)
     return made
@@ -269,7 +269,7 @@ def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> Non
         operator = stand()
         dragged(operator, 150)
         assert shown[-1] == []
-        assert "leaves nothing" in operator._reason
+        assert "is too large" in operator._reason
         assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
     finally:
         meshes.leave()
@@ -277,7 +277,7 @@ def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> Non
 
 def test_scripts_round_the_hard_edges_of_a_mesh() -> None:
     obj = cube()
-    result = module("fillet.script").fillet_mesh(obj.data, width=WIDTH)
+    result = module("fillet.script").fillet_mesh(obj.data, width=WIDTH, quads=False)
     assert result.converged
     assert border_edges(obj) == 0
     assert off_the_arc(meshes.positions(obj)).max() < 2e-3

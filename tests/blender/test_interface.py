@@ -167,7 +167,7 @@ def test_fair_mesh_refuses() -> None:
 
 
 def test_fair_mesh_has_the_operators_defaults() -> None:
-    from bl_ext.user_default.intrinsic_fairing.core import options
+    from bl_ext.user_default.intrinsic_fairing.options import options
 
     assert options.FairOptions.named({}) == options.FairOptions()
     assert asdict(options.FairOptions()) == DEFAULTS

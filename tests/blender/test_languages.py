@@ -17,10 +17,7 @@ REFUSES = {"ValueError", "BorderRefusal", "Verdict", "Changed"}
 FOR_SCRIPTS = {
     "cli",
     "cli_parser",
-    "fair_mesh",
-    "fill_mesh",
-    "fillet_mesh",
-    "denoise_mesh",
+    "script",
     "checked",
     "options",
     "mesh_io",

@@ -56,20 +56,20 @@ def _denoise() -> None:
 KINDS = {
     "region": Kind(refused={"shape": "HARMONIC", "bulge": 5.0}),
     "fill": Kind(
-        "fair_fill", "fill", lambda: select_vertices(open_sphere(), lambda _: True), {}, {"spacing": 1.5},
+        "fair_fill", "fill.operator", lambda: select_vertices(open_sphere(), lambda _: True), {}, {"spacing": 1.5},
         {"quads": True}, {"longest": 1},
     ),
     "fillet": Kind(
-        "fair_fillet", "fillet", _fillet, {"width": 0.3}, {"width": 0.4}, {"profile": 0.5}, {"width": 1e3},
+        "fair_fillet", "fillet.operator", _fillet, {"width": 0.3}, {"width": 0.4}, {"profile": 0.5}, {"width": 1e3},
     ),
     "curves": Kind(
-        "fair_from_curves", "from_curves", _curves, {}, {"spacing": 1.5}, {"quads": True},
+        "fair_from_curves", "curves.operator", _curves, {}, {"spacing": 1.5}, {"quads": True},
     ),
     "new mesh": Kind(
         first={"remesh": True}, second={"spacing": 1.5}, third={"quads": True},
     ),
     "all keys": Kind(enter=_keys, first={"all_keys": True}),
-    "denoise": Kind("fair_denoise", "denoise", _denoise, {}, {"amount": 0.5}, {"size": 0.5}),
+    "denoise": Kind("fair_denoise", "denoise.operator", _denoise, {}, {"amount": 0.5}, {"size": 0.5}),
 }  # fmt: skip
 REFUSED = [name for name, kind in KINDS.items() if kind.refused]
 WRITERS = {

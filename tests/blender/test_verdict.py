@@ -75,7 +75,7 @@ def test_write_it_all_the_same() -> None:
     meshes.edit(obj)
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
-    assert module("selection.inspection").last_options(bpy.context).accept == "USABLE"
+    assert module("selection.inspection").last_options(bpy.context).allow_folds is False
     meshes.leave()
 
 
@@ -124,7 +124,7 @@ def test_again_with_even_curvature() -> None:
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
     assert bpy.ops.mesh.fair_again(way="EVEN_CURVATURE") == {"FINISHED"}
-    assert module("run.last_run").options().equation == "LEAST_VARIATION"
+    assert module("run.last_run").options().equation == "least_variation"
     assert meshes.report().written
     meshes.leave()
 
@@ -203,7 +203,7 @@ def test_again_with_a_smooth_outline() -> None:
     meshes.run()
     worst = meshes.report().join_worst
     assert bpy.ops.mesh.fair_again(way="SMOOTH_OUTLINE") == {"FINISHED"}
-    assert module("run.last_run").options().outline == "MENDED"
+    assert module("run.last_run").options().smooth_boundary
     assert meshes.report().join_worst < worst
     meshes.leave()
 
