@@ -16,8 +16,8 @@ namespace {
 
 constexpr double tiny = std::numeric_limits<double>::min();  // no division by zero
 constexpr double whole = 1e-3;  // 1 + τ of what is a whole ball in all but name, and how unlike a flat sheet's normals
-constexpr double per_square =
-    2.0 * std::numbers::inv_sqrt3;  // vertices of equilateral triangles, per square of their edge
+// Vertices of equilateral triangles, per square of their edge.
+constexpr double per_square = 2.0 * std::numbers::inv_sqrt3;
 
 // To the left, in the tangent plane.
 double turn_at(const LoopShape& loop, int k) {
