@@ -105,7 +105,7 @@ class FilletOptions(Chosen):
         "Quads",
         "Quads in rows along the seam that continue the edges outside from side to side. Where the sides have no "
         "pairs, pairs of triangles",
-        True,
+        False,
     )
     width_group: str = shared.group(
         PARTS, "Vertex Group", "The widths are multiplied by the weights of this vertex group along the seam"
