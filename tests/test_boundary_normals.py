@@ -53,12 +53,54 @@ def test_an_undivided_box_with_a_boss_comes_back_flat() -> None:
     assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
 
 
-@pytest.mark.parametrize("noise", [0.03, 0.07])
-def test_noise_on_the_top_does_not_turn_it_into_a_tent(noise: float) -> None:
-    """It rises by .02 at most; tangent to the sides by .98."""
+@pytest.mark.parametrize("noise", [0.07, 0.3, 1.0])
+def test_noise_on_the_top_does_not_count(noise: float) -> None:
+    """In edges; tangent to the sides it rises by .98."""
     result, found, free = faired(*dented_box(16, noise))
     assert found.from_inside.all()
-    assert np.abs(result.vertices[free, 2] - 1).max() < 0.5 * noise
+    assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
+
+
+@pytest.mark.parametrize("kind", ["dome", "crumpled", "pocket"])
+def test_damage_up_to_the_rim_of_a_box_does_not_count(kind: str) -> None:
+    """The fair surface of clean faces is what they say, a dish for instance; of these none says anything."""
+    vertices, inside, outside = dented_box(12)
+    own = np.setdiff1d(inside, outside)
+    x, y = vertices[own, :2].T
+    noise = np.random.default_rng(5).normal(size=len(own))
+    shapes = {"dome": 0.4 * np.clip(1 - (x**2 + y**2) / 0.6, 0, None), "crumpled": 0.2 * noise, "pocket": -0.6 + 0 * x}
+    vertices[own, 2] = 1 + shapes[kind]
+    result, found, free = faired(vertices, inside, outside)
+    assert found.from_inside.all()
+    assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
+
+
+def spoilt(vertices: FloatArray, own: IntArray, rim: IntArray, kind: str) -> FloatArray:
+    """The vertices `own` of a cap about z, made flat, scaled towards the middle, turned in, or with noise."""
+    made, rng = vertices.copy(), np.random.default_rng(11)
+    low = vertices[rim, 2].mean()
+    if kind == "flat":
+        made[own, 2] = np.minimum(made[own, 2], low)
+    elif kind == "scaled":
+        made[own] *= 0.55 + 0.3 * rng.random((len(own), 1))
+    elif kind == "turned in":
+        made[own, 2] = 2 * low - made[own, 2]
+    else:
+        made[own] *= 1 + 0.12 * rng.normal(size=(len(own), 1))
+    return made
+
+
+@pytest.mark.parametrize("kind", ["flat", "scaled", "turned in", "noise"])
+@pytest.mark.parametrize("degrees", [30, 50, 70, 85, 100])
+def test_a_cap_that_is_spoilt_up_to_the_boundary_comes_back_round(degrees: int, kind: str) -> None:
+    """The curvature outside says how far the middle lies below the tangents: there is no wall, whatever lies inside."""
+    vertices, triangles = solids.sphere(48, 36)
+    upper = (vertices[triangles][:, :, 2] > np.cos(np.radians(degrees)) - 1e-9).all(axis=1)
+    rim = np.intersect1d(triangles[upper], triangles[~upper])
+    own = np.setdiff1d(triangles[upper], rim)
+    result, found, _ = faired(spoilt(vertices, own, rim, kind), triangles[upper], triangles[~upper])
+    assert not found.from_inside.any()
+    assert np.abs(np.linalg.norm(result.vertices[own], axis=1) - 1).max() < 1e-3
 
 
 @pytest.mark.parametrize(("sides", "rows"), [(24, 6), (48, 12)])

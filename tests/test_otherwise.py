@@ -44,13 +44,7 @@ def test_an_accepted_surface_is_returned_with_its_girth(length: float, lean: flo
     assert result.girth[1] == pytest.approx(max(1.0, radii(result)[inner].max()), abs=0.02)
 
 
-def test_automatic_is_least_variation_for_long_tubes_alone() -> None:
-    for length, equation in ((1.8, "harmonic"), (2.2, "least_variation")):
-        tube = tubes.pipe(length, 2.0, seed=3)
-        result = tube.faired(equation="automatic")
-        assert result.equation == equation
-        assert not result.warnings
-        assert (result.vertices == tube.faired(equation=equation).vertices).all()
+def test_automatic_is_harmonic_where_there_is_no_tube() -> None:
     ring = shapes.cap(300)
     result = fairing.fair(
         ring.vertices, ring.triangles, fixed=ring.fixed, fixed_normals=ring.fixed_normals, equation="automatic"
@@ -60,14 +54,11 @@ def test_automatic_is_least_variation_for_long_tubes_alone() -> None:
 
 
 def test_a_solver_keeps_the_equation_that_automatic_chose_while_a_tube_is_dragged() -> None:
-    """Two radii divide: a small move over them changes nothing, a new solver decides anew."""
-    tube = tubes.pipe(1.97, 0.0, seed=3)
-    longer = tube.vertices * np.array([1.0, 1.0, 1.04])
+    tube = tubes.elbow(2.0, 90.0, seed=3)
     solver = fairing.Solver(tube.triangles, fixed=tube.fixed, equation="automatic", threads=1)
-    assert solver.solve(tube.vertices, tube.normals).equation == "harmonic"
-    assert solver.solve(longer, tube.normals).equation == "harmonic"
-    other = fairing.Solver(tube.triangles, fixed=tube.fixed, equation="automatic", threads=1)
-    assert other.solve(longer, tube.normals).equation == "least_variation"
+    for stretch in (1.0, 1.01, 1.02):
+        dragged = tube.vertices * np.array([1.0, 1.0, stretch])
+        assert solver.solve(dragged, tube.normals).equation == "least_variation"
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:

@@ -17,6 +17,7 @@ from ..translations import translated
 from ..verdict.outcome import Fairing
 from ..verdict.properties import store
 from ..verdict.report import GRADE_NAMES, Report, make_report, summary
+from ..verdict.verdict import KEEP_DETAIL
 from ..words import labels
 from ..words.words import said
 from .engine import Progress
@@ -67,7 +68,6 @@ class Asked(AskedInEditMode):
         store(context.window_manager.fairing_report, report)
         last_run.remember(self.tasks, outcomes, self.options, report)
         if not report.written:
-            last_run.select_spots(context)
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         compare.remember(self.tasks, outcomes)
@@ -86,6 +86,8 @@ class Asked(AskedInEditMode):
 def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:
     """Leave what the last run has left, offer this change no more, and report how it would have come out."""
     last_run.select_region(context)
+    if way == KEEP_DETAIL and not compare.is_shown(context):  # it began with the shape before
+        compare.show(context, result=True)
     shown = context.window_manager.fairing_report
     shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
     outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))

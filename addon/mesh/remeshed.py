@@ -43,8 +43,10 @@ def write_mesh(mesh: bpy.types.Mesh, outcome: Remeshed | Rounded) -> None:
         offsets = target.shapes.offsets(old.moved)
         _written(target, outcome, old)
         if target.shapes.follow:
-            places = np.array([vertex.co[:] for vertex in old.moved]).reshape(-1, 3)
-            target.shapes.write(old.moved, offsets, places)
+            left = np.flatnonzero([vertex.is_valid for vertex in old.moved])  # images are gone
+            moved = elements_of(old.moved, left)
+            places = np.array([vertex.co[:] for vertex in moved]).reshape(-1, 3)
+            target.shapes.write(moved, offsets[left], places)
 
 
 @dataclass(frozen=True)
@@ -105,7 +107,7 @@ def _written(target: Target, outcome: Remeshed | Rounded, old: _Old) -> Written:
     vertices, faces = target.mirror.kept([(vertices, faces)])
     select_new_faces(bm, [face for face in faces if face not in pieces])
     bm.normal_update()
-    renew(bm, [*vertices, *old.moved], faces)
+    renew(bm, [*vertices, *(vertex for vertex in old.moved if vertex.is_valid)], faces)
     bm.verts.index_update()
     bm.faces.index_update()
     numbers = np.array([face.index for face in faces], dtype=np.int64)

@@ -25,7 +25,7 @@ from ..verdict.verdict import (
     WRITE,
 )
 from ..words.words import said
-from . import last_run
+from . import compare, last_run
 
 # What each button changes in the options.
 CHANGES: dict[str, dict[str, Any]] = {
@@ -99,7 +99,11 @@ class MESH_OT_fair_again(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select what the last run had, change one thing, run; what is no better than before isn't written."""
         options = replace(last_run.options(), **{"allow_folds": False, **CHANGES[self.way]})
+        status, goes_back = {"CANCELLED"}, False
         try:
+            goes_back = self.way == KEEP_DETAIL and compare.is_shown(context)  # the skin is gone from the result
+            if goes_back:
+                compare.show(context, result=False)
             last_run.select_region(context)
             if self.way == ADD_LEFT_OUT:
                 bpy.ops.mesh.fair_select(what="LEFT_OUT")
@@ -109,9 +113,11 @@ class MESH_OT_fair_again(bpy.types.Operator):
             last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
             status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
-        except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
+        except (last_run.Changed, compare.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
         finally:
             last_run.try_way("")  # a run that did not begin has not taken it
+            if goes_back and "CANCELLED" in status:
+                compare.show(context, result=True)
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

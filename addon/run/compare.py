@@ -114,19 +114,21 @@ def _is_before(pair: Pair) -> bool:
     return places is not None and np.array_equal(places, pair.before[asked])
 
 
-def toggle(context: bpy.types.Context) -> bool:
-    """Swap before and after; return whether the result shows now. Raises Changed."""
+def is_shown(context: bpy.types.Context) -> bool:
+    """Return whether there is a result, and all of it shows. Raises Changed."""
     objects = objects_in_mode(context)
-    shown = []
     for pair in _last.pairs:
         if pair.object_name not in objects:
             raise Changed(said("not_in_edit_mode", name=pair.object_name))
-        shown.append(_is_after(objects[pair.object_name].data, pair))
-    show_after = not all(shown)
+    return is_available() and all(_is_after(objects[pair.object_name].data, pair) for pair in _last.pairs)
+
+
+def show(context: bpy.types.Context, result: bool) -> None:
+    """Show the last run's result, or the shape before."""
+    objects = objects_in_mode(context)
     for pair in _last.pairs:
-        shown_now = (pair.after, None) if show_after else (pair.before, pair.normals)
+        shown_now = (pair.after, None) if result else (pair.before, pair.normals)
         mesh_io.write_edit_mesh(objects[pair.object_name].data, pair.vertices, *shown_now)
-    return show_after
 
 
 def _is_after(mesh: bpy.types.Mesh, pair: Pair) -> bool:
@@ -137,6 +139,13 @@ def _is_after(mesh: bpy.types.Mesh, pair: Pair) -> bool:
         if np.array_equal(now[pair.vertices], pair.before):
             return False
     raise Changed(said("edited_since", name=pair.object_name))
+
+
+def toggle(context: bpy.types.Context) -> bool:
+    """Swap before and after; return whether the result shows now. Raises Changed."""
+    shows_result = not is_shown(context)
+    show(context, shows_result)
+    return shows_result
 
 
 class MESH_OT_fair_compare(bpy.types.Operator):

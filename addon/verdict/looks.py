@@ -15,6 +15,7 @@ from ..words.words import said
 from .evidence import NOTHING, Evidence, Found
 from .quality import Join
 
+LEAST_MOVED = 1e-5  # part of the selection's size: less is nothing that one sees
 MOST_BENT = 0.05  # part of the free vertices of a loft: they are its spots
 # What stands in for a surface that there is none of, by the engine's name for it.
 STAND_INS = {
@@ -166,6 +167,17 @@ def _points(evidence: Evidence) -> Floats:
     return own
 
 
+def _unmoved(evidence: Evidence, options: FairOptions) -> Found:
+    """Report a run that gives back what was there: what was to go was not selected, or counts as boundary."""
+    free, before = evidence.problem.patch.free, evidence.problem.own_points
+    if evidence.points is None or options.remesh or options.factor == 0.0:
+        return NOTHING
+    moved = np.abs(_points(evidence)[free] - before[free]).max(initial=0.0)
+    if moved > LEAST_MOVED * np.ptp(before, axis=0).max():
+        return NOTHING
+    return said("nothing_changed"), _outline(evidence)
+
+
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
     """Report the old skin where it was asked for and not given."""
     if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin")):
@@ -227,7 +239,7 @@ def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
 # The first that finds something gives the reason.
 _LOOKS = (
     *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
-    *(_substituted, _uneven, _rougher, _sunken, _refused, _squeezed, _smoother),
+    *(_substituted, _uneven, _rougher, _sunken, _refused, _squeezed, _smoother, _unmoved),
 )
 
 

@@ -17,7 +17,6 @@
 #include "method/pinned.h"
 #include "method/solve.h"
 #include "problem/free_slopes.h"
-#include "start/automatic_equation.h"
 #include "start/swept_start.h"
 
 namespace fairing {
@@ -67,11 +66,6 @@ double load_in_units(const Patch& patch, const Points& fixed_points, double diam
     if (options.solver.load != 0.0) load = options.solver.load * std::pow(diameter, 3);
     if (options.bulge != 0.0) load += 8.0 * options.bulge / std::pow(outline_radius(patch, fixed_points), 3);
     return load;
-}
-
-// By the boundary loops alone.
-Equation chosen_for(const Problem& problem) {
-    return automatic_equation(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
 }
 
 // Open borders that become fair do so as curves; the surface then moves them along its normals.
@@ -151,15 +145,14 @@ ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const 
 
 Equation ComponentSolver::equation_of(const Problem& problem, const ComponentData& data) {
     const Equation asked = problem.options.equation;
+    chooses_ = false;
     if (asked != Equation::automatic) return equation_for(patch_, asked);
     // The paper's method has one equation for tubes, and one surface alone continues a curvature.
     const bool harmonic_alone = options_.method == Method::paper || data.curvatures.size() > 0;
-    if (harmonic_alone) return equation_for(patch_, Equation::harmonic);
-    Outline outline = outline_of(problem);
-    const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline);
-    const Equation chosen = stays ? chosen_->equation : chosen_for(problem);
-    if (keeps()) chosen_ = Chosen{std::move(outline), chosen};
-    return equation_for(patch_, chosen);
+    const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline_of(problem));
+    const Equation chosen = equation_for(patch_, stays && !harmonic_alone ? chosen_->equation : Equation::harmonic);
+    chooses_ = !harmonic_alone && !stays && chosen == Equation::harmonic;
+    return chosen;
 }
 
 // λ stays as long as what it is read off does, which one call does not change.
@@ -231,12 +224,14 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
     return joined(problem, std::move(solution), progress.range(0.5, 1.0));
 }
 
-Solution ComponentSolver::solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
+Solution ComponentSolver::solve_tangent(Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
-    std::optional<Solution> near = keeps() ? solve_near_last(problem, progress) : std::nullopt;
+    std::optional<Solution> near = keeps() && !chooses_ ? solve_near_last(problem, progress) : std::nullopt;
     if (!near) near = solve_from(problem, start, progress);
+    if (!near && chooses_) near = solve_automatically(problem, options_.pin_radius, progress);
     Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
     if (!keeps()) return solution;
+    chosen_ = Chosen{outline_of(problem), problem.options.equation};
     replaced_.reset();
     if (stands_in(solution.provenance) && end_of(solution) == Termination::converged)
         replaced_ = Replaced{outline_of(problem), solution.provenance};

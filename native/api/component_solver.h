@@ -29,9 +29,10 @@ public:
     // same.
     [[nodiscard]] Points first_surface(const ComponentData& data, const Progress& progress);
 
-    // λ is read off the reference again, and the equation tried again.
+    // The next answer is that of a new solver.
     void options_changed() {
         read_ = false;
+        warm_.forget();
         replaced_.reset();
         chosen_.reset();
         skin_.forget();
@@ -64,7 +65,7 @@ private:
     [[nodiscard]] std::optional<NearStart> given_start(const ComponentAnswer& answer, const ComponentData& data) const;
     [[nodiscard]] Solution solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress);
     // From the last answer or `start` where there is one.
-    [[nodiscard]] Solution solve_tangent(const Problem& problem, const std::optional<NearStart>& start,
+    [[nodiscard]] Solution solve_tangent(Problem& problem, const std::optional<NearStart>& start,
                                          const Progress& progress);
     // While a boundary is dragged, the equation stays what it was.
     [[nodiscard]] Equation equation_of(const Problem& problem, const ComponentData& data);
@@ -85,6 +86,7 @@ private:
     Shared<Lambda> lambda_;
     WarmStart warm_;
     std::optional<Chosen> chosen_;      // of the last problem, where the equation is chosen automatically
+    bool chooses_ = false;              // whether it is to be chosen now
     std::optional<Replaced> replaced_;  // of the last answer, where another surface was taken instead
 };
 

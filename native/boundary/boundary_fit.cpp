@@ -1,9 +1,11 @@
 #include "boundary/boundary_fit.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/progress.h"
 #include "boundary/sided_fits.h"
+#include "geometry/angle.h"
 #include "mesh/collapsed.h"
 
 namespace fairing {
@@ -25,6 +27,37 @@ VertexPairs without(const VertexPairs& all, const VertexPairs& some) {
     return rest;
 }
 
+// Places in `vertices` of those all of whose outline edges are among `chosen`.
+Indices places_between(const VertexPairs& chosen, const VertexPairs& outline, const Indices& vertices,
+                       Eigen::Index count) {
+    const Indices all = counts_at(outline, count);
+    const Indices own = counts_at(chosen, count);
+    Indices places;
+    for (int k = 0; k < static_cast<int>(vertices.size()); ++k) {
+        const int v = vertices[k];
+        if (own[v] > 0 && own[v] == all[v]) places.push_back(k);
+    }
+    return places;
+}
+
+void take(SidedFits& side, const Indices& vertices, const Indices& places, SurroundingFit& fit) {
+    for (int k : places) {
+        checkpoint();
+        fit.fits[k] = side.at_vertex(vertices[k]);
+        fit.averaged.col(k) = side.averaged(vertices[k]);
+    }
+}
+
+// Whether the patch's own slopes are to be relied on: those of a dome are, those of noise or of a pocket's wall not.
+bool is_clean(const SurroundingFit& own, const SurroundingFit& film, const Indices& places) {
+    constexpr double most_uncertain = 0.01;  // radians
+    const auto clean = std::count_if(places.begin(), places.end(), [&](int k) {
+        const auto& fit = own.fits[k];
+        return fit && fit->error < most_uncertain && degrees_between(fit->normal, film.averaged.col(k)) < hard_bend;
+    });
+    return 2 * clean > static_cast<std::ptrdiff_t>(places.size());
+}
+
 }  // namespace
 
 BoundaryNormals boundary_normals(const Surroundings& given, const Indices& vertices, const VertexPairs& creases,
@@ -37,22 +70,28 @@ BoundaryNormals boundary_normals(const Surroundings& given, const Indices& verti
     const auto [points, size] = to_unit_size(given.points, both);
     const PatchInMesh mesh{points, within, beyond, whole};
     const VertexPairs outline = outline_edges(mesh);
-    std::vector<char> held(static_cast<std::size_t>(points.cols()), 0);
-    for (int v : vertices) held[v] = 1;
-    const VertexPairs inward = rule == SideRule::inside ? outline : inward_edges(mesh, creases, held);
-    SidedFits inside(points, within, vertices, creases, without(outline, inward));
-    SidedFits outside(points, beyond, vertices, creases, inward);
-    const Indices all = counts_at(outline, points.cols());
-    const Indices own = counts_at(inward, points.cols());
-    BoundaryNormals result;
     SurroundingFit fit = blank_fit(points, beyond, vertices, size);
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
-        checkpoint();
-        const int v = vertices[k];
-        result.from_inside.push_back(own[v] > 0 && own[v] == all[v] ? 1 : 0);
-        SidedFits& side = result.from_inside.back() ? inside : outside;
-        fit.fits.push_back(side.at_vertex(v));
-        fit.averaged.col(static_cast<Eigen::Index>(k)) = side.averaged(v);
+    fit.fits.resize(vertices.size());
+    Indices all(vertices.size());
+    std::iota(all.begin(), all.end(), 0);
+    SidedFits outside(points, beyond, vertices, creases);
+    take(outside, vertices, all, fit);
+    const bool is_automatic = rule == SideRule::automatic;
+    const Walls walls = is_automatic ? walls_of(mesh, {vertices, fit.fits, outside.hard()}) : Walls{outline, points};
+    BoundaryNormals result;
+    result.from_inside.assign(vertices.size(), 0);
+    if (!walls.edges.empty()) {
+        const Indices places = places_between(walls.edges, outline, vertices, points.cols());
+        for (int k : places) result.from_inside[k] = 1;
+        SidedFits rest(points, beyond, vertices, creases, walls.edges);
+        take(rest, vertices, all, fit);
+        const VertexPairs others = without(outline, walls.edges);
+        SurroundingFit film = fit;
+        SidedFits free(walls.film, within, vertices, creases, others);
+        take(free, vertices, places, film);
+        SidedFits own(points, within, vertices, creases, others);
+        take(own, vertices, places, fit);
+        if (is_automatic && !is_clean(fit, film, places)) fit = std::move(film);
     }
     result.normals = normals_of(fit);
     return result;

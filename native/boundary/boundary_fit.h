@@ -1,8 +1,8 @@
 // Normals along the boundary of a patch, from the triangles outside or, along hard edges, from its own.
 #pragma once
 
-#include "boundary/hard_boundary.h"
 #include "boundary/surrounding_fit.h"
+#include "boundary/walls.h"
 
 namespace fairing {
 
@@ -17,11 +17,12 @@ struct Surroundings {
 
 struct BoundaryNormals {
     SurroundingNormals normals;
-    std::vector<char> from_inside;  // of each vertex
+    std::vector<char> from_inside;  // of each vertex: not the slope outside
 };
 
-// At `vertices`, which don't move. `automatic`: inward_edges take the slope of the patch's own triangles. `inside`: all
-// outline edges do. A vertex between edges of both kinds takes the slope outside. One that is on no outline edge, too.
+// At `vertices`, which don't move. `automatic`: along walls (walls_of) the slope is that of the patch's own triangles
+// where these are clean, else that of a film over the boundary. `inside`: all outline edges take that of the patch's
+// own triangles. A vertex between edges of both kinds takes the slope outside. One that is on no outline edge, too.
 BoundaryNormals boundary_normals(const Surroundings& mesh, const Indices& vertices, const VertexPairs& creases,
                                  SideRule rule);
 

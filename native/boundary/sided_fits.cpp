@@ -32,12 +32,12 @@ SidedFits::SidedFits(const Points& points, const Triangles& triangles, const Ind
                      const VertexPairs& elsewhere)
     : points_(points),
       near_(triangles_near(without_collapsed(triangles), at, points.cols())),
+      hard_(hard_edges(points_, near_, marked)),
       side_of_(static_cast<std::size_t>(points.cols()), none),
       is_parted_(side_of_.size(), 0),
       whole_(std::make_unique<SurfaceFits>(points_, near_, Centre::free)) {
-    const VertexPairs edges = hard_edges(points_, near_, marked);
-    if (edges.empty()) return;
-    BrokenSurface broken = broken_along(near_, static_cast<int>(points_.cols()), edges);
+    if (hard_.empty()) return;
+    BrokenSurface broken = broken_along(near_, static_cast<int>(points_.cols()), hard_);
     choose_sides(broken.triangles, broken.input_vertex, at, elsewhere);
     broken_ = std::move(broken.triangles);
     copies_ = points_(Eigen::all, broken.input_vertex);

@@ -24,6 +24,8 @@ public:
     [[nodiscard]] std::optional<SlopeFit> at_vertex(int vertex);
     // Whether hard edges part the surface there, and no side counts.
     [[nodiscard]] bool is_parted(int vertex) const { return is_parted_[vertex] != 0; }
+    // Edges at which the surface is broken.
+    [[nodiscard]] const VertexPairs& hard() const { return hard_; }
     // The normalised sum of cross products on that side; zero without triangles.
     [[nodiscard]] Vector3 averaged(int vertex) const;
 
@@ -33,6 +35,7 @@ private:
 
     const Points& points_;
     Triangles near_;
+    VertexPairs hard_;
     Points copies_;
     Triangles broken_;
     Indices side_of_;  // of each vertex its copy that counts; `none`: the whole surface does

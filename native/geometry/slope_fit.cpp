@@ -208,6 +208,9 @@ void take(SlopeFit& fit, const Round& round, const Axes& axes) {
     fit.height = scale * round.constant;
     fit.scatter = scale * round.scatter;
     fit.mean_curvature = (round.terms[0] + round.terms[2]) / scale;
+    fit.bending = (2.0 * round.terms[0] * axes.x * axes.x.transpose() + round.terms[1] * axes.x * axes.y.transpose() +
+                   round.terms[1] * axes.y * axes.x.transpose() + 2.0 * round.terms[2] * axes.y * axes.y.transpose()) /
+                  scale;
     fit.x = axes.x;
     fit.y = axes.y;
     fit.terms = round.terms;

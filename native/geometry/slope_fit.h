@@ -19,6 +19,8 @@ struct SlopeFit {
     double scatter = 0.0;          // standard deviation of the points' heights from the surface
     double mean_curvature = 0.0;   // at the foot of the centre, in length⁻¹; −1/R on a sphere with outward normals
     double curvature_error = 0.0;  // its standard error
+    // The curvature along a unit tangent t is tᵀ bending t, with the sign of the mean one.
+    Eigen::Matrix3d bending = Eigen::Matrix3d::Zero();
 
     // Unit, of the fitted surface beside the point at this offset from the centre.
     [[nodiscard]] Vector3 normal_at(const Vector3& offset) const;

@@ -66,6 +66,7 @@ std::optional<SlopeFit> SurfaceFits::at_vertex(int vertex, Neighbourhood& around
     if (best) {
         best->mean_curvature = most_certain->mean_curvature;
         best->curvature_error = most_certain->curvature_error;
+        best->bending = most_certain->bending;
     }
     return best;
 }

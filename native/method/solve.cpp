@@ -6,6 +6,7 @@
 #include "accept/accept.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
+#include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "method/direct.h"
 #include "method/nested.h"
@@ -14,6 +15,7 @@
 #include "method/plan.h"
 #include "problem/solution_at.h"
 #include "problem/surface_state.h"
+#include "shape/girth.h"
 #include "stand_in/lofted.h"
 #include "stand_in/smoothed.h"
 #include "variation/least_variation.h"
@@ -66,6 +68,12 @@ void complete(const Problem& problem, Solution& solution) {
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
 }
 
+// Whether the caller's own limit ended the iteration.
+bool has_run_out(const Problem& problem, const Solution& solution) {
+    return problem.options.max_iterations < SolverOptions{}.max_iterations &&
+           solution.termination == Termination::iteration_limit;
+}
+
 class PlanRun {
 public:
     PlanRun(const Problem& problem, double pin_radius, const Progress& progress)
@@ -79,20 +87,21 @@ public:
         for (const Step step : plan_.equation) {
             if (!is_wanted(step)) continue;
             if (Found solution = attempt(step)) return finished(std::move(*solution));
-            if (!attempts_.found.empty() && has_run_out(attempts_.found.back())) break;
+            if (!attempts_.found.empty() && has_run_out(problem_, attempts_.found.back())) break;
         }
         return finished(best());
     }
 
-    Solution stand_in(Solution first) {
+    // `varied`: least variation was tried.
+    Solution stand_in(Solution first, bool varied = false) {
         attempts_.log = first.ways;
-        const bool may_replace = !is_answer(first) && first.reached_load == 0.0 && !has_run_out(first);
+        const bool may_replace = !is_answer(first) && first.reached_load == 0.0 && !has_run_out(problem_, first);
         if (!may_replace) return first;
         const bool is_found = first.flaw == Flaw::folded;  // only its vertices fold: they would on another one, too
         attempts_.found.clear();
         attempts_.found.push_back(std::move(first));
         for (const Step step : plan_.stand_ins) {
-            if (is_found && step == Step::least_variation) continue;
+            if ((is_found || varied) && step == Step::least_variation) continue;
             if (Found solution = attempt(step)) return finished(std::move(*solution));
             if (!attempts_.found.empty() && is_answer(attempts_.found.back())) break;
         }
@@ -105,12 +114,6 @@ private:
         if (step != Step::uniform_weights) return true;
         return std::any_of(attempts_.found.begin(), attempts_.found.end(),
                            [](const Solution& s) { return s.flaw == Flaw::folded || s.flaw == Flaw::crossing; });
-    }
-
-    // Whether the caller's own limit ended the iteration.
-    [[nodiscard]] bool has_run_out(const Solution& solution) const {
-        return problem_.options.max_iterations < SolverOptions{}.max_iterations &&
-               solution.termination == Termination::iteration_limit;
     }
 
     // The solution of a step where it is accepted; kept aside otherwise.
@@ -189,11 +192,60 @@ Found answer(const Problem& problem, Found solution, const char* name, const Sto
     return solution;
 }
 
+// How far a surface misses the girth of its ends, in what is bearable: a tenth thinner, four tenths thicker. Far more
+// where it passes through itself, infinite where it is no answer.
+double lost_girth(const Problem& problem, const Solution& solution) {
+    constexpr double thinner = 0.1;         // a waist is seen from there on
+    constexpr double thicker = 0.4;         // a swelling is kept sooner than a waist
+    constexpr double for_crossings = 10.0;  // more than any girth costs
+    if (!is_answer(solution)) return HUGE_VAL;
+    const auto girth = girth_range(problem.patch, solution.points);
+    const bool crosses = !crossing_triangles(problem.patch.triangles, solution.points).empty();
+    const double lost = girth ? std::max((1.0 - girth->least) / thinner, (girth->largest - 1.0) / thicker) : 0.0;
+    return crosses ? for_crossings + lost : lost;
+}
+constexpr double kept_girth = 0.1;  // lost girth of which no other surface need be sought
+
+Found alone(const Problem& problem, const Progress& progress) {
+    try {
+        return solve_equation_alone(problem, progress);
+    } catch (const SolverError&) {
+        return std::nullopt;  // then the other surfaces are left
+    }
+}
+
 }  // namespace
 
 Solution solve(const Problem& problem, double pin_radius, const Progress& progress) {
     PlanRun run(problem, pin_radius, progress);
     return run.stand_in(run.equation());
+}
+
+Solution solve_automatically(Problem& problem, double pin_radius, const Progress& progress) {
+    const Traits traits(problem);
+    if (!traits.is_tube || !traits.is_between_tubes) return solve(problem, pin_radius, progress);
+    PlanRun harmonic(problem, pin_radius, progress.range(0.0, 0.4));
+    Solution first = harmonic.equation();
+    Solution best = first;
+    double least = lost_girth(problem, best);
+    std::vector<WayTaken> ways = first.ways;
+    Problem other = problem;
+    for (const Equation equation : {Equation::minimal_energy, Equation::least_variation}) {
+        if (least <= kept_girth || has_run_out(problem, best)) break;
+        if (equation == Equation::least_variation && traits.is_jagged) continue;
+        other.options.equation = equation;
+        Found found = alone(other, progress.range(equation == Equation::minimal_energy ? 0.4 : 0.6, 0.8));
+        if (!found) continue;
+        ways.insert(ways.end(), found->ways.begin(), found->ways.end());
+        const double lost = lost_girth(problem, *found);
+        if (lost >= least) continue;
+        least = lost;
+        best = std::move(*found);
+        problem.options.equation = equation;
+    }
+    if (least == HUGE_VAL) return harmonic.stand_in(std::move(first), true);
+    best.ways = std::move(ways);
+    return best;
 }
 
 Solution solve_equation_alone(const Problem& problem, const Progress& progress) {

@@ -18,6 +18,12 @@ namespace fairing {
 // at the start, Cancelled.
 Solution solve(const Problem& problem, double pin_radius, const Progress& progress);
 
+// Equation::automatic between the ends of tubes, elsewhere harmonic. What is cheap comes first: the harmonic surface,
+// that of minimal energy, that of least variation. The first that keeps the girth of its ends is the answer, else the
+// one of those accepted that misses least, else what stands in for the harmonic one. `problem` gets the equation that
+// was taken.
+Solution solve_automatically(Problem& problem, double pin_radius, const Progress& progress);
+
 // The equation alone: nothing stands in.
 Solution solve_equation_alone(const Problem& problem, const Progress& progress);
 

@@ -123,7 +123,7 @@ def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
     sides = np.isclose(np.abs(fixed[:, 0]), 0.5) & (np.abs(fixed[:, 1]) < 0.49)
     assert np.array_equal(known.from_inside, sides)
     assert known.notes == (
-        "14 boundary vertices lie on hard edges: the surface takes the slope of the selected faces there",
+        "14 boundary vertices lie on hard edges: the surface does not go on with the slope outside there",
     )
     assert np.array_equal(known.inward(patch), patch.vertices[patch.fixed[sides]])
     outer, reported = normals_of(mesh, patch, "SURROUNDING")
@@ -131,7 +131,7 @@ def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
     assert np.abs(outer[sides, 0]).min() > 0.8
     flat = boundary(table(16, 0.0), patch, "INSIDE", outside_triangles(mesh, patch))
     assert flat.from_inside.all()
-    assert flat.notes == ("The surface takes the slope of the selected faces along the whole boundary",)
+    assert flat.notes == ("The boundary is a hard edge all along: the surface does not go on with the slope outside",)
 
 
 def test_marked_edges_stop_the_fit_unless_most_are() -> None:

@@ -267,7 +267,7 @@ def test_a_hole_at_a_mirror_plane_is_filled_as_the_whole_would_be(scale: tuple[f
     meshes.leave()
     points = meshes.positions(obj)
     np.testing.assert_array_equal(points[: len(before)], before)
-    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
+    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 1e-4
     (rim,) = open_borders(obj)
     assert np.abs(points[rim, 0]).max() < 1e-6  # all of it lies on the plane
     assert len(rim) != edges

@@ -8,7 +8,7 @@ import pytest
 
 import meshes
 
-INSIDE = "The surface takes the slope of the selected faces along the whole boundary"
+INSIDE = "The boundary is a hard edge all along: the surface does not go on with the slope outside"
 
 
 def boss_on_box(quads: int = 1, sides: int = 16) -> tuple[bpy.types.Object, meshes.Mask]:

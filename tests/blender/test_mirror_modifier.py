@@ -116,6 +116,26 @@ def test_a_new_mesh_is_half_of_the_whole_ones(quads: bool) -> None:
     bm.free()
 
 
+def test_seams_and_keys_of_half_a_mesh_stay() -> None:
+    """A seam inside moves with the surface, and a key that follows the Basis goes along."""
+    obj, faces = half_dome()
+    obj.shape_key_add(name="Basis")
+    key = obj.shape_key_add(name="Up")
+    for point in key.data:
+        point.co.z += 1.0
+    obj.active_shape_key_index = 0
+    for edge in obj.data.edges:
+        edge.use_seam = all(v // 7 == 6 for v in edge.vertices)  # the middle row
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    fair_mesh(obj.data, np.flatnonzero(faces).tolist(), mesh="NEW")
+    points = meshes.positions(obj)
+    assert (points[:, 0] <= 0.0).all()
+    assert sum(edge.use_seam for edge in obj.data.edges) >= 6
+    up = np.array([point.co[:] for point in obj.data.shape_keys.key_blocks["Up"].data])
+    np.testing.assert_allclose(up - points, np.tile([0.0, 0.0, 1.0], (len(points), 1)), atol=1e-4)
+
+
 def half_box() -> bpy.types.Object:
     """The half x ≥ 0 of a box, open at x = 0, with a Mirror modifier."""
     corners = [(x, y, z) for x in (0.0, 1.0) for y in (-1.0, 1.0) for z in (-0.5, 0.5)]

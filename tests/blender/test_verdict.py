@@ -34,17 +34,19 @@ def selected_faces(obj: bpy.types.Object) -> list[int]:
     return [f.index for f in bmesh.from_edit_mesh(obj.data).faces if f.select]
 
 
-def test_what_is_not_usable_leaves_every_bit_and_shows_its_spots() -> None:
+def test_what_is_not_usable_leaves_every_bit_and_the_selection() -> None:
     obj, faces = kinked()
     before = meshes.in_edit_mode_once(obj, faces)
     meshes.edit(obj)
+    selected = selected_faces(obj)
     with pytest.raises(RuntimeError, match=r"Not usable: An island .* Nothing was changed"):
         meshes.run(**NONE)
     report = meshes.report()
     assert (report.verdict, report.written, report.converged) == ("UNUSABLE", False, False)
     assert "of its bulge" in report.reason
+    assert selected_faces(obj) == selected
+    assert bpy.ops.mesh.fair_select(what="SPOTS") == {"FINISHED"}
     rim = np.flatnonzero(np.abs(meshes.positions(bpy.data.objects[obj.name])[:, 2]) < 1e-6)
-    assert bpy.context.tool_settings.mesh_select_mode[0]
     assert set(selected_vertices(obj)) <= set(rim.tolist())
     assert selected_vertices(obj)
     text = drawn("VIEW3D_PT_fairing_report")

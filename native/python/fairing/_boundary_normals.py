@@ -1,4 +1,4 @@
-"""Normals along the boundary of a patch: from the faces outside or, along hard edges, from its own."""
+"""Normals along the boundary of a patch: from the faces outside, but not along walls."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class BoundaryNormals(SurroundingNormals):
     """What :func:`boundary_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
 
     from_inside: npt.NDArray[np.bool_]
-    """(k,) whether the slope is that of the patch's own triangles."""
+    """(k,) whether the slope is not that of the triangles outside."""
 
 
 def boundary_normals(

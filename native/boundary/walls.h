@@ -1,0 +1,44 @@
+// Where the surroundings of a patch end in an edge, so that its surface does not go on with their slope.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/hard_edges.h"
+#include "geometry/slope_fit.h"
+
+namespace fairing {
+
+// A patch and its surroundings: two lists of triangles of the same vertices, without any that name one twice.
+struct PatchInMesh {
+    const Points& points;
+    const Triangles& inside;  // near the boundary
+    const Triangles& outside;
+    const Triangles& whole;  // patch
+};
+
+// All edges with one triangle on either side, smaller index first, ascending.
+VertexPairs outline_edges(const PatchInMesh& mesh);
+
+// What the triangles outside say along a boundary.
+struct RimFits {
+    const Indices& vertices;  // that don't move
+    const std::vector<std::optional<SlopeFit>>& fits;
+    const VertexPairs& hard;  // edges outside
+};
+
+struct Walls {
+    VertexPairs edges;
+    Points film;  // closing_surface over the vertices that don't move; empty without any wall
+};
+
+// The outline edges at which the surroundings are walls. A film over the boundary dips below their tangents there, and
+// their curvature does not explain it: on a ball, curvature times distance to the loop's middle is the sine of the dip,
+// on the sides of boxes, cans and cones it is nearly nothing. Or they curve more than any ball that spans the loop,
+// and their slope is hardly off the film: a bevel of few rows. A boundary is parted where hard edges outside end at it,
+// and each part decides as a whole; walls shorter than an eighth of their loop don't count. The patch counts in its
+// mean alone, so that noise does not: a part is no wall where the patch's own triangles go on along the surroundings,
+// as at the end of a finger.
+Walls walls_of(const PatchInMesh& mesh, const RimFits& rim);
+
+}  // namespace fairing
