@@ -175,7 +175,7 @@ def _unmoved(evidence: Evidence, options: FairOptions) -> Found:
     moved = np.abs(_points(evidence)[free] - before[free]).max(initial=0.0)
     if moved > LEAST_MOVED * np.ptp(before, axis=0).max():
         return NOTHING
-    return said("nothing_changed"), _outline(evidence)
+    return said("unmoved"), _outline(evidence)
 
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:

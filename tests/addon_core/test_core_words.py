@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -103,6 +104,14 @@ def test_a_language_has_every_sentence_with_its_fields(language: str) -> None:
 def test_a_message_is_worded_in_english_and_anew(message: Any, english: str, german: str) -> None:
     assert message() == english
     assert worded(message(), sentences_of("de")) == german
+
+
+@pytest.mark.parametrize("language", ["en", *LANGUAGES])
+def test_no_key_has_two_sentences(language: str) -> None:
+    """JSON keeps the last one without a word."""
+    text = (ADDON / "words" / f"{language}.json").read_text(encoding="utf-8")
+    keys = [key for key, _ in json.loads(text, object_pairs_hook=list)]
+    assert len(keys) == len(set(keys))
 
 
 def test_where_a_language_has_no_sentence_english_is_shown() -> None:

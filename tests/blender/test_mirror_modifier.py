@@ -128,7 +128,7 @@ def test_seams_and_keys_of_half_a_mesh_stay() -> None:
         edge.use_seam = all(v // 7 == 6 for v in edge.vertices)  # the middle row
     from bl_ext.user_default.intrinsic_fairing import fair_mesh
 
-    fair_mesh(obj.data, np.flatnonzero(faces).tolist(), mesh="NEW")
+    fair_mesh(obj.data, np.flatnonzero(faces).tolist(), remesh=True)
     points = meshes.positions(obj)
     assert (points[:, 0] <= 0.0).all()
     assert sum(edge.use_seam for edge in obj.data.edges) >= 6

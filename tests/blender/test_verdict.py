@@ -159,7 +159,9 @@ def test_automatic_keeps_no_texture_that_folds(aside: float) -> None:
     for choice in ("UNIFORM", "AUTOMATIC"):
         obj = pulled_pin(aside)
         meshes.run(pin_group="Pin", inner_fairness=choice)
-        assert meshes.report().verdict == "GOOD"
+        was_fair = choice == "AUTOMATIC" and aside < 0.1  # its texture is that of the surface as it lies
+        assert meshes.report().verdict == ("LOOK" if was_fair else "GOOD")
+        assert meshes.report().reason.startswith("Nothing changed") == was_fair
         meshes.leave()
         results[choice] = meshes.positions(obj).tobytes()
     folds = aside > 0.1
@@ -213,7 +215,10 @@ def test_again_with_a_smooth_outline() -> None:
 def test_another_way_that_is_no_better_is_not_written() -> None:
     """A good result is as good as it gets: the mesh, the report and the selection stay, the button goes."""
     obj = meshes.grid(16)
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
+    points = meshes.positions(obj)
+    points[:, 2] = 0.2 * np.exp(-20 * (points**2).sum(axis=1))
+    meshes.move(obj, points)
+    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.8)
     meshes.enter(obj, faces)
     meshes.run()
     report = meshes.report()
