@@ -29,7 +29,7 @@ def fair(obj: bpy.types.Object, faces: Any) -> dict[str, Any]:
     bpy.ops.mesh.fair_region("EXEC_DEFAULT")
     bpy.ops.object.mode_set(mode="OBJECT")
     report = bpy.context.window_manager.fairing_report
-    names = ("free_vertices", "seconds", "residual", "boundary_angle", "converged")
+    names = ("free_vertices", "seconds", "boundary_angle", "converged")
     return {name: getattr(report, name) for name in names}
 
 
@@ -72,7 +72,6 @@ COLUMNS = (
     ("free vertices", "free_vertices", "{:d}"),
     ("seconds", "seconds", "{:.3f}"),
     ("converged", "converged", "{}"),
-    ("residual", "residual", "{:.1e}"),
     ("largest boundary angle", "boundary_angle", "{:.2f}°"),
     ("off the exact sphere", "deviation", "{:.1e} R"),
 )

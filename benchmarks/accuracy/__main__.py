@@ -52,6 +52,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--only", default="", help=f"words, comma-separated; tables: {', '.join(TABLES)}")
     parser.add_argument("--quick", action="store_true", help="up to 4000 free vertices, 30 random patches")
     parser.add_argument("--patches", type=int, help="number of random patches (300)")
+    parser.add_argument("--seed", type=int, default=0, help="of the random patches; 0 was used for tuning")
     parser.add_argument("--limit", type=float, default=60.0, help="seconds of wall-clock time for one call")
     parser.add_argument("--out", type=Path, default=ROOT / "build" / "accuracy", help="folder for plots and CSV files")
     return parser.parse_args()
@@ -63,7 +64,7 @@ def main() -> int:
     words = options.only.split(",")
     engine = Engine(options.limit)
     count = options.patches if options.patches is not None else (30 if options.quick else 300)
-    scope = Scope(engine, 4000 if options.quick else 16000, count, options.out)
+    scope = Scope(engine, 4000 if options.quick else 16000, count, options.seed, options.out)
     done: dict[str, list[Row]] = {}
     for name, table in TABLES.items():
         if any(word in name for word in words):

@@ -22,11 +22,12 @@ TIGHT = 1e-10
 
 @dataclass(frozen=True)
 class Scope:
-    """What to run: sizes up to `largest` free vertices, so many random patches; where plots and CSV files go."""
+    """Sizes up to `largest` free vertices, so many random patches of a seed; where plots and CSV files go."""
 
     engine: Engine
     largest: int
     patches: int
+    seed: int
     folder: Path
 
     def sizes(self, *wanted: int) -> list[int]:

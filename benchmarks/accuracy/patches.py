@@ -6,11 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-import contact_sheet
 from exact import Scope
 from real_meshes import DATA, listed_patches, random_patches
 from report import WEIGHTS, Row
-from specimens import KINDS, LIMIT, SAME, SMOOTH, Record, Specimen, sweep, worst
+from specimens import KINDS, LIMIT, SAME, SMOOTH, Record, sweep
 
 
 def rows(scope: Scope) -> Iterator[Row]:
@@ -19,15 +18,12 @@ def rows(scope: Scope) -> Iterator[Row]:
         yield Row("real patches", 0, "all", 0.01, np.nan, "no meshes", False, np.nan, "shared/data is missing")
         return
     limit, scope.engine.limit = scope.engine.limit, LIMIT
-    everything: list[Specimen] = []
     sets = (
         ("27 patches", "listed", listed_patches()),
-        (f"{scope.patches} random patches", "random", random_patches(scope.patches)),
+        (f"{scope.patches} random patches", "random", random_patches(scope.patches, scope.seed)),
     )
     for title, name, chosen in sets:
-        specimens = sweep(scope.engine, chosen, WEIGHTS, scope.folder / f"patches_{name}.csv")
-        everything += specimens
-        records = [specimen.record for specimen in specimens]
+        records = sweep(scope.engine, chosen, WEIGHTS, scope.folder / f"patches_{name}.csv")
         for weights in WEIGHTS:
             yield _failing(title, weights, [r for r in records if r.weights == weights])
         for kind, part in (
@@ -38,14 +34,18 @@ def rows(scope: Scope) -> Iterator[Row]:
                 yield _failing(f"{title}, {kind}", "all", part)
         yield _angles(title, records)
     scope.engine.limit = limit
-    contact_sheet.save(worst(everything, 10), scope.folder / "accuracy_worst_patches.webp")
 
 
 def _failing(title: str, weights: str, records: list[Record]) -> Row:
     failing = [record for record in records if not record.good]
     refused = sum(bool(record.refused) for record in records)
     differ = sum(record.converged == len(KINDS) and record.spread > SAME for record in records)
-    note = f"{len(failing)} of {len(records)} fail: {refused} refused, {differ} differ between starts"
+    silent = sum(not record.honest for record in records)
+    spoilt = [sum(r.folded > 0 for r in records), sum(r.crossing > 0 for r in records)]
+    note = (
+        f"{len(failing)} of {len(records)} fail: {refused} refused, {differ} differ between starts, {silent} silently; "
+        f"folded, crossing: {spoilt}; slowest {max((r.slowest for r in records), default=0.0):.1f} s"
+    )
     share = len(failing) / max(len(records), 1)
     cpu = sum(record.cpu for record in records)
     return Row(f"{title}: share failing", 0, weights, 0.01, share, "", True, cpu, note)

@@ -30,10 +30,10 @@ import bpy
 import numpy as np
 
 import meshes
-import real
 from extension import module
 from test_restoration import spoil, upper_half
 
+FOLDER = Path(__file__).parents[3] / "shared" / "data"
 MOST_OF_TWO_LEVELS = 60_000  # free vertices; of 178,000
 
 
@@ -52,7 +52,7 @@ def scene(free_vertices: int) -> bpy.types.Object:
 def head(part: str, free_vertices: int) -> bpy.types.Object:
     """A noisy head in edit mode; the faces around its crown or the middle of an ear are selected."""
     bpy.ops.wm.read_homefile(use_empty=True)
-    obj = real.load("ict_head.obj")
+    obj = load("ict_head.obj")
     modifier = obj.modifiers.new("finer", "SUBSURF")
     modifier.levels = 2 if free_vertices < MOST_OF_TWO_LEVELS else 3
     bpy.ops.object.modifier_apply(modifier=modifier.name)
@@ -68,6 +68,25 @@ def head(part: str, free_vertices: int) -> bpy.types.Object:
     meshes.select(obj, np.logical_and.reduceat(near[corners], starts))
     meshes.edit(obj)
     bpy.ops.ed.undo_push(message="start")
+    return obj
+
+
+def load(file: str) -> bpy.types.Object:
+    """Add a mesh from an OBJ file, vertices in the order of its v lines."""
+    points, texture, faces, corners = [], [], [], []
+    for line in (FOLDER / file).read_text().splitlines():
+        key, *words = line.split()[:1] + line.split()[1:] if line.strip() else [""]
+        if key == "v":
+            points.append([float(word) for word in words[:3]])
+        elif key == "vt":
+            texture.append([float(word) for word in words[:2]])
+        elif key == "f":
+            faces.append([int(word.split("/")[0]) - 1 for word in words])
+            corners += [int(word.split("/")[1]) - 1 for word in words if word.count("/") and word.split("/")[1]]
+    obj = meshes.add(points, faces, Path(file).stem)
+    if len(corners) == sum(map(len, faces)):
+        layer = obj.data.uv_layers.new(name="UVMap")
+        layer.data.foreach_set("uv", np.array(texture, dtype=np.float32)[corners].ravel())
     return obj
 
 
@@ -138,7 +157,7 @@ def main() -> None:
     for count in arguments.free:
         scene(count)
         print(line("half sphere", arguments.calls), flush=True)
-    for count, part in product(arguments.head if real.patches() else [], ("crown", "ear")):
+    for count, part in product(arguments.head if FOLDER.is_dir() else [], ("crown", "ear")):
         head(part, count)
         print(line(part, arguments.calls), flush=True)
 

@@ -1,11 +1,9 @@
-"""Holes and bridges: exact surfaces, independence of the spacing, real meshes, pictures.
+"""Holes and bridges: exact surfaces, real meshes, peers.
 
-    python benchmarks/fill [hemisphere | peers | spacing | caps | shapes | limits | curvature | size | bridges |
-                            elbows | corners | real | remade | unseen | pictures …]
+    python benchmarks/fill [hemisphere | peers | caps | shapes | curvature | bridges | elbows | unseen …]
 
-Prints all tables of docs/fill.md, in one run where none is named; `pictures` writes sheets of many
-holes, bridges and new meshes to build/fill. Processor time, one thread. `real` and `pictures` need shared/data beside
-the checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
+Prints all tables of docs/fill.md, in one run where none is named. Processor time, one thread. `unseen` needs
+shared/data beside the checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
 """
 
 from __future__ import annotations
@@ -28,11 +26,8 @@ import hole_fillers
 import holes
 import known_surfaces
 import real_meshes
-import sheet
-import test_fill
 from holes import FloatArray, IntArray
 
-ROOT = Path(__file__).resolve().parents[2]
 SEED = 104  # of random patches that nothing was tuned on
 
 
@@ -63,17 +58,6 @@ def hemisphere() -> Iterator[str]:
         yield f"| {edges} | {len(lengths)} | {apex:.1e} | {abs(lengths - 1).max():.1e} | {shape} | {seconds:.3f} |"
 
 
-def spacing() -> Iterator[str]:
-    """The same hole at spacings between a quarter and four times the rim's."""
-    yield "| spacing | new vertices | height of the apex | largest error | s |"
-    edge = 2 * np.sin(np.pi / 24)
-    for factor in (0.25, 0.5, 1.0, 2.0, 4.0):
-        result, seconds = timed(*holes.bowl(24), spacing=factor * edge)
-        lengths = np.linalg.norm(result.vertices, axis=1)
-        apex = lengths[result.vertices[:, 2].argmax()]
-        yield f"| {factor:g} | {len(lengths)} | {apex:.6f} | {abs(lengths - 1).max():.1e} | {seconds:.3f} |"
-
-
 def caps() -> Iterator[str]:
     """Holes of other openings in a sphere, rims of 48 edges."""
     yield "| half-angle | new vertices | converged | largest error | s |"
@@ -81,11 +65,6 @@ def caps() -> Iterator[str]:
         result, seconds = timed(*holes.bowl(48, half_angle), [np.arange(48)])
         error = abs(np.linalg.norm(result.vertices, axis=1) - 1).max()
         yield f"| {half_angle}° | {len(result.vertices)} | {result.converged} | {error:.1e} | {seconds:.2f} |"
-
-
-def accuracy() -> Iterator[str]:
-    """What limits the error: the equation over a torus, the fitted normals at a catenoid."""
-    yield from known_surfaces.limits()
 
 
 def shapes() -> Iterator[str]:
@@ -96,15 +75,6 @@ def shapes() -> Iterator[str]:
 def curvature() -> Iterator[str]:
     """Where the curvature around is continued, fitted or exact."""
     yield from known_surfaces.curvature()
-
-
-def size() -> Iterator[str]:
-    """Many new vertices."""
-    yield "| rim | new vertices | largest error | s |"
-    for edges, length in ((48, 0.0), (192, 0.0), (192, 0.0085)):
-        result, seconds = timed(*holes.bowl(edges), spacing=length)
-        error = abs(np.linalg.norm(result.vertices, axis=1) - 1).max()
-        yield f"| {edges} | {len(result.vertices)} | {error:.1e} | {seconds:.2f} |"
 
 
 def joined() -> Iterator[str]:
@@ -128,51 +98,6 @@ def elbows() -> Iterator[str]:
             f"{result.boundary_angle.max():.1f}° | {shape_of(vertices, result)} | {result.equation} | "
             f"{bridges.off_torus(result.vertices, radius):.3f} | {seconds:.2f} |"
         )
-
-
-def cornered(ratio: float) -> FloatArray:
-    """A flat outline with a corner of 60° between edges of that ratio, the others of equal lengths."""
-    short, rest = 0.067, 0.3 * np.arange(5)
-    turn = np.radians(np.linspace(0, 60, 7)[1:-1])
-    reach = np.linspace(short + rest[4], ratio * short + rest[3], 7)[1:-1, None]
-    along, back = np.outer(short + rest, [1, 0]), np.outer(ratio * short + rest[3::-1], [0.5, np.sqrt(0.75)])
-    flat = np.concatenate([[[0.0, 0.0]], along, reach * np.column_stack([np.cos(turn), np.sin(turn)]), back])
-    return np.column_stack([flat, 0 * flat[:, 0]])
-
-
-def corners() -> Iterator[str]:
-    """Flat outlines with a corner of 60° between a short edge and a long one: the least angle, and what they force."""
-    yield "| ratio of the edges | least angle | no more than |"
-    for ratio in (2.0, 4.0, 6.0, 8.8, 12.0):
-        outline = cornered(ratio)
-        count = len(outline)
-        up = np.tile([0.0, 0.0, 1.0], (count, 1))
-        result, _ = timed(outline, test_fill.EMPTY, [np.arange(count)], normals=up)
-        least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min()
-        yield f"| {ratio:g} | {least:.1f}° | {forced.fan_angle(60.0, ratio):.1f}° |"
-
-
-def real() -> Iterator[str]:
-    """The patches of patches.json, deleted and filled; the holes that plane_holes has."""
-    yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
-    for patch in real_meshes.listed_patches():
-        loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
-        yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
-    plane = real_meshes.mesh("plane_holes")
-    for k, loop in enumerate(fairing.boundary_loops(plane.triangles)):
-        yield row(f"plane_holes, hole {k}", plane.vertices, plane.triangles, [loop], False)
-
-
-def remade() -> Iterator[str]:
-    """The patches of patches.json with new meshes."""
-    yield "| patch | new | least angle | valence | s |"
-    for patch in real_meshes.listed_patches():
-        start = time.process_time()
-        result = fairing.remesh(
-            patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals, threads=1
-        )
-        shape = shape_of(patch.vertices, result)
-        yield f"| {patch.name} | {len(result.vertices)} | {shape} | {time.process_time() - start:.2f} |"
 
 
 def unseen() -> Iterator[str]:
@@ -213,15 +138,9 @@ def peers() -> Iterator[str]:
         yield f"| {edges} | {' | '.join(heights)} |"
 
 
-def pictures() -> Iterator[str]:
-    """Real holes and bridges, before and after, with stripes."""
-    yield from sheet.write_all(ROOT / "build/fill")
-
-
 TABLES: dict[str, Callable[[], Iterator[str]]] = {
-    "hemisphere": hemisphere, "peers": peers, "spacing": spacing, "caps": caps, "shapes": shapes, "limits": accuracy,
-    "curvature": curvature, "size": size, "bridges": joined, "elbows": elbows, "corners": corners, "real": real,
-    "remade": remade, "unseen": unseen, "pictures": pictures,
+    "hemisphere": hemisphere, "peers": peers, "caps": caps, "shapes": shapes, "curvature": curvature,
+    "bridges": joined, "elbows": elbows, "unseen": unseen,
 }  # fmt: skip
 
 

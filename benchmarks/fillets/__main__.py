@@ -18,12 +18,11 @@ from typing import Any
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "quads"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
 
 import bevels
+from bevels import corner_angles
 from hard_surfaces import MAKERS, FloatArray, Polygons, Problem
-from judged import corner_angles
 
 COUNT, SEED = 48, 9127
 Edge = tuple[int, int]

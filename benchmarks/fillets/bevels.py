@@ -116,3 +116,13 @@ def off_triangles(problem: Problem, made: Made) -> float:
     new = made[0][np.unique(np.concatenate([np.array(polygon) for polygon in made[2]]))]
     off = fairing._core.signed_distances(new, points, fine.triangles[fine.outside :])
     return float(np.abs(off).max() / (2 * np.linalg.norm(new - new.mean(axis=0), axis=1).max()))
+
+
+def corner_angles(points: FloatArray, quads: Any) -> FloatArray:
+    """(q, 4) degrees, above 180 where a quad is not convex."""
+    corners = points[quads]
+    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    cross = np.cross(ahead, back)
+    normals = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    angles = np.degrees(np.arctan2(np.linalg.norm(cross, axis=2), (ahead * back).sum(axis=2)))
+    return np.where((cross * normals[:, None]).sum(axis=2) < 0, 360 - angles, angles)

@@ -35,7 +35,6 @@ def parts(data: Path, pictures: Path) -> dict[str, Callable[[], str]]:
     """What fills each placeholder of page.md."""
     import blend_study
     import cases
-    import convergence
     import figures
     import tables
 
@@ -50,7 +49,6 @@ def parts(data: Path, pictures: Path) -> dict[str, Callable[[], str]]:
         "figure_9": lambda: figures.figure_9(pictures, all_cases()[2]),
         "figure_10": lambda: figures.figure_10(pictures, all_cases()[1]),
         "accuracy": lambda: tables.accuracy_table((1000, 16000)),
-        "convergence": lambda: convergence.convergence_plot(all_cases()[0], pictures / "paper_convergence.png"),
     }
 
 

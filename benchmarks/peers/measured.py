@@ -15,14 +15,12 @@ import clock
 import fairing
 import live_rows
 import memory
-import quality
 import real_rows
 import repeated
-from problems import BLEND, IRREGULAR, OTHER, PATCHES, REGULAR, problem
+from problems import BLEND, IRREGULAR, PATCHES, REGULAR, problem
 from tools import BY_NAME, OURS, TOOLS, Tool
 
 SHAPES = [name for name in PATCHES if name != "graded hemisphere"] + [BLEND]
-SECOND = 0.8  # share of the vertices of the other mesh of a patch
 GRADED = 100_000
 UNEVEN = (1_000, 10_000)
 REAL = (10_000, 30_000, 100_000)
@@ -195,11 +193,10 @@ def _memory(plan: Plan, done: Measured) -> Iterator[Row]:
 def _quality(plan: Plan, _done: Measured) -> Iterator[Row]:
     size = min(plan.sizes)
     for shape in SHAPES:
-        one = problem(plan.folder, shape, size)
-        other = problem(plan.folder, shape, round(SECOND * size), OTHER)
+        made = problem(plan.folder, shape, size)
         for tool in TOOLS:
             if not tool.alike:
-                yield {"shape": shape, "tool": tool.name, **asdict(quality.judged(tool, one, other))}
+                yield {"shape": shape, "tool": tool.name, "error": clock.error(made, tool.call(made))}
 
 
 PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {

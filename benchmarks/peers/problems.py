@@ -36,7 +36,7 @@ PATCHES: dict[str, Callable[[int, Style], Patch]] = {
 }
 BLEND = "three-cylinder blend"
 CAPS = ("cap of 20°", "cap of 60°", "hemisphere")
-REGULAR, JITTERED, OTHER = Style(jitter=0.0), Style(), Style(seed=1)
+REGULAR, JITTERED = Style(jitter=0.0), Style()
 # Random points, Delaunay in a stretched plane: valences 2 to 12, half of the least angles below 27°, edges 10 : 1.
 IRREGULAR = Style(layout="random", stretch=2.5, jitter=0.0)
 KINDS = {REGULAR: "regular", IRREGULAR: "irregular"}
@@ -85,11 +85,6 @@ class Problem:
     def held(self) -> IntArray:
         """The vertices of both outlines: those of the patch, then the ghosts."""
         return np.concatenate([self.fixed, np.arange(len(self.vertices), len(self.all_vertices))])
-
-    def from_reference(self) -> Problem:
-        """The same, started from the right surface."""
-        arrays = {**vars(self), "vertices": self.reference}
-        return Problem(**{name: arrays[name] for name in self.__dataclass_fields__})
 
     def distance(self, points: FloatArray) -> FloatArray | None:
         """Distances (k,) to the exact surface over D; None where no closed form is known."""

@@ -1,4 +1,4 @@
-"""Bridges, real holes, kept detail, a box's corner: docs/fill.md, docs/detail.md and docs/user_guide.md.
+"""Bridges and real holes: docs/fill.md.
 
 Real meshes lie beside the checkout, in shared/data; without them their rows are left out.
 """
@@ -13,11 +13,9 @@ import numpy as np
 from mathutils import Vector
 
 import demo_pictures as pictures
-import demo_scenes as scenes
 import tools
-from lesson_scenes import pores
 from rivals import cut_along, rewritten
-from rows import Chosen, Points, Row, moved, placed
+from rows import Chosen, Points, Row, placed
 
 DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 
@@ -94,59 +92,6 @@ def cut_out(name: str, seed: int, radius: float, direction: tuple[float, float, 
     return scene
 
 
-def orange_handle() -> Chosen:
-    """A hammer's handle with skin like an orange's, and a swelling on it."""
-    real("hammer", 9000)
-    mesh = bpy.context.object.data
-    normals = np.array([vertex.normal for vertex in mesh.vertices])
-    random = np.random.default_rng(4)
-    waves = random.normal(size=(60, 3))
-    waves *= 2.0 * np.pi / 0.02 / np.linalg.norm(waves, axis=1)[:, None]
-    phases = random.uniform(0.0, 2.0 * np.pi, 60)
-
-    def rough(points: Points) -> Points:
-        heights = 0.0009 * np.sqrt(120.0) * np.sin(points @ waves.T + phases).mean(axis=1)
-        swelling = 0.025 * np.exp(-((np.linalg.norm(points, axis=1) / 0.06) ** 2))
-        return points + (heights + swelling)[:, None] * normals
-
-    moved(rough)
-    pictures.add_camera((0.0, 0.0, 0.0), (normals[9000] + np.array((0.3, 0.2, 0.0))).tolist(), 0.42)
-    return lambda face: bool(face.calc_center_median().length < 0.11)
-
-
-def hammered_corner() -> Chosen:
-    """The corner of a box, hammered; the box's edges are marked sharp."""
-    bpy.ops.mesh.primitive_cube_add(size=1.6)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.subdivide(number_cuts=15)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    mesh = bpy.context.object.data
-    points = scenes.positions(mesh)
-    on_sides = (np.abs(points) > 0.799).sum(axis=1)
-    for edge in mesh.edges:
-        edge.use_edge_sharp = bool((on_sides[list(edge.vertices)] > 1).all())
-    corner = np.array([0.8, -0.8, 0.8])
-
-    def hammered(points: Points) -> Points:
-        away = np.linalg.norm(points - corner, axis=1)
-        return points - 0.16 * (np.exp(-((away / 0.3) ** 2)) * (1.0 + 0.4 * np.sin(25.0 * away)))[:, None] * corner
-
-    moved(hammered)
-    pictures.add_camera((0.0, 0.0, 0.0), (0.9, -1.0, 0.8), 2.7)
-    return lambda face: bool(np.linalg.norm(np.array(face.calc_center_median()) - corner) < 0.85)
-
-
-def keeping(**options: Any) -> Callable[[], None]:
-    """Fair Region with these options."""
-    return tools.fair_region(**options)
-
-
-SKIN = {
-    "Fair Region": keeping(),
-    "Falloff .15": keeping(falloff=0.15),
-    "Keep Detail 1": keeping(detail=1.0),
-    "both": keeping(detail=1.0, falloff=0.15),
-}
 BRIDGE = {"Fair Fill, Bridge": tools.fair_bridge}
 FILL = {"Fair Fill": tools.fair_fill}
 SHEETS = {
@@ -157,10 +102,6 @@ SHEETS = {
         ],
         [Row("Three tubes", arms(3), "edges", BRIDGE), Row("Four tubes", arms(4), "edges", BRIDGE)],
     ],
-    "guide_sharp": [[
-        Row("A hammered corner", hammered_corner, "faces",
-            {"Pin Edges: None": keeping(pin_edges="NONE"), "Pin Edges: Automatic": keeping()}),
-    ]],
 }  # fmt: skip
 REAL = {
     "fill_holes": [
@@ -172,10 +113,6 @@ REAL = {
             Row("A bust", cut_out("demosthenes-low-res", 3323, 0.11, (0.3, -0.3, 1.0)), "edges", FILL),
             Row("A shoulder", cut_out("mh_body", 8235, 0.06, (0.9, 0.7, 0.6)), "edges", FILL),
         ],
-    ],
-    "detail": [
-        [Row("A ball with pores", pores, "faces", SKIN, striped=False)],
-        [Row("A hammer's handle", orange_handle, "faces", SKIN, striped=False)],
     ],
 }
 if DATA.exists():

@@ -1,7 +1,6 @@
 """What the options of Fair Region do: the rows of docs/user_guide.md."""
 
 from collections.abc import Callable
-from itertools import pairwise
 from typing import Any
 
 import bpy
@@ -10,7 +9,7 @@ import numpy as np
 import demo_pictures as pictures
 import demo_scenes as scenes
 import tools
-from rows import Chosen, Row, marked, placed
+from rows import Chosen, Row, marked
 
 
 def ball() -> Chosen:
@@ -28,27 +27,8 @@ def ball() -> Chosen:
     return marked(upper)
 
 
-def mesa() -> Chosen:
-    """A round table mountain, its flat top selected; custom normals that point straight up."""
-    profile = [(0.04 * k, 0.3) for k in range(1, 16)] + [(0.6 + 0.03 * k, 0.3 - 0.06 * k) for k in range(1, 6)]
-    profile += [(0.75 + 0.05 * k, 0.0) for k in range(1, 8)]
-    count = 72
-    angles = 2.0 * np.pi * np.arange(count) / count
-    points = [(0.0, 0.0, 0.3)] + [(r * np.cos(a), r * np.sin(a), z) for r, z in profile for a in angles]
-    corners = [[1 + k * count + j % count for j in range(count + 1)] for k in range(len(profile))]
-    faces = [(0, corners[0][j], corners[0][j + 1]) for j in range(count)]
-    for inner, outer in pairwise(corners):
-        faces += [(inner[j], outer[j], outer[j + 1], inner[j + 1]) for j in range(count)]
-    mesh = bpy.data.meshes.new("Mesa")
-    mesh.from_pydata(points, [], faces)
-    placed(mesh)
-    mesh.normals_split_custom_set_from_vertices([(0.0, 0.0, 1.0)] * len(points))
-    pictures.add_camera((0.0, 0.0, 0.2), (0.6, -1.0, 0.45), 2.3)
-    return marked(np.array([np.hypot(*polygon.center.xy) < 0.6 for polygon in mesh.polygons]))
-
-
 def hill() -> Chosen:
-    """A plain with a hill on it, selected with some of the plain; vertex group "Pin" and seams."""
+    """A plain with a hill on it, selected with some of the plain; groups "Top" and "Ring"."""
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=64, y_subdivisions=64, size=2.0)
     obj = bpy.context.object
     obj.data.shade_smooth()
@@ -60,9 +40,6 @@ def hill() -> Chosen:
     ring = np.isclose(np.abs(points[:, :2]).max(axis=1), 0.25, atol=1e-3)
     obj.vertex_groups.new(name="Top").add(top, 1.0, "REPLACE")
     obj.vertex_groups.new(name="Ring").add(np.flatnonzero(ring).tolist(), 1.0, "REPLACE")
-    line = np.isclose(points[:, 0], 0.25, atol=1e-3)
-    for edge in obj.data.edges:
-        edge.use_seam = bool(line[list(edge.vertices)].all())
     pictures.add_camera((0.0, 0.0, 0.1), (0.6, -1.0, 0.6), 2.3)
     centres = np.array([polygon.center for polygon in obj.data.polygons])
     return marked(np.linalg.norm(centres[:, :2], axis=1) < 0.6)
@@ -73,23 +50,6 @@ def ear() -> Chosen:
     monkey = scenes.suzanne()
     pictures.add_camera((0.85, 0.0, 0.2), (1.0, -0.6, 0.2), 1.7)
     return marked(scenes.ear_faces(monkey.data))
-
-
-def checkered_ear() -> Chosen:
-    """Suzanne's ear with a checker on its texture coordinates."""
-    chosen = ear()
-    monkey = bpy.context.object
-    image = bpy.data.images.new("Checker", 1024, 1024)
-    rows = np.arange(1024) // 12 % 2
-    tone = np.where(rows[:, None] ^ rows[None, :], 0.85, 0.25)
-    image.pixels.foreach_set(np.dstack([tone, tone, tone, np.ones_like(tone)]).ravel().astype(np.float32))
-    material = bpy.data.materials.new("Checker")
-    material.use_nodes = True
-    texture = material.node_tree.nodes.new("ShaderNodeTexImage")
-    texture.image = image
-    material.node_tree.nodes.active = texture
-    monkey.data.materials.append(material)
-    return chosen
 
 
 def faired(scene: Callable[[], Chosen], runs: dict[str, dict[str, Any]]) -> list[list[Row]]:
@@ -109,23 +69,5 @@ SHEETS = {
         },
     ),
     "guide_bulge": faired(hill, {f"Bulge {bulge:g}": {"bulge": bulge} for bulge in (-0.5, 0.0, 0.3, 0.6)}),
-    "guide_vertices": faired(
-        checkered_ear,
-        {
-            "Uniform": {"inner_fairness": "UNIFORM"},
-            "Keep Texture": {"inner_fairness": "CONFORMAL"},
-            "Keep Spacing": {"inner_fairness": "INVERSE_DISTANCE"},
-            "Keep Proportions": {"inner_fairness": "SHAPE_PRESERVING"},
-        },
-    ),
-    "guide_tangent": faired(
-        mesa,
-        {
-            "Surroundings": {"boundary_normals": "SURROUNDING"},
-            "Average": {"boundary_normals": "AVERAGE"},
-            "Custom Normals": {"boundary_normals": "CUSTOM"},
-        },
-    ),
     "guide_pins": faired(hill, {"No pin": {}, "A point": {"pin_group": "Top"}, "A ring": {"pin_group": "Ring"}}),
-    "guide_pin_edges": faired(hill, {"No pin": {}, "A line": {"pin_edges": "SEAM"}}),
 }
