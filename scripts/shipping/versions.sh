@@ -22,6 +22,6 @@ cibuildwheel_version=4.3.5
 workflow_checkers=(zizmor==1.32.0 check-jsonschema)
 # whose meshes the module takes, for scripts/test --libraries
 mesh_libraries=(
-    trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 open3d==0.20.0 distributed==2026.8.0 numpy==1.26.4
+    plyfile==1.1.3 trimesh==5.2.0 meshio==5.3.5 pyvista==0.49.1 open3d==0.20.0 distributed==2026.8.0 numpy==1.26.4
     pytest==9.2.0 hypothesis scipy
 )

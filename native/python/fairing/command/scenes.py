@@ -1,4 +1,4 @@
-"""Scenes of several objects (GLB, glTF, 3MF) by trimesh: one mesh in the scene's own coordinates, and back."""
+"""Files by trimesh: one mesh of all objects in the scene's own coordinates, and back."""
 
 from __future__ import annotations
 
@@ -10,14 +10,18 @@ import numpy as np
 
 from fairing._types import FloatArray
 from fairing.objects.hosts import opened
-from fairing.objects.parts import Parts, Polygons
+from fairing.objects.parts import Parts, Polygons, alike
 
 _OBJECT = "\0object"  # data: the number of the object that vertices and faces belong to
+_SCENES = (".glb", ".gltf", ".3mf")
 
 
 def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
-    """All objects as one mesh, each where it stands first, and what writes such a mesh as a scene again."""
+    """All objects as one mesh, each where it stands first, and the scene with the objects, their names and places."""
     scene = trimesh.load_scene(source, process=False)
+    if source.suffix.lower() not in _SCENES:
+        parts, make = opened(scene.to_mesh())
+        return (_welded(parts) if source.suffix.lower() == ".stl" else parts), make
     meshes = {name: opened(mesh) for name, mesh in scene.geometry.items() if hasattr(mesh, "faces")}
     if not meshes:
         raise ValueError("it holds no mesh")
@@ -26,16 +30,30 @@ def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
         matrix, name = scene.graph[node]
         places.setdefault(name, matrix)
     matrices = [places.get(name, np.eye(4)) for name in meshes]
+    return _joined([parts for parts, _ in meshes.values()], matrices), (source, scene, meshes, matrices)
 
-    def write(target: Path, made: Parts) -> list[str]:
-        for number, (name, (before, make)) in enumerate(meshes.items()):
-            scene.geometry[name] = make(_one_of(made, number, before, np.linalg.inv(matrices[number])))
-        said = _json(source)
-        options = {"include_normals": True} if '"NORMAL"' in json.dumps(said) else {}
-        scene.export(str(target), **options, **({"embed_buffers": True} if target.suffix.lower() == ".gltf" else {}))
-        return [key for key in ("animations", "skins", "cameras") if said.get(key)]
 
-    return _joined([parts for parts, _ in meshes.values()], matrices), write
+def write(trimesh: Any, target: Path, parts: Parts, known: Any) -> list[str]:
+    """Write a mesh, into the scene that was read if there is one; tell what it can't have."""
+    digits = {"digits": 17} if target.suffix.lower() == ".off" else {}
+    if not isinstance(known, tuple):
+        make = known or opened(trimesh.Trimesh([[0, 0, 0]] * 3, [[0, 1, 2]], process=False))[1]
+        make(parts).export(str(target), **digits)
+        return sorted({*parts.vertex_data, *parts.face_data})
+    source, scene, meshes, matrices = known
+    for number, (name, (before, make)) in enumerate(meshes.items()):
+        scene.geometry[name] = make(_one_of(parts, number, before, np.linalg.inv(matrices[number])))
+    said = _json(source)
+    options = {"include_normals": True} if '"NORMAL"' in json.dumps(said) else {}
+    scene.export(str(target), **options, **({"embed_buffers": True} if target.suffix.lower() == ".gltf" else {}))
+    return [key for key in ("animations", "skins", "cameras") if said.get(key)]
+
+
+def _welded(parts: Parts) -> Parts:
+    """Of a soup of triangles: one vertex for each place."""
+    first, number = alike(parts.points)
+    said = {name: values for name, values in parts.face_data.items() if values.any()}
+    return Parts(parts.points[first], Polygons(number[parts.faces.corners], parts.faces.sizes), {}, said)
 
 
 def _joined(own: list[Parts], matrices: list[FloatArray]) -> Parts:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -53,36 +54,60 @@ class Sides:
         return cls(np.array(of_rim), copies, own)
 
 
+class Parted(NamedTuple):
+    """New faces on sides: a vertex for each place and side, those there are and, behind them, new ones."""
+
+    faces: Polygons
+    places: IntArray
+    """(k,) where each new vertex stands."""
+    side: IntArray
+    """(k,) the side that it is on."""
+    corner: IntArray
+    """(k,) the first corner of the faces that it is."""
+    points: FloatArray
+    """(k, 3)"""
+
+    @classmethod
+    def by(cls, sides: Sides, faces: Polygons, of_faces: IntArray, points: FloatArray, count: int) -> Parted:
+        """``faces``: of the places ``points``, of which those from ``count`` on are new; ``of_faces``: their sides."""
+        rows = np.column_stack([faces.corners, np.repeat(of_faces, faces.sizes)])
+        pairs, first, pair_of = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        numbers = np.array([sides.copies[s].get(v, -1) for v, s in pairs.tolist()])
+        new = np.flatnonzero(numbers < 0)
+        once = np.diff(pairs[new, 0], prepend=-1) != 0
+        new = np.concatenate([new[once & (pairs[new, 0] >= count)], new[~(once & (pairs[new, 0] >= count))]])
+        numbers[new] = count + np.arange(len(new))
+        corners = numbers[pair_of.ravel()].astype(np.int32)
+        return cls(Polygons(corners, faces.sizes), pairs[new, 0], pairs[new, 1], first[new], points[pairs[new, 0]])
+
+
 def filled(parts: Parts, surfaces: Sequence[NewMeshResult]) -> Parts:
     """Parts with the surfaces over holes of the welded mesh, all new vertices and faces behind those there are.
 
     A new face lies on the side of a seam that the face nearest to it lies on, and has the data of that one; where two
     sides meet, new vertices are parted as the old ones are.
     """
-    count = len(parts.points)
     points = np.concatenate([parts.points, *(each.vertices for each in surfaces)])
     rim = np.flatnonzero(np.isin(parts.triangles, np.concatenate([each.triangles for each in surfaces])).any(axis=1))
     sides = Sides.around(parts, rim)
     faces, beside = _pieces(parts, surfaces, points, rim)
-    surface = Parts(points, faces).own
-    on_sides = np.column_stack([faces.corners, np.repeat(sides.of_rim[beside], faces.sizes)])
-    pairs, pair_of = np.unique(on_sides, axis=0, return_inverse=True)
-    numbers = np.array([sides.copies[s].get(v, -1) for v, s in pairs.tolist()])
-    inner, firsts = np.unique(pairs[:, 0], return_index=True)
-    numbers[firsts[inner >= count]] = inner[inner >= count]
-    again = np.flatnonzero(numbers < 0)  # places that a second side needs
-    numbers[again] = len(points) + np.arange(len(again))
-    side = np.full(len(points) - count, sides.of_rim[0])
-    side[inner[inner >= count] - count] = pairs[firsts[inner >= count], 1]
-    places = np.concatenate([np.arange(count, len(points)), pairs[again, 0]])
-    added = _rows(parts, sides, (points, surface), places, np.concatenate([side, pairs[again, 1]]))
-    of_faces = {
-        name: np.concatenate([values, values[parts.faces.face_of[rim[beside]]]])
-        for name, values in parts.face_data.items()
-    }
-    whole = Polygons.joined([parts.faces, Polygons(numbers[pair_of.ravel()].astype(np.int32), faces.sizes)])
+    new = Parted.by(sides, faces, sides.of_rim[beside], points, len(parts.points))
+    added = _rows(parts, sides, (points, Parts(points, faces).own), new)
+    of_faces = parts.faces.face_of[rim[beside]]
+    return _with(parts, parts.faces, new, added, np.append(np.arange(len(parts.faces.sizes)), of_faces))
+
+
+def _with(parts: Parts, kept: Polygons, new: Parted, added: Data, like: IntArray) -> Parts:
+    """Faces that are kept, and new ones; ``like``: the old face whose data each has."""
     of_vertices = {name: np.concatenate([values, added[name]]) for name, values in parts.vertex_data.items()}
-    return Parts(np.concatenate([points, points[pairs[again, 0]]]), whole, of_vertices, of_faces)
+    if PLACE in of_vertices:  # new vertices that are copies of old ones have the numbers of these
+        values, old = parts.vertex_data[PLACE], new.places < len(parts.points)
+        beyond = values.max(initial=-1) + 1 + new.places - len(values)
+        numbers = np.where(old, values[np.where(old, new.places, 0)], beyond)
+        of_vertices[PLACE] = np.append(values, numbers).astype(values.dtype)
+    of_faces = {name: values[like] for name, values in parts.face_data.items()}
+    points = np.concatenate([parts.points, new.points])
+    return Parts(points, Polygons.joined([kept, new.faces]), of_vertices, of_faces)
 
 
 def _pieces(
@@ -103,38 +128,27 @@ def _pieces(
     return Polygons.joined(pieces), np.concatenate(under)
 
 
-def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], places: IntArray, of: IntArray) -> Data:
-    """What is stored at new vertices: in these ``places`` (k,) of the surface, on these sides (k,)."""
+def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], new: Parted) -> Data:
+    """What is stored at the new vertices of a surface, spread from the vertices of their sides."""
     points, triangles = surface
     held = np.unique(triangles[triangles < len(parts.points)])
     everywhere = dict(zip(held.tolist(), held.tolist(), strict=True))
-    found = {
-        name: np.empty((len(places), *values.shape[1:]), values.dtype) for name, values in parts.vertex_data.items()
-    }
+    found = {}
     for name, values in parts.vertex_data.items():
-        if name == PLACE:
-            found[name] = _new_places(values, places)
-            continue
+        found[name] = np.empty((len(new.places), *values.shape[1:]), values.dtype)
         differs = any((values[v] != values[p]).any() for each in sides.copies.values() for p, v in each.items())
-        for side in np.unique(of).tolist() if differs else [-1]:
-            mine = of == side if differs else slice(None)
+        for side in np.unique(new.side).tolist() if differs else [-1]:
+            mine = new.side == side if differs else slice(None)
             own = {p: v for p, v in sides.copies.get(side, {}).items() if p in everywhere}
             copies = own if differs and own else everywhere
             pins, rows = np.array(list(copies)), values[list(copies.values())]
             if not mixes(rows):
-                found[name][mine] = rows[nearest(points[places[mine]], points[pins])]
+                found[name][mine] = rows[nearest(points[new.places[mine]], points[pins])]
                 continue
             around = np.unique(sides.corners[sides.of_rim == side]) if differs else None
             trend = (points[around], values[around]) if differs else None
-            found[name][mine] = spread(surface, (pins, rows), held, trend)[places[mine]]
+            found[name][mine] = spread(surface, (pins, rows), held, trend)[new.places[mine]]
     return found
-
-
-def _new_places(values: IntArray, vertices: IntArray) -> IntArray:
-    """The numbers in a file of new vertices, which are those of old ones where they are copies of these."""
-    old = vertices < len(values)
-    beyond = values.max(initial=-1) + 1 + vertices - len(values)
-    return np.where(old, values[np.where(old, vertices, 0)], beyond).astype(values.dtype)
 
 
 def rounded(parts: Parts, result: FilletResult) -> tuple[Parts, int]:
@@ -147,65 +161,35 @@ def rounded(parts: Parts, result: FilletResult) -> tuple[Parts, int]:
     if result.quads is not None:
         faces = Polygons.joined([Polygons.of(result.quads.triangles), Polygons.of(result.quads.quads)])
         under = np.concatenate([under[result.quads.rest], under[result.quads.pairs[:, 0]]])
-    corners, again, added = _on_their_sides(parts, result, faces, under)
+    near = np.unique(np.concatenate([result.gone, under, result.origin[0]]))
+    sides = Sides.around(parts, near)
+    points = np.concatenate([parts.points, result.vertices])
+    new = Parted.by(sides, faces, sides.of_rim[np.searchsorted(near, under)], points, count)
+    below = np.repeat(under, faces.sizes)[new.corner]
+    weights = _barycentric(new.points, parts.points[parts.own[below]])
+    fresh = np.flatnonzero(new.places >= count)
+    triangles, known = (each[new.places[fresh] - count] for each in result.origin)
+    mine = sides.of_rim[np.searchsorted(near, triangles)] == new.side[fresh]
+    below[fresh[mine]], weights[fresh[mine]] = triangles[mine], known[mine]
+    added = mixed(parts.vertex_data, parts.own[below], weights)
     whole = np.ones(len(parts.faces.sizes), dtype=bool)
     whole[parts.faces.face_of[result.gone]] = False
     halves = np.setdiff1d(np.flatnonzero(~whole[parts.faces.face_of]), result.gone)
-    faces = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.own[halves]), Polygons(corners, faces.sizes)])
+    kept = Polygons.joined([parts.faces.chosen(whole), Polygons.of(parts.own[halves])])
     old = np.concatenate([np.flatnonzero(whole), parts.faces.face_of[halves], parts.faces.face_of[under]])
-    of_faces = {name: values[old] for name, values in parts.face_data.items()}
-    points = np.concatenate([parts.points, result.vertices, result.vertices[again - count]])
-    used = np.isin(np.arange(len(points)), faces.corners)
+    made = _with(parts, kept, new, added, old)
+    used = np.isin(np.arange(len(made.points)), made.faces.corners)
     used[:count] |= ~np.isin(np.arange(count), parts.faces.corners)
-    of_vertices = {name: np.concatenate([values, added[name]])[used] for name, values in parts.vertex_data.items()}
-    faces = Polygons((np.cumsum(used) - 1)[faces.corners].astype(np.int32), faces.sizes)
-    return Parts(points[used], faces, of_vertices, of_faces), int(used[:count].sum())
-
-
-def _on_their_sides(
-    parts: Parts, result: FilletResult, faces: Polygons, under: IntArray
-) -> tuple[IntArray, IntArray, Data]:
-    """The corners of a fillet's faces, new vertices that stand there once more, and the data of all new ones.
-
-    ``under``: the old triangle of each face.
-    """
-    count, (triangles, weights) = len(parts.points), result.origin
-    rows = mixed(parts.vertex_data, parts.own[triangles], weights)
-    near = np.unique(np.concatenate([result.gone, under, triangles]))
-    sides = Sides.around(parts, near)
-    below = np.repeat(under, faces.sizes)
-    side = sides.of_rim[np.searchsorted(near, below)]
-    own = np.concatenate([np.full(count, -1), sides.of_rim[np.searchsorted(near, triangles)]])
-    corners = faces.corners.copy()
-    for k in np.flatnonzero(own[corners] != side).tolist() if len(sides.copies) > 1 else []:
-        corners[k] = sides.copies[side[k]].get(corners[k], corners[k])
-    other = np.flatnonzero((corners >= count) & (own[corners] != side))
-    at = np.einsum("kc,kcd->kd", weights, parts.points[parts.own[triangles]])[corners[other] - count]
-    there = mixed(parts.vertex_data, parts.own[below[other]], _barycentric(at, parts.points[parts.own[below[other]]]))
-    differs = np.zeros(len(other), dtype=bool)
-    for name, values in there.items():
-        if values.dtype.kind in "uif" and not is_normal(name, values) and name != PLACE:
-            gap = np.abs(values.astype(float) - rows[name][corners[other] - count])
-            differs |= (gap > 1e-3 * np.ptp(rows[name].astype(float))).any(axis=tuple(range(1, gap.ndim)))
-    other, first = other[differs], np.flatnonzero(differs)
-    _, one, number = np.unique(
-        np.column_stack([corners[other], side[other]]), axis=0, return_index=True, return_inverse=True
-    )
-    again = corners[other[one]]
-    corners[other] = count + len(result.vertices) + number.ravel()
-    data = {name: np.concatenate([values, there[name][first[one]]]) for name, values in rows.items()}
-    if PLACE in data:
-        new = np.arange(count, count + len(result.vertices))
-        data[PLACE] = _new_places(parts.vertex_data[PLACE], np.concatenate([new, again]))
-    return corners, again, data
+    faces = Polygons((np.cumsum(used) - 1)[made.faces.corners].astype(np.int32), made.faces.sizes)
+    data = {name: values[used] for name, values in made.vertex_data.items()}
+    return Parts(made.points[used], faces, data, made.face_data), int(used[:count].sum())
 
 
 def _barycentric(at: FloatArray, triangles: FloatArray) -> FloatArray:
     """(k, 3) weights of the corners (k, 3, 3) at the feet of places (k, 3) in their planes."""
     a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
     normal = np.cross(a, b)
-    size = np.maximum((normal**2).sum(axis=1), 1e-300)
     away = at - triangles[:, 0]
-    second = (np.cross(away, b) * normal).sum(axis=1) / size
-    third = (np.cross(a, away) * normal).sum(axis=1) / size
+    parts = np.stack([np.cross(away, b), np.cross(a, away)], axis=1) @ normal[:, :, None]
+    second, third = (parts[:, :, 0] / np.maximum((normal**2).sum(axis=1), 1e-300)[:, None]).T
     return np.column_stack([1 - second - third, second, third])
