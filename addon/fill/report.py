@@ -26,13 +26,12 @@ class Added:
     mixed: int  # boundary vertices where colours or other values of the two border faces differ: their mean counts
     seams: int  # new edges where UVs part
     distortion: float  # area-weighted mean of the conformal distortion − 1 on the active UV map; 0 without one
-    covering: int = 0  # new triangles that lie over other faces on that map
     is_symmetric: bool = True  # as X mirror asks for
 
     @property
     def notes(self) -> tuple[str, ...]:
         """A sentence for each thing that is worth a look."""
-        counts = (("uv_seams", self.seams), ("uv_covering", self.covering), ("colours_differ", self.mixed))
+        counts = (("uv_seams", self.seams), ("colours_differ", self.mixed))
         notes: list[str] = [said(key, n=count) for key, count in counts if count]
         if not self.is_symmetric:
             notes.append(NOT_SYMMETRIC)

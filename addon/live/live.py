@@ -36,7 +36,6 @@ PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading 
 MOST_SKIPPED = 15  # changes in a row that do with the first surface, without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
-FRAME = 1.0 / 60.0  # seconds between two steps of a fade
 STAND_IN = said("live_stand_in")
 SEARCHING = said("live_searching")
 KEPT = said("live_kept")
@@ -129,14 +128,6 @@ class Live:
         """Return whether a region has no fair surface now, but the one that there always is."""
         return any(session.lost for session in self.sessions.values())
 
-    def fade(self, obj: bpy.types.Object) -> bool:
-        """Show the next step from one surface to another; return whether more are to come."""
-        session = self.sessions.get(obj.data.name)
-        if session is None or not session.blend.goes_on or not fits(session, obj.data) or self._has_moved(obj, session):
-            return False
-        self._put(obj, session, session.blend.shown(time.monotonic()))
-        return session.blend.goes_on
-
     def _current(self, obj: bpy.types.Object) -> Session | None:
         """Return the session of the mesh, opened anew where its connectivity or its region has changed.
 
@@ -173,15 +164,9 @@ class Live:
             self._aside[name] = session
 
     def _write(self, obj: bpy.types.Object, session: Session, answer: Floats) -> None:
-        self._put(obj, session, session.shown(answer))
+        mesh_io.write_edit_mesh(obj.data, session.region.free, answer)
+        session.wrote(answer)
         self.updates += 1
-        if session.blend.goes_on:
-            call_later(_fade_later, FRAME)
-
-    @staticmethod
-    def _put(obj: bpy.types.Object, session: Session, positions: Floats) -> None:
-        mesh_io.write_edit_mesh(obj.data, session.region.free, positions)
-        session.wrote(positions)
 
     def doubt(self) -> None:
         """Have the regions compared at the next change."""
@@ -281,12 +266,6 @@ def _settle_later() -> float | None:
     return TICK if settle_all() else None
 
 
-def _fade_later() -> float | None:
-    """Show the next step of all that fade; return the seconds to the one after it."""
-    going_on = [live.fade(obj) for obj in edited_objects()]
-    return FRAME if any(going_on) else None
-
-
 def settle_all() -> bool:
     """Search for the surfaces of all lost regions that are being edited; return whether a search goes on."""
     said, edited = live.message, list(edited_objects())
@@ -334,7 +313,6 @@ def stop() -> None:
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
     live.on = False
     call_off(_settle_later)
-    call_off(_fade_later)
     live.forget()
 
 

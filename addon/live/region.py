@@ -115,7 +115,6 @@ class LiveRegion:
         pins = np.flatnonzero(self._lone[patch.vertices])
         moving = np.union1d(self._around.patch.free, np.searchsorted(self._around.patch.vertices, curve))
         self._moving = np.setdiff1d(moving, pins)
-        self._still = np.setdiff1d(np.union1d(self._around.patch.fixed, pins), self._moving)
 
     @property
     def vertices(self) -> Ints:
@@ -168,11 +167,6 @@ class LiveRegion:
             self._quick = RepeatedSolve(self._patch, self._options, self._reference)
         problem = self._problem(positions, matrix)
         return self._moved(problem, self._quick.first(problem), matrix)
-
-    def still(self, positions: Floats) -> Floats:
-        """Return where the fixed vertices (b, 3) are; positions: (n, 3) of `vertices`."""
-        still: Floats = positions[self._around.patch.vertices[self._still]]
-        return still
 
     def _problem(self, positions: Floats, matrix: Floats) -> Problem:
         patch = self._around.patch

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, field
 
 import bpy
@@ -13,11 +12,9 @@ from ..arrays.types import Floats, Ints
 from ..mesh import live_mesh, mesh_io
 from ..options.options import FairOptions
 from ..words.words import said
-from .blend import Blend
 from .region import LiveRegion
 from .search import Search
 
-FADE = 0.25  # seconds in which one kind of surface turns into the other, in a window
 BLINK = 0.02  # seconds that a step of a drag waits for a search to stop
 
 
@@ -37,7 +34,6 @@ class Session:
     search: Search | None = None  # for the surface, under way or about to stop: it alone may ask the region
     skip: int = 0  # changes for which no answer is asked for, as the last ones took too long
     waited: int = 0  # changes that were skipped before the last try
-    blend: Blend = field(default_factory=lambda: Blend(0.0 if bpy.app.background else FADE))
     checked: bool = True  # an undo may have brought back another region
     key: str = ""  # the shape key that the region is in, as mesh_io.writable_key names it
 
@@ -65,11 +61,6 @@ class Session:
         at = np.searchsorted(self.region.vertices, self.region.free)
         self.positions = self.positions.copy()  # a search may be reading them
         self.positions[at] = positions.astype(np.float32)
-
-    def shown(self, answer: Floats) -> Floats:
-        """Return what to write of an answer (k, 3) for the present positions: another kind of surface fades in."""
-        still = self.region.still(self.positions)
-        return self.blend.towards(answer, still, "first" if self.lost else "fair", time.monotonic())
 
 
 def matrix_of(obj: bpy.types.Object) -> Floats:

@@ -17,14 +17,12 @@ from ..fill.pieces import Filled, Piece
 from ..fill.report import Added
 from ..mirror.reflected import Whole
 from ..remesh.unwrapping import SAME, RimUVs, Surface, unwrapped
-from ..remesh.uv_overlap import covering
 from .columns import elements_of
 from .free_normals import renew
 from .layers import OF_CORNERS, MeanLayers, Shapes
 from .new_faces import FaceData, VertexData, kinds, make_faces, make_vertices, refuse_doubles
 from .selecting import select_new_faces
 from .target import Target, in_edit_mode, in_object_mode
-from .texture import triangles_near
 
 
 def border_seeds(mesh: bpy.types.Mesh) -> Mask:
@@ -64,7 +62,6 @@ def _add(target: Target, filled: Filled) -> Added:
 
 def _made(target: Target, rims: list[_Rim], new: list[FaceData], whole: Whole | None) -> Added:
     bm = target.bm
-    covered = _covering(bm, rims) if whole is None else 0  # images lie over each other
     vertices, faces = target.mirror.kept([rim.fill(target, data) for rim, data in zip(rims, new, strict=True)])
     select_new_faces(bm, faces)
     bm.normal_update()
@@ -76,7 +73,6 @@ def _made(target: Target, rims: list[_Rim], new: list[FaceData], whole: Whole | 
         mixed=len(mixed if whole is None else whole.own(mixed)),
         seams=sum(rim.seams for rim in rims),
         distortion=max((rim.distortion for rim in rims), default=0.0),
-        covering=covered,
         is_symmetric=target.mirror.is_met,
     )
 
@@ -92,20 +88,6 @@ def _read(target: Target, pieces: list[Piece]) -> tuple[list[_Rim], list[FaceDat
     for data in new:
         refuse_doubles(bm, data)
     return rims, new
-
-
-def _covering(bm: Any, rims: list[_Rim]) -> int:
-    """Count the new triangles that lie over others on the active UV map, before these are made."""
-    layer = bm.loops.layers.uv.active
-    if layer is None:
-        return 0
-    new = np.concatenate([rim.on_active_map for rim in rims])
-    corners = new.reshape(-1, 2)
-    corners = corners[np.isfinite(corners).all(axis=1)]
-    if not len(corners):
-        return 0
-    box = np.stack([corners.min(axis=0), corners.max(axis=0)])
-    return int(np.count_nonzero(covering(new, triangles_near(bm, layer.name, box))))
 
 
 class _Rim:
@@ -133,13 +115,7 @@ class _Rim:
         self._maps = [unwrapped(surface, rim) for rim in self._rims]
         self.seams = max((len(flat.seams) for flat in self._maps), default=0)
         active = bm.loops.layers.uv.active
-        self._active = None if active is None else self._maps[layers.uv_names.index(active.name)]
-        self.distortion = 0.0 if self._active is None else self._active.distortion
-
-    @property
-    def on_active_map(self) -> Floats:
-        """The new triangles there, (m, 3, 2); none without a map."""
-        return np.empty((0, 3, 2)) if self._active is None else self._active.corners.reshape(-1, 3, 2)
+        self.distortion = 0.0 if active is None else self._maps[layers.uv_names.index(active.name)].distortion
 
     def fill(self, target: Target, data: FaceData) -> tuple[list[Any], list[Any]]:
         """Make vertices, then faces; return both."""

@@ -63,15 +63,6 @@ def selected_edges(mesh: bpy.types.Mesh) -> Mask:
     return np.array([edge.select for edge in bmesh.from_edit_mesh(mesh).edges], dtype=bool)
 
 
-def selected_lines(mesh: bpy.types.Mesh) -> tuple[Floats, Ints]:
-    """Return the points (n, 3) of the selected edges of a mesh in edit mode, and the edges (e, 2) between them."""
-    ends = [edge.verts for edge in bmesh.from_edit_mesh(mesh).edges if edge.select]
-    numbers = np.array([(a.index, b.index) for a, b in ends], dtype=np.int64).reshape(-1, 2)
-    places = np.array([(*a.co, *b.co) for a, b in ends], dtype=np.float64).reshape(-1, 3)
-    _, first, edges = np.unique(numbers, return_index=True, return_inverse=True)
-    return places[first], edges.reshape(-1, 2)
-
-
 def deselect(bm: Any) -> None:
     """Take every vertex, edge and face out of the selection."""
     for element in (*bm.faces, *bm.edges, *bm.verts):

@@ -13,17 +13,13 @@ from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints, Mask
 from ..words.findings import Origin
 from ..words.sentences import in_mesh_words
-from .curvatures import gaussian_curvature, largest_principal
 
 RINGS = 2  # around what is shown, so that its border is measured from both sides
 
 
-HIGH_INWARDS = ("CURVATURE", "PRINCIPAL")  # H is positive where the surface caves in
-
-
 def sense(mode: str) -> float:
-    """Return by what values are multiplied before they are coloured, so that outwards has one colour in all modes."""
-    return -1.0 if mode in HIGH_INWARDS else 1.0
+    """Return by what values are multiplied before they are coloured: H is positive where the surface caves in."""
+    return 1.0 if mode == "DEVIATION" else -1.0
 
 
 @dataclass(frozen=True)
@@ -34,15 +30,12 @@ class Surface:
     triangles: Ints  # (t, 3)
     normals: Floats  # (n, 3) unit, fitted
     curvature: Floats  # (n,) H in 1/length, negative where it is convex from outside
-    gaussian: Floats  # (n,) K in 1/length²
     deviation: Floats  # (n,) from the surface before the last run, in world space
     boundary: Floats  # (e, 2, 3) edges around the patch
 
     def values(self, mode: str) -> Floats:
-        """Return what is drawn in colours (n,): CURVATURE, GAUSSIAN, PRINCIPAL or DEVIATION."""
-        if mode == "PRINCIPAL":
-            return largest_principal(self.curvature, self.gaussian)
-        return {"GAUSSIAN": self.gaussian, "DEVIATION": self.deviation}.get(mode, self.curvature)
+        """Return what is drawn in colours (n,): CURVATURE or DEVIATION."""
+        return self.deviation if mode == "DEVIATION" else self.curvature
 
     def usual(self, mode: str) -> float:
         """The 90th percentile of the values' sizes, so that a few spikes don't wash the colours out.
@@ -74,13 +67,11 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Float
     number = np.zeros(len(world.positions), dtype=np.int64)
     number[used] = np.arange(len(used))
     with in_mesh_words(Origin(used, triangles, world.triangle_faces[grown])):
-        normals = fairing.vertex_normals(positions, triangles)
         return Surface(
             positions=positions,
             triangles=number[world.triangles[shown]],
-            normals=normals,
+            normals=fairing.vertex_normals(positions, triangles),
             curvature=fairing.mean_curvature(positions, triangles),
-            gaussian=gaussian_curvature(positions, triangles, normals),
             deviation=np.zeros(len(used)) if deviation is None else deviation[used],
             boundary=world.positions[_edges_around(world.triangles[world.in_patch[world.triangle_faces]])],
         )

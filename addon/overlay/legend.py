@@ -14,13 +14,7 @@ from ..translations import translated
 from .data import sense
 
 LOW, MIDDLE, HIGH = (0.10, 0.30, 0.85), (0.96, 0.96, 0.96), (0.85, 0.12, 0.10)  # as in overlay_shader.py
-TITLES = {
-    "CURVATURE": "Mean Curvature",
-    "GAUSSIAN": "Gaussian Curvature",
-    "PRINCIPAL": "Largest Curvature",
-    "COMBS": "Curvature of Edges",
-    "DEVIATION": "Deviation",
-}
+TITLES = {"CURVATURE": "Mean Curvature", "DEVIATION": "Deviation"}
 _STEPS = 32
 _SIZE = (180.0, 12.0)  # pixels at scale 1
 _ABOVE = 44.0  # the lower edge
@@ -48,8 +42,6 @@ def draw(context: Any, mode: str, full: float, largest: float) -> None:
     blf.size(0, 11.0 * scale)
     blf.color(0, 1.0, 1.0, 1.0, 1.0)
     _write(title, left, bottom + 1.5 * height)
-    if mode == "COMBS":  # teeth have one colour
-        return
     edges = np.linspace(0.0, 1.0, _STEPS + 1)
     xs = np.repeat(left + width * edges, 2)
     places = np.column_stack([xs, np.tile([bottom, bottom + height], _STEPS + 1)]).astype(np.float32)

@@ -1,4 +1,4 @@
-"""Lines of the quality overlay: curvature combs over everything, and the boundary, thin, so that it hides no join."""
+"""The boundary on the quality overlay, thin, so that it hides no join."""
 
 from __future__ import annotations
 
@@ -9,19 +9,9 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..arrays.types import Floats
-from .combs import Comb
 
-TOOTH, TIPS, BOUNDARY = (0.30, 0.75, 1.0, 1.0), (1.0, 0.75, 0.2, 1.0), (1.0, 0.5, 0.0, 0.6)
+BOUNDARY = (1.0, 0.5, 0.0, 0.6)
 NEARER = 6e-5  # than the overlay itself, which is 2e-5 in front of the mesh
-
-
-def draw_combs(context: Any, combs: tuple[Comb, ...], full: float) -> None:
-    """Draw them into the 3D view that is being drawn; full: the curvature of a tooth of full length."""
-    gpu.state.depth_test_set("NONE")
-    for comb in combs:
-        tips = comb.tips(full)
-        _draw(context, np.stack([comb.feet, tips], axis=1), TOOTH, 1.0)
-        _draw(context, tips[comb.pairs], TIPS, 2.0)
 
 
 def draw_boundary(context: Any, edges: Floats) -> None:
@@ -31,16 +21,16 @@ def draw_boundary(context: Any, edges: Floats) -> None:
     projection[2] = projection[2] - NEARER * projection[3]
     with gpu.matrix.push_pop_projection():
         gpu.matrix.load_projection_matrix(projection)
-        _draw(context, edges, BOUNDARY, 1.0)
+        _draw(context, edges)
     gpu.state.depth_test_set("NONE")
 
 
-def _draw(context: Any, edges: Floats, colour: tuple[float, float, float, float], width: float) -> None:
+def _draw(context: Any, edges: Floats) -> None:
     shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     shader.bind()
     shader.uniform_float("viewportSize", (context.region.width, context.region.height))
-    shader.uniform_float("lineWidth", width * context.preferences.system.ui_scale)
-    shader.uniform_float("color", colour)
+    shader.uniform_float("lineWidth", context.preferences.system.ui_scale)
+    shader.uniform_float("color", BOUNDARY)
     gpu.state.blend_set("ALPHA")
     batch_for_shader(shader, "LINES", {"pos": edges.reshape(-1, 3).astype(np.float32)}).draw(shader)
     gpu.state.blend_set("NONE")

@@ -13,18 +13,18 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
+import fairing
+
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats
 from ..host.context import active_object, edited_objects
 from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
 from ..host.status import redraw_views
-from ..mesh import mesh_io, selecting
-from ..mesh.deviation import deviation
+from ..mesh import mesh_io
 from ..options.options import FairOptions
 from ..run import compare
 from ..words.words import said
 from . import legend, lines, signals
-from .combs import Comb, comb
 from .data import Surface, make_surface, sense
 from .shader import make_shader
 
@@ -36,7 +36,6 @@ class Overlay:
 
     def __init__(self) -> None:
         self.surfaces: tuple[Surface, ...] = ()
-        self.combs: tuple[Comb, ...] = ()
         self.message = ""
         self.handle: Any = None
         self.legend: Any = None
@@ -47,10 +46,6 @@ class Overlay:
         """Measure what the settings ask for."""
         whole = context.mode != "EDIT_MESH" or context.window_manager.fairing_overlay.scope == "OBJECT"
         self.clear()
-        if context.window_manager.fairing_overlay.mode == "COMBS":
-            self.combs = _combs(context)
-            self.message = "" if self.combs else said("combs_need_edges")
-            return
         self.surfaces = tuple(s for obj in _shown(context) if (s := self._surface(obj, whole)) is not None)
 
     def _surface(self, obj: bpy.types.Object, whole: bool) -> Surface | None:
@@ -66,8 +61,6 @@ class Overlay:
 
     def draw(self, context: bpy.types.Context) -> None:
         """Draw the surfaces into the 3D view that is being drawn."""
-        if self.combs:
-            lines.draw_combs(context, self.combs, full_colour(context.window_manager.fairing_overlay))
         if not self.surfaces:
             return
         if self._shader is None:
@@ -89,14 +82,13 @@ class Overlay:
 
     def clear(self) -> None:
         """Drop everything measured."""
-        self.surfaces, self.combs, self._batches, self.message = (), (), [], ""
+        self.surfaces, self._batches, self.message = (), [], ""
 
     @property
     def largest(self) -> float:
         """The largest value shown, with its sign."""
         mode = bpy.context.window_manager.fairing_overlay.mode
-        values = [surface.largest(mode) for surface in self.surfaces] + [each.largest for each in self.combs]
-        return max(values, key=abs)
+        return max((surface.largest(mode) for surface in self.surfaces), key=abs)
 
 
 overlay = Overlay()
@@ -133,19 +125,7 @@ def full_colour(settings: Any) -> float:
     """Return the value with full colour, the same for all that is shown: of a legend there is one."""
     if not settings.automatic:
         return float(settings.range)
-    usual = [surface.usual(settings.mode) for surface in overlay.surfaces]
-    return max([1e-9, *usual, *(each.largest for each in overlay.combs)])
-
-
-def _combs(context: bpy.types.Context) -> tuple[Comb, ...]:
-    """Return the combs of all objects with selected edges, in world space."""
-    found = []
-    for obj in _shown(context) if context.mode == "EDIT_MESH" else ():
-        matrix = np.array(obj.matrix_world, dtype=np.float64)
-        points, edges = selecting.selected_lines(obj.data)
-        if len(edges):
-            found.append(comb(points @ matrix[:3, :3].T + matrix[:3, 3], edges))
-    return tuple(found)
+    return max([1e-9, *(surface.usual(settings.mode) for surface in overlay.surfaces)])
 
 
 def _deviation(name: str, mesh: MeshArrays, matrix: Floats) -> Floats | None:
@@ -156,7 +136,8 @@ def _deviation(name: str, mesh: MeshArrays, matrix: Floats) -> Floats | None:
     found = np.zeros(len(before))
     moved = np.flatnonzero((before != mesh.positions).any(axis=1))
     now, then = (places @ matrix[:3, :3].T + matrix[:3, 3] for places in (mesh.positions, before))
-    found[moved] = deviation(now[moved], then, mesh.triangles)
+    if len(moved):
+        found[moved] = fairing.deviation(now[moved], then, mesh.triangles)
     return found
 
 
@@ -166,7 +147,7 @@ def _draw() -> None:
 
 def _draw_legend() -> None:
     settings = bpy.context.window_manager.fairing_overlay
-    if (overlay.surfaces or overlay.combs) and settings.mode != "ZEBRA":
+    if overlay.surfaces and settings.mode != "ZEBRA":
         legend.draw(bpy.context, settings.mode, full_colour(settings), overlay.largest)
 
 

@@ -12,13 +12,6 @@ from .signals import content_changed, look_changed
 _MODES = (
     ("ZEBRA", "Reflection Lines", "Stripes of light mirrored in the surface: they break at creases, bend at bad joins"),
     ("CURVATURE", "Mean Curvature", "Red bulges out, blue caves in, white is flat on average; fair is without spots"),
-    ("GAUSSIAN", "Gaussian Curvature", "Red is round like a ball, blue is like a saddle, white unrolls flat"),
-    ("PRINCIPAL", "Largest Curvature", "The way it bends most: red outwards, blue inwards"),
-    (
-        "COMBS",
-        "Curvature Combs",
-        "Teeth along the selected edges, longer where these bend more: a jump shows a bad join",
-    ),
     ("DEVIATION", "Deviation", "How far the last run has moved the surface: red outwards, blue inwards"),
 )
 _SCOPES = (
@@ -57,13 +50,13 @@ class FairOverlay(bpy.types.PropertyGroup):
     )
     automatic: BoolProperty(
         name="Automatic Range",
-        description="Full colour, or a tooth of full length, at the largest value shown",
+        description="Full colour at the largest value shown",
         default=True,
         update=look_changed,
     )
     range: FloatProperty(
         name="Range",
-        description="The value with full colour or length: in 1 / length, for deviations the tolerance as a length",
+        description="The value with full colour: in 1 / length, for deviations the tolerance as a length",
         default=1.0,
         min=1e-6,
         update=look_changed,

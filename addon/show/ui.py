@@ -109,8 +109,7 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
     column = layout.column()
     column.active = settings.show
     column.prop(settings, "mode")
-    if settings.mode != "COMBS":
-        column.prop(settings, "scope")
+    column.prop(settings, "scope")
     if settings.mode == "ZEBRA":
         column.prop(settings, "stripes")
         column.prop(settings, "axis")
@@ -119,8 +118,7 @@ def _draw_overlay(layout: Any, settings: Any) -> None:
         row = column.row()
         row.active = not settings.automatic
         row.prop(settings, "range", text="Tolerance" if settings.mode == "DEVIATION" else "Range")
-    if settings.mode != "COMBS":
-        column.prop(settings, "opacity")
+    column.prop(settings, "opacity")
     if overlay.message:
         draw_text(layout, overlay.message, "ERROR")
 

@@ -279,31 +279,6 @@ def test_a_slow_answer_is_stood_in_for_until_the_end_of_the_drag(live: Any, monk
     assert_fair(faces)
 
 
-def test_one_surface_fades_into_the_other(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """In a window: no vertex jumps, and in the end the fair surface stands there to the bit."""
-    home = module("live.live")
-    table_mountain()
-    monkeypatch.setattr(home, "PATIENCE", -1.0)
-    drag(flank(now()), (0.0, 0.0, 0.05))
-    first = now()
-    (session,) = live.sessions.values()
-    session.blend.seconds = 1000.0
-    live.changed_at -= home.PAUSE
-    assert home._settle_later() is None
-    np.testing.assert_allclose(now(), first, atol=1e-5)  # nothing jumps
-    assert home._fade_later() == home.FRAME
-    session.blend._begun -= 500.0
-    assert home._fade_later() == home.FRAME
-    half = now()
-    session.blend._begun -= 500.0
-    assert home._fade_later() is None
-    fair = now()
-    np.testing.assert_allclose(half, 0.5 * (first + fair), atol=1e-5)
-    assert np.abs(fair - first).max() > 1e-4
-    assert home._fade_later() is None
-    np.testing.assert_array_equal(now(), fair)
-
-
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -113,8 +113,8 @@ def _rests() -> bool:
 
 
 def settled() -> bool:
-    """Whether every region shows its own surface: none stands in, and none fades into another."""
-    return not _live().stands_in() and not any(session.blend.goes_on for session in _live().sessions.values())
+    """Whether every region shows its own surface: none stands in."""
+    return not _live().stands_in()
 
 
 def _is_on() -> bool:

@@ -308,16 +308,6 @@ def overlays_are_seen() -> Story:
         settings.mode = mode
         yield 1.5
         screenshot(f"overlay_{mode.lower()}")
-    scenes.bottle()
-    with in_view():
-        bpy.ops.view3d.view_all()
-    run_operator()
-    yield 3.0
-    points = scenes.positions()
-    scenes.select_vertices(np.abs(np.arctan2(points[:, 1], points[:, 0]) + np.radians(15.0)) < 1e-3)
-    settings.mode = "COMBS"
-    yield 2.0
-    screenshot("overlay_combs")
     settings.property_unset("mode")
     settings.show = False
 
