@@ -44,13 +44,11 @@ def _after_load(*_arguments: Any) -> None:
 
 
 def register() -> None:
-    """Follow the opening of files."""
     listen(bpy.app.handlers.load_pre, _before_load)
     listen(bpy.app.handlers.load_post, _after_load)
 
 
 def unregister() -> None:
-    """Forget all, and follow no more."""
     unlisten(bpy.app.handlers.load_post, _after_load)
     unlisten(bpy.app.handlers.load_pre, _before_load)
     forget()

@@ -22,7 +22,6 @@ class VIEW3D_PT_fairing_loading(bpy.types.Panel):
     bl_category = "Fairing"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw reason, platform, Python and wheels, and what to do."""
         draw_text(self.layout, "The engine's module doesn't load.", "ERROR")
         for label, value in loading.details():
             draw_text(self.layout, f"{label}: {value}", "BLANK1")
@@ -47,5 +46,4 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take the panel back."""
     _unregister_classes()

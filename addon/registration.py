@@ -19,23 +19,20 @@ from .host import handlers
 from .live import live
 from .live.operators import FairLive, MESH_OT_fair_live_forget
 from .live.start import MESH_OT_fair_live_region
-from .options import preset_operators as presets
-from .options import redo_panel
+from .options import preset_operators, redo_panel
 from .options.chosen import MESH_OT_fair_reset
 from .overlay import overlay
 from .overlay.settings import FairOverlay
-from .preferences import FairPreferences
 from .run import cli, compare, redo, undone
 from .run.again import MESH_OT_fair_again
 from .run.background import MESH_OT_fair_cancel
 from .run.redo import MESH_OT_fair_follow
 from .selection import watch
 from .selection.tools import MESH_OT_fair_select
-from .show import gizmos, keymap, marks, menus, tab, tools, ui
+from .show import gizmos, keymap, marks, menus, tools, ui
 from .verdict.properties import FairCheck, FairProgress, FairReport
 
 _CLASSES: tuple[Any, ...] = (
-    FairPreferences,
     FairCheck,
     FairReport,
     FairProgress,
@@ -55,7 +52,8 @@ _CLASSES: tuple[Any, ...] = (
     MESH_OT_fair_cancel,
     MESH_OT_fair_follow,
     MESH_OT_fair_reset,
-    *presets.CLASSES,
+    preset_operators.MESH_MT_fair_region_runs,
+    preset_operators.MESH_MT_fair_fill_runs,
     *menus.MENUS,
     MESH_OT_fair_stroke,
     *tools.MACROS,
@@ -72,7 +70,6 @@ _commands: list[Any] = []  # handles that Blender wants back at unregistering
 
 
 def register() -> None:
-    """Make operators, panels, menu entries, presets and command known to Blender."""
     _register_classes()
     bpy.types.WindowManager.fairing_report = bpy.props.PointerProperty(type=FairReport)
     bpy.types.WindowManager.fairing_progress = bpy.props.PointerProperty(type=FairProgress)
@@ -87,7 +84,6 @@ def register() -> None:
     brush_preview.register()
     live.register()
     marks.register()
-    tab.register()
     keymap.register()
     tools.register()
     undone.register()
@@ -98,7 +94,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take back everything that register() did, in reverse."""
     bpy.utils.unregister_cli_command(_commands.pop())
     translations.unregister()
     file_owned.unregister()
@@ -106,7 +101,6 @@ def unregister() -> None:
     undone.unregister()
     tools.unregister()
     keymap.unregister()
-    tab.unregister()
     marks.unregister()
     live.unregister()
     brush_preview.unregister()

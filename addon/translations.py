@@ -50,10 +50,8 @@ _sentences = cache(sentences_of)
 
 
 def register() -> None:
-    """Hand the texts to Blender."""
     bpy.app.translations.register(__package__, table())
 
 
 def unregister() -> None:
-    """Take them back."""
     bpy.app.translations.unregister(__package__)

@@ -103,11 +103,9 @@ class MESH_OT_fair_from_curves(CurvesProperties, Redone, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has edges; while a run is under way, the mesh is its own."""
         return require_edit_mode(cls, context, NO_WIRE) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
     def _read(self, context: bpy.types.Context) -> Asked | None:

@@ -54,7 +54,6 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Sculpt mode has brushes."""
         return require(cls, context.mode == "SCULPT", said("in_sculpt_mode")) and super().poll(context)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -75,11 +74,9 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         return self.begin_stroke(context, event)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Paint until the button is let go, then wait for the surface."""
         return Watched.modal(self, context, event) if self._run is not None else self.follow_stroke(context, event)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Leave all as it was."""
         self._hide()
         Watched.cancel(self, context)
 

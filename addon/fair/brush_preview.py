@@ -20,14 +20,12 @@ _handles: list[Any] = []
 
 
 def register() -> None:
-    """Draw what strokes paint."""
     brush.shows.append(_take)
     if not bpy.app.background:
         _handles.append(bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW"))
 
 
 def unregister() -> None:
-    """Draw nothing any more."""
     brush.shows.remove(_take)
     _batches.clear()
     while _handles:

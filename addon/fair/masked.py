@@ -58,7 +58,6 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
     group: StringProperty(name="Faces Of", description="Name of the vertex group; empty: the active one")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out as those of Fair Region."""
         self.layout.prop(self, "source")
         draw_options(self.layout, self, context.object, context.window_manager)
 
@@ -71,7 +70,6 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
         return self.pick(context, said("click_face_set"))
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for the click, then for the result."""
         return Picks.modal(self, context, event) if self._run is None else Watched.modal(self, context, event)
 
     def _picked(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

@@ -25,8 +25,7 @@ class MESH_OT_fair_region(FairProperties, Redone, bpy.types.Operator):
 
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-    preset_menu, preset_add = "MESH_MT_fair_region_presets", "mesh.fair_region_preset_add"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -34,7 +33,6 @@ class MESH_OT_fair_region(FairProperties, Redone, bpy.types.Operator):
         return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out in groups."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
     def _read(self, context: bpy.types.Context) -> Asked | None:

@@ -176,7 +176,6 @@ class FairsOutside(FairProperties, Redone):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Needs a mesh outside edit mode."""
         obj = active_object(context)
         return (
             require(cls, obj is not None and obj.type == "MESH", said("make_active"))

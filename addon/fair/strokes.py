@@ -70,16 +70,13 @@ class MESH_OT_fair_stroke(Stroke, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has something to select."""
         return bool(context.mode == "EDIT_MESH")
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin where the pointer is."""
         self.path.clear()
         return self.begin_stroke(context, event)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Follow the pointer."""
         return self.follow_stroke(context, event)
 
     def execute(self, _context: bpy.types.Context) -> set[str]:

@@ -137,16 +137,13 @@ class MESH_OT_fair_fill(FillProperties, Redone, bpy.types.Operator):
 
     bl_idname = "mesh.fair_fill"
     bl_label = "Fair Fill"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-    preset_menu, preset_add = "MESH_MT_fair_fill_presets", "mesh.fair_fill_preset_add"
+    bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has borders; while a run is under way, the mesh is its own."""
         return require_edit_mode(cls, context, said("select_boundary")) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out in groups."""
         draw_options(self.layout, self, context.object, context.window_manager)
 
     def _read(self, context: bpy.types.Context) -> Asked | None:

@@ -77,11 +77,9 @@ def stop() -> None:
 
 
 def register() -> None:
-    """See to it that nothing is left when Python ends."""
     atexit.register(stop)
 
 
 def unregister() -> None:
-    """Leave nothing behind now."""
     stop()
     atexit.unregister(stop)

@@ -29,7 +29,6 @@ class Picks:
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Take the first click."""
         if event.type in {"ESC", "RIGHTMOUSE"}:
             _end(context)
             return {"CANCELLED"}

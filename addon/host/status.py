@@ -5,10 +5,10 @@ from typing import Any
 import bpy
 from mathutils import Vector
 
-from ..preferences import sidebar_tab
 from ..translations import translated
 
 CANCEL = "mesh.fair_cancel"
+TAB = "Fairing"  # of the sidebar
 ASKEW = 0.5  # cosine between the view and a surface's normal, below which little can be seen of the surface
 
 
@@ -48,13 +48,13 @@ def over_buttons(context: bpy.types.Context, event: Any) -> bool:
         return False
     for area in window.screen.areas:
         if area.x <= x < area.x + area.width and area.y <= y < area.y + area.height:
-            return area.type == "VIEW_3D" and any(_is_ours(region, x, y, context) for region in area.regions)
+            return area.type == "VIEW_3D" and any(_is_ours(region, x, y) for region in area.regions)
     return bool(y < min(area.y for area in window.screen.areas))
 
 
-def _is_ours(region: Any, x: int, y: int, context: bpy.types.Context) -> bool:
+def _is_ours(region: Any, x: int, y: int) -> bool:
     inside = region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
-    return inside and region.type == "UI" and getattr(region, "active_panel_category", "") == sidebar_tab(context)
+    return inside and region.type == "UI" and getattr(region, "active_panel_category", "") == TAB
 
 
 def _draw_status(header: Any, context: bpy.types.Context) -> None:

@@ -317,11 +317,9 @@ def stop() -> None:
 
 
 def register() -> None:
-    """Follow the switch."""
     signals.listeners["live"] = switched
 
 
 def unregister() -> None:
-    """Leave nothing behind."""
     stop()
     signals.listeners.pop("live", None)

@@ -45,11 +45,9 @@ class MESH_OT_fair_live_forget(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """There must be a region."""
         return _require_region(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Forget them all."""
         for obj in edited_objects(context):
             live_mesh.forget_region(obj.data)
         return {"FINISHED"}

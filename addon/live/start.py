@@ -107,7 +107,6 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has a selection; while a run is under way, the mesh is its own."""
         return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
 
     def _read(self, context: bpy.types.Context) -> AskedLive | None:

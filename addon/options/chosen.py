@@ -31,7 +31,6 @@ def shown_value(option: Option, value: Any) -> str:
 
 
 def draw(layout: Any, context: bpy.types.Context) -> None:
-    """Draw these options, and a button that runs with them."""
     chosen = last_chosen(context)
     if not chosen:
         return

@@ -40,8 +40,6 @@ class _Chosen:
     """What operators with such properties share."""
 
     chosen: type[Chosen]
-    preset_menu = ""
-    preset_add = ""
 
 
 class FairProperties(_Chosen):

@@ -12,7 +12,6 @@ ADVANCED = "fairing_advanced"  # the switch, of the window manager
 def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manager: Any) -> None:
     """Draw the options of an operator that says which class they come to."""
     shown = _shown(options)
-    _draw_presets(layout, options)
     layout.use_property_split = True
     titles = dict.fromkeys(option.group for option in table(options.chosen))
     for title in (title for title in titles if title not in FOLDED):
@@ -28,15 +27,6 @@ def draw_options(layout: Any, options: Any, obj: bpy.types.Object | None, manage
     if opened:
         for title in FOLDED:
             _draw_group(layout, title, shown.get(title, []), options, obj)
-
-
-def _draw_presets(layout: Any, options: Any) -> None:
-    if not options.preset_menu:
-        return
-    row = layout.row(align=True)
-    row.menu(options.preset_menu, text=getattr(bpy.types, options.preset_menu).bl_label)
-    row.operator(options.preset_add, text="", icon="ADD")
-    row.operator(options.preset_add, text="", icon="REMOVE").remove_active = True
 
 
 def _shown(options: Any) -> dict[str, list[Option]]:
@@ -68,7 +58,6 @@ def _draw_option(column: Any, option: Option, options: Any, obj: Any) -> None:
 
 
 def register() -> None:
-    """Make the switch known to Blender."""
     setattr(
         bpy.types.WindowManager,
         ADVANCED,
@@ -77,5 +66,4 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take it back."""
     delattr(bpy.types.WindowManager, ADVANCED)

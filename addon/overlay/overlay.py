@@ -60,7 +60,6 @@ class Overlay:
             return None
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the surfaces into the 3D view that is being drawn."""
         if not self.surfaces:
             return
         if self._shader is None:
@@ -200,12 +199,10 @@ def refresh() -> None:
 
 
 def register() -> None:
-    """Follow the settings."""
     signals.listeners.update(content=settings_changed, look=redraw_views)
 
 
 def unregister() -> None:
-    """Leave nothing behind."""
     stop()
     for kind in ("content", "look"):
         signals.listeners.pop(kind, None)

@@ -88,12 +88,10 @@ class MESH_OT_fair_again(bpy.types.Operator):
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:
-        """Say what this button does."""
         return next(text for identifier, _, text in _WAYS if identifier == properties.way)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """There must have been a run."""
         return require_edit_mode(cls, context) and require(cls, last_run.has_regions(), said("nothing_faired"))
 
     def execute(self, context: bpy.types.Context) -> set[str]:

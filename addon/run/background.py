@@ -10,7 +10,6 @@ import bpy
 from ..fair.engine import Progress
 from ..host.handlers import hear_events
 from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
-from ..preferences import background_from
 from ..translations import translated
 from ..words.words import said
 from . import job, runner
@@ -20,6 +19,7 @@ from .preview import Preview
 CANCELLED = said("cancelled")
 TICK = 0.05  # seconds between two looks at the thread
 MOMENT = 0.3  # seconds that Blender may stand still for an answer
+LARGE = 4000  # free vertices that take longer in any case
 
 # Looking around does no harm while the engine works; all else would.
 _VIEW_EVENTS = {
@@ -99,7 +99,6 @@ class MESH_OT_fair_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, _context: bpy.types.Context) -> bool:
-        """There must be one."""
         return bool(under_way)
 
     def execute(self, _context: bpy.types.Context) -> set[str]:
@@ -190,7 +189,7 @@ class Watched:
         if not has_events(context):
             return self._at_once(context)
         # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
-        large = self._asked.size >= background_from(context)
+        large = self._asked.size >= LARGE
         self._run = runner.Run(self._asked.work_aside(large))
         if not large and self._run.wait(MOMENT):
             return self._asked.settle(context, self._run.result, self.report)

@@ -94,7 +94,6 @@ class _Progress:
 
 
 def execute(arguments: list[str]) -> int:
-    """Run the command and return its exit status."""
     chosen = parse(arguments)
     try:
         if chosen.fillet:

@@ -157,7 +157,6 @@ class MESH_OT_fair_compare(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """There must be something to compare, in edit mode."""
         return require_edit_mode(cls, context) and require(cls, is_available(), said("nothing_faired"))
 
     def execute(self, context: bpy.types.Context) -> set[str]:

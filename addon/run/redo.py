@@ -21,10 +21,9 @@ import fairing
 
 from ..host.handlers import call_later, call_off, hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
-from ..preferences import background_from
 from ..verdict.properties import clear, kept, message, store_awaited
 from ..words.words import said
-from . import runner
+from . import background, runner
 from .asked import Asked, Say
 from .background import TICK, Watched, has_events, under_way
 
@@ -128,7 +127,7 @@ class Redone(Watched):
 
     def _change(self, end: float, context: bpy.types.Context) -> set[str]:
         asked = self._asked
-        if asked.size < background_from(context):
+        if asked.size < background.LARGE:
             try:
                 return asked.settle(context, lambda: asked.work(lambda *_: time.perf_counter() < end), self.report)
             except fairing.Cancelled:
@@ -277,13 +276,11 @@ def _on_redo(*arguments: object) -> None:
 
 
 def register() -> None:
-    """Hear of steps of undo."""
     listen(bpy.app.handlers.undo_post, _on_undo)
     listen(bpy.app.handlers.redo_post, _on_redo)
 
 
 def unregister() -> None:
-    """Hear of them no more."""
     call_off(_watch)
     unlisten(bpy.app.handlers.redo_post, _on_redo)
     unlisten(bpy.app.handlers.undo_post, _on_undo)

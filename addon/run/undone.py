@@ -16,12 +16,10 @@ def _on_step(*_arguments: object) -> None:
 
 
 def register() -> None:
-    """Start listening."""
     listen(bpy.app.handlers.undo_post, _on_step)
     listen(bpy.app.handlers.redo_post, _on_step)
 
 
 def unregister() -> None:
-    """Stop listening."""
     unlisten(bpy.app.handlers.redo_post, _on_step)
     unlisten(bpy.app.handlers.undo_post, _on_step)

@@ -23,7 +23,6 @@ class VIEW3D_PT_fairing_selection(SidebarPanel, bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Only edit mode has a selection."""
         return bool(context.mode == "EDIT_MESH")
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -46,7 +45,6 @@ class VIEW3D_PT_fairing_counts(SidebarPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Draw the numbers of the last look."""
         for found in watch.found:
             column = self.layout.column(align=True)
             pair(column, "Faces", str(found.faces))

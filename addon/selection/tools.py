@@ -113,16 +113,13 @@ class MESH_OT_fair_select(bpy.types.Operator):
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:
-        """Say what this button selects."""
         return next(text for identifier, _, text in _WHAT if identifier == properties.what)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has a selection."""
         return require_edit_mode(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select it, where there is any."""
         try:
             if _SELECTS[self.what](context):
                 return {"FINISHED"}

@@ -15,9 +15,9 @@ from ..host.handlers import call_later, call_off, is_edited, listen, unlisten
 from ..host.polling import require_edit_mode
 from ..host.status import redraw_sidebars
 from ..mesh import selecting
-from ..preferences import inspect_up_to
 from .inspection import Inspection, inspect, last_options
 
+LARGE = 30_000  # faces: a look takes about .15 s
 DELAY = 0.2  # seconds without a change, before the look: never in the middle of a drag
 
 
@@ -46,7 +46,7 @@ watch = Watch()
 def is_large(context: bpy.types.Context) -> bool:
     """Return whether a look would be felt."""
     faces = sum(selecting.face_count(obj.data) for obj in edited_objects(context))
-    return bool(faces > inspect_up_to(context))
+    return faces > LARGE
 
 
 def request(context: bpy.types.Context) -> None:
@@ -81,7 +81,6 @@ class MESH_OT_fair_inspect(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has a selection to look at."""
         return require_edit_mode(cls, context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
@@ -91,11 +90,9 @@ class MESH_OT_fair_inspect(bpy.types.Operator):
 
 
 def register() -> None:
-    """Start listening."""
     listen(bpy.app.handlers.depsgraph_update_post, _on_change)
 
 
 def unregister() -> None:
-    """Stop listening."""
     unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
     call_off(_look_later)

@@ -91,7 +91,6 @@ class _Arrow:
         return options_of(context.active_operator, cls.operator)
 
     def setup(self, _context: bpy.types.Context) -> None:
-        """Make the arrow."""
         self.arrow = self.gizmos.new("GIZMO_GT_arrow_3d")
         self.arrow.target_set_handler("offset", get=self._way, set=self._pull)
         self.arrow.color, self.arrow.color_highlight = COLOUR, LIT
@@ -136,7 +135,6 @@ class VIEW3D_GGT_fair_bulge(_Arrow, bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """A region must have been faired just now, with a surface that can bulge."""
         options, bulge = cls.chosen(context), named(FairOptions, cls.option)
         return (
             options is not None
@@ -168,7 +166,6 @@ class VIEW3D_GGT_fair_width(_Arrow, bpy.types.GizmoGroup):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Something must have been rounded just now."""
         return cls.chosen(context) is not None and fillet.handle.flank is not None
 
     def place(self, _context: bpy.types.Context) -> None:

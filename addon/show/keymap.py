@@ -25,7 +25,6 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take them back."""
     while _entries:
         keymap, entry = _entries.pop()
         keymap.keymap_items.remove(entry)

@@ -74,13 +74,11 @@ def _draw_message() -> None:
 
 
 def register() -> None:
-    """Draw from now on; costs nothing without marks."""
     if not bpy.app.background:
         add = bpy.types.SpaceView3D.draw_handler_add
         _marks.handles = [add(_draw, (), "WINDOW", "POST_VIEW"), add(_draw_message, (), "WINDOW", "POST_PIXEL")]
 
 
 def unregister() -> None:
-    """Draw no more."""
     while _marks.handles:
         bpy.types.SpaceView3D.draw_handler_remove(_marks.handles.pop(), "WINDOW")

@@ -82,7 +82,6 @@ class VIEW3D_MT_fair_pie(bpy.types.Menu):
     bl_label = "Fair"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw what is most needed on the left and on the right."""
         pie = self.layout.menu_pie()
         if context.mode == "EDIT_MESH":
             pie.operator(MESH_OT_fair_region.bl_idname, icon="MOD_SMOOTH")
@@ -113,12 +112,10 @@ ENTRIES = (
 
 
 def register() -> None:
-    """Add them."""
     for menu, draw in ENTRIES:
         getattr(bpy.types, menu).append(draw)
 
 
 def unregister() -> None:
-    """Take them back."""
     for menu, draw in reversed(ENTRIES):
         getattr(bpy.types, menu).remove(draw)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..tab_name import USUAL
+from ..host.status import TAB
 
 
 class SidebarPanel:
@@ -12,7 +12,7 @@ class SidebarPanel:
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
-    bl_category = USUAL
+    bl_category = TAB
 
 
 def pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:

@@ -63,7 +63,6 @@ class FairLassoTool(_Tool, bpy.types.WorkSpaceTool):
     bl_keymap = ((MESH_OT_fair_lasso.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),)
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        """Draw the options in the header."""
         _draw_fair(layout, tool, MESH_OT_fair_lasso.bl_idname)
 
 
@@ -78,13 +77,11 @@ class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
     bl_keymap = ((MESH_OT_fair_paint.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        """Draw the radius and the options in the header."""
         properties = tool.operator_properties(MESH_OT_fair_paint.bl_idname)
         layout.prop(properties.MESH_OT_fair_stroke, "radius")
         _draw_fair(layout, tool, MESH_OT_fair_paint.bl_idname)
 
     def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
-        """Draw the circle around the pointer."""
         _draw_circle(xy, tool.operator_properties(MESH_OT_fair_paint.bl_idname).MESH_OT_fair_stroke.radius)
 
 
@@ -105,7 +102,6 @@ class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
     )
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        """Draw the options in the header."""
         properties = tool.operator_properties(MESH_OT_fair_fillet_edge.bl_idname).MESH_OT_fair_fillet
         for name in ("profile", "continuity", "spacing"):
             layout.prop(properties, name)
@@ -122,13 +118,11 @@ class FairBrushTool(_Tool, bpy.types.WorkSpaceTool):
     bl_keymap = ((MESH_OT_fair_brush.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        """Draw the radius and the options in the header."""
         properties = tool.operator_properties(MESH_OT_fair_brush.bl_idname)
         for name in ("radius", *_IN_HEADER[:-1]):
             layout.prop(properties, name)
 
     def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
-        """Draw the circle around the pointer."""
         _draw_circle(xy, tool.operator_properties(MESH_OT_fair_brush.bl_idname).radius)
 
 
@@ -146,7 +140,6 @@ class _FaceSetTool(_Tool):
     )
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        """Draw the options in the header."""
         properties = tool.operator_properties(MESH_OT_fair_masked.bl_idname)
         for name in _IN_HEADER:
             layout.prop(properties, name)
@@ -187,7 +180,6 @@ def _draw_fair(layout: Any, tool: Any, macro: str) -> None:
 
 
 def register() -> None:
-    """Name the steps of the macros, and put the tools at the end of the toolbar."""
     for macro in MACROS:
         for step in macro.steps:
             macro.define(step)
@@ -196,6 +188,5 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """Take the tools back."""
     for tool in reversed(TOOLS):
         bpy.utils.unregister_tool(tool)

@@ -29,7 +29,6 @@ class VIEW3D_PT_fairing(SidebarPanel, bpy.types.Panel):
     bl_label = "Intrinsic Fairing"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the button and the progress."""
         layout = self.layout
         if context.window_manager.fairing_progress.running:
             draw_progress(layout, context)
@@ -55,11 +54,9 @@ class VIEW3D_PT_fairing_live(SidebarPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
 
     def draw_header(self, context: bpy.types.Context) -> None:
-        """Draw the switch."""
         self.layout.prop(context.window_manager.fairing_live, "on", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the operators, what is followed and how quickly."""
         row = self.layout.row(align=True)
         row.operator(MESH_OT_fair_live_region.bl_idname)
         draw_select(row, "LIVE", text="", icon="RESTRICT_SELECT_OFF")
@@ -81,11 +78,9 @@ class VIEW3D_PT_fairing_overlay(SidebarPanel, bpy.types.Panel):
     bl_options = {"DEFAULT_CLOSED"}  # noqa: RUF012 - the form that Blender asks for
 
     def draw_header(self, context: bpy.types.Context) -> None:
-        """Draw the switch."""
         self.layout.prop(context.window_manager.fairing_overlay, "show", text="")
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Draw the settings."""
         _draw_overlay(self.layout, context.window_manager.fairing_overlay)
 
 

@@ -92,7 +92,7 @@ class Panel:
         assert kind.run() == {"FINISHED"}
         self.first_run, self.first = self.positions(), edited(self.name)
         monkeypatch.setattr(self.redo, "has_events", lambda _context: True)
-        monkeypatch.setattr(self.redo, "background_from", lambda _context: 0)
+        monkeypatch.setattr(self.redo.background, "LARGE", 0)
         monkeypatch.setattr(self.redo, "watch", lambda: None)
         monkeypatch.setattr(self.redo, "is_held", lambda: False)
         monkeypatch.setattr(home, "solve", slow)

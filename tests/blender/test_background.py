@@ -38,14 +38,10 @@ def test_another_shape_key_is_noticed() -> None:
     assert not job.is_current(bpy.context, tasks)
 
 
-def test_scripts_run_at_once_whatever_the_size() -> None:
+def test_scripts_run_at_once_whatever_the_size(monkeypatch: pytest.MonkeyPatch) -> None:
     obj, faces = meshes.domed_grid()
-    preferences = bpy.context.preferences.addons[module().__name__].preferences
-    preferences.background_from = 0
-    try:
-        assert meshes.fair(obj, faces) == {"FINISHED"}
-    finally:
-        preferences.property_unset("background_from")
+    monkeypatch.setattr(module("run.background"), "LARGE", 0)
+    assert meshes.fair(obj, faces) == {"FINISHED"}
     assert not bpy.context.window_manager.fairing_progress.running
 
 

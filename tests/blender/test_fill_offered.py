@@ -10,7 +10,7 @@ import bpy
 import pytest
 
 import meshes
-from extension import ID, module
+from extension import module
 from test_fill import border_edges, open_sphere
 from test_new_mesh import dented, fair_new
 from test_panel import Layout
@@ -20,7 +20,7 @@ def redo_panel(**chosen: Any) -> list[str]:
     """Return the options that are in sight."""
     layout = Layout()
     of = module("options.other_options").FillOptions
-    shown = SimpleNamespace(layout=layout, chosen=of, preset_menu="", **{**asdict(of()), **chosen})
+    shown = SimpleNamespace(layout=layout, chosen=of, **{**asdict(of()), **chosen})
     module("fill.operator").MESH_OT_fair_fill.draw(shown, bpy.context)
     return layout.reported
 
@@ -77,20 +77,6 @@ def test_every_entry_of_the_pie_exists(mode: str) -> None:
     assert 2 <= len(layout.reported) <= 8
     assert len(set(layout.reported)) == len(layout.reported)
     bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_the_tab_has_the_name_that_the_preferences_give() -> None:
-    preferences = bpy.context.preferences.addons[ID].preferences
-    panels = module("show.ui").PANELS
-    try:
-        preferences.tab = "Item"
-        assert {panel.bl_category for panel in panels} == {"Item"}
-        assert all(panel.is_registered for panel in panels)
-        preferences.tab = "  "
-        assert {panel.bl_category for panel in panels} == {"Fairing"}
-    finally:
-        preferences.property_unset("tab")
-        module("show.tab").move()
 
 
 def test_a_new_mesh_under_multiresolution_is_refused() -> None:

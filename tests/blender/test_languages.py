@@ -10,7 +10,7 @@ from pathlib import Path
 import bpy
 import pytest
 
-from extension import ID, module
+from extension import module
 
 SHOWS = re.compile(r"^([A-Z0-9]+_(OT|PT|MT)_\w+)$")  # classes whose label and tooltip Blender shows
 REFUSES = {"ValueError", "BorderRefusal", "Verdict", "Changed"}
@@ -77,7 +77,7 @@ def of_operators() -> Iterator[str]:
     """Yield labels and tooltips of all options and choices that are offered."""
     for room in (bpy.ops.mesh, bpy.ops.object):
         for name in dir(room):
-            if name.startswith("fair") and not name.endswith("preset_add"):
+            if name.startswith("fair"):
                 for option in getattr(room, name).get_rna_type().properties:
                     if option.identifier != "option" and option.type != "POINTER" and not option.is_hidden:
                         yield from (option.name, option.description)
@@ -88,7 +88,7 @@ def of_operators() -> Iterator[str]:
 def of_settings() -> Iterator[str]:
     """Yield the same of the settings that no operator has."""
     manager = bpy.context.window_manager
-    for group in (manager.fairing_overlay, manager.fairing_live, bpy.context.preferences.addons[ID].preferences):
+    for group in (manager.fairing_overlay, manager.fairing_live):
         for option in group.bl_rna.properties:
             if option.identifier not in ("rna_type", "name", "bl_idname"):
                 yield from (option.name, option.description)

@@ -144,21 +144,17 @@ def test_selecting_makes_the_last_look_stale() -> None:
     assert not watch.stale  # looking is no change
 
 
-def test_large_meshes_are_looked_at_on_demand() -> None:
+def test_large_meshes_are_looked_at_on_demand(monkeypatch: pytest.MonkeyPatch) -> None:
     watch = module("selection.watch")
     obj, faces = meshes.domed_grid()
     meshes.select(obj, faces)
     meshes.edit(obj)
-    preferences = bpy.context.preferences.addons[ID].preferences
-    preferences.inspect_up_to = 10
-    try:
-        watch.watch.forget()
-        assert "mesh.fair_inspect" in drawn("VIEW3D_PT_fairing_selection")
-        assert not bpy.app.timers.is_registered(watch._look_later)
-        assert bpy.ops.mesh.fair_inspect() == {"FINISHED"}
-        assert "Free Vertices" in drawn("VIEW3D_PT_fairing_counts")
-    finally:
-        preferences.property_unset("inspect_up_to")
+    monkeypatch.setattr(watch, "LARGE", 10)
+    watch.watch.forget()
+    assert "mesh.fair_inspect" in drawn("VIEW3D_PT_fairing_selection")
+    assert not bpy.app.timers.is_registered(watch._look_later)
+    assert bpy.ops.mesh.fair_inspect() == {"FINISHED"}
+    assert "Free Vertices" in drawn("VIEW3D_PT_fairing_counts")
 
 
 def test_report_is_drawn() -> None:
@@ -184,7 +180,7 @@ def in_redo_panel(opened: bool, operator: str = "fair", **chosen: Any) -> list[s
     panel = module("options.redo_panel")
     layout, manager = Layout(), bpy.context.window_manager
     setattr(manager, panel.ADVANCED, opened)
-    panel.draw_options(layout, SimpleNamespace(chosen=of, preset_menu="", **{**asdict(of()), **chosen}), obj, manager)
+    panel.draw_options(layout, SimpleNamespace(chosen=of, **{**asdict(of()), **chosen}), obj, manager)
     return [text for text in layout.reported if module("options.table").named(of, text)]
 
 
@@ -264,7 +260,7 @@ def test_other_redo_panels_are_of_the_same_kind(operator: str) -> None:
 def test_every_kind_of_button_is_drawn_without_an_object() -> None:
     fair = options_of("fair")
     layout, manager = Layout(), bpy.context.window_manager
-    shown = SimpleNamespace(chosen=fair, preset_menu="", **asdict(fair()))
+    shown = SimpleNamespace(chosen=fair, **asdict(fair()))
     module("options.redo_panel").draw_options(layout, shown, None, manager)
     assert "factor" in layout.reported
 
@@ -280,28 +276,6 @@ def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
     assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Good", "One"]
     assert drawn("VIEW3D_PT_fairing_details").splitlines()[:2] == ["Grid", "Two"]
     module("verdict.properties").clear(shown)
-
-
-@pytest.mark.parametrize("operator", ["mesh.fair_region", "mesh.fair_fill"])
-def test_the_menu_of_the_redo_panel_has_the_presets(operator: str) -> None:
-    home = module("options.preset_operators")
-    layout = Layout()
-    menu = {"mesh.fair_region": home.MESH_MT_fair_region_presets, "mesh.fair_fill": home.MESH_MT_fair_fill_presets}
-    shown = SimpleNamespace(layout=layout, operator=operator)
-    home.draw_own(shown)
-    assert menu[operator].operator == operator
-    assert layout.reported == list(module("options.presets").PRESETS[operator][1])
-
-
-def test_a_preset_gives_the_last_run_its_options_and_the_defaults() -> None:
-    obj, faces = meshes.domed_grid()
-    meshes.enter(obj, faces)
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", True, factor=0.5) == {"FINISHED"}
-    last = bpy.context.window_manager.operators[-1].properties
-    home = module("options.preset_operators")
-    home.give("mesh.fair_region", "Limb or Tube", last)
-    assert (last.factor, last.shape) == (1.0, "LEAST_VARIATION")
-    meshes.leave()
 
 
 @pytest.mark.parametrize("name", ["Remove Feature", "Repair Scan", "Limb or Tube", "Class A", "Fillet", "Soften"])

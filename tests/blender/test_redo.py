@@ -179,7 +179,7 @@ def test_a_small_one_is_answered_at_once_or_else_followed(
     panel: Panel, prompt: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(panel.redo, "PROMPT", prompt)
-    monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1_000_000)
+    monkeypatch.setattr(panel.redo.background, "LARGE", 1_000_000)
     panel.change(**panel.kind.second)
     assert panel.follows == (prompt == 0.0)
     check_one_step(panel, **panel.kind.second)
@@ -286,7 +286,7 @@ def test_what_is_refused_leaves_the_result_before(panel: Panel, at_once: bool, m
     """And the panel where it is, for another change."""
     monkeypatch.setattr(panel.redo, "PROMPT", 10.0)
     if at_once:
-        monkeypatch.setattr(panel.redo, "background_from", lambda _context: 1_000_000_000)
+        monkeypatch.setattr(panel.redo.background, "LARGE", 1_000_000_000)
     panel.change(**panel.kind.refused)
     at_once = at_once or panel.kind is KINDS["fill"]  # no border is left: nothing is searched for
     assert panel.follows != at_once
@@ -464,7 +464,7 @@ def test_outside_edit_mode_nothing_waits_either(mode: str, source: str, monkeypa
 
     monkeypatch.setattr(outside, "solve", slow)
     monkeypatch.setattr(redo, "has_events", lambda _context: True)
-    monkeypatch.setattr(redo, "background_from", lambda _context: 0)
+    monkeypatch.setattr(redo.background, "LARGE", 0)
     monkeypatch.setattr(redo, "watch", lambda: None)
     monkeypatch.setattr(redo, "is_held", lambda: False)
     bpy.context.window_manager.operators[-1].properties.shape = "LEAST_VARIATION"

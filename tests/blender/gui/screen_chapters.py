@@ -14,7 +14,6 @@ import scenes
 import spoilt_scenes
 from driver import Story, in_view, look_as_first, middle, move_mouse, press, screenshot, tell, view
 from panel import (
-    ID,
     drag_over,
     module,
     open_panels,
@@ -186,11 +185,11 @@ def arrows_pull_the_last_run() -> Story:
 
     Once with answers at once, once with answers that follow.
     """
-    home = module("run.redo")
-    for background_from in (home.background_from, lambda _context: 0):
-        home.background_from, kept = background_from, home.background_from
+    home = module("run.background")
+    for large in (home.LARGE, 0):
+        home.LARGE, kept = large, home.LARGE
         yield from _arrows_are_pulled()
-        home.background_from = kept
+        home.LARGE = kept
 
 
 def _arrows_are_pulled() -> Story:
@@ -312,17 +311,6 @@ def overlays_are_seen() -> Story:
     settings.show = False
 
 
-def preferences_are_seen() -> Story:
-    """The extension's preferences."""
-    with in_view():
-        bpy.ops.preferences.addon_show(module=ID)
-    yield 2.0
-    screenshot("preferences")
-    with bpy.context.temp_override(window=bpy.context.window_manager.windows[-1]):
-        bpy.ops.wm.window_close()
-    yield 0.5
-
-
 SCREENS = (
     panels_are_seen,
     redo_panels_are_seen,
@@ -331,5 +319,4 @@ SCREENS = (
     lasso_and_paint_fair,
     arrows_pull_the_last_run,
     overlays_are_seen,
-    preferences_are_seen,
 )

@@ -9,7 +9,7 @@ import numpy as np
 
 import spoilt_scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from panel import ID, drag_over, open_redo_panel, open_tab, report, run_operator, run_with, wait_until
+from panel import drag_over, open_redo_panel, open_tab, report, run_operator, run_with, wait_until
 
 
 def _reported() -> bool:
@@ -84,11 +84,11 @@ def _back_and_forth(states: list[np.ndarray]) -> Story:
 
 def face_set_by_a_click() -> Story:
     """Two face sets: the operator asks which, a click answers; at once, and in the background."""
-    preferences = bpy.context.preferences.addons[ID].preferences
-    for name, background_from in (("at_once", 1_000_000), ("in_background", 1)):
-        preferences.background_from = background_from
+    home = module("run.background")
+    for name, large in (("at_once", 1_000_000), ("in_background", 1)):
+        home.LARGE, kept = large, home.LARGE
         yield from _clicked_and_undone(name)
-    preferences.property_unset("background_from")
+        home.LARGE = kept
 
 
 def _clicked_and_undone(name: str) -> Story:
