@@ -23,7 +23,7 @@ from ..options.options import FairOptions
 from ..options.properties import FairProperties
 from ..run import compare, last_run
 from ..run.asked import Asked, Say
-from ..run.job import Refused
+from ..run.job import Refused, refusing
 from ..run.redo import Redone
 from ..translations import translated
 from ..verdict.outcome import Fairing
@@ -31,7 +31,7 @@ from ..verdict.properties import store
 from ..verdict.report import make_report, summary
 from ..words.labels import with_idle
 from ..words.words import said
-from .engine import REFUSALS, Progress
+from .engine import Progress
 from .fair_arrays import fair_arrays
 from .script import read, write
 
@@ -55,10 +55,8 @@ class Task:
 
 def solve(task: Task, progress: Progress) -> Fairing:
     """Solve on arrays alone; raises Refused and fairing.Cancelled."""
-    try:
+    with refusing(task.object_name):
         return fair_arrays(task.mesh, task.matrix, task.options, progress)
-    except REFUSALS as cause:
-        raise Refused(task.object_name, cause) from cause
 
 
 @contextmanager
@@ -91,10 +89,8 @@ def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
 class AskedOutside(Asked):
     """What one run was asked for."""
 
-    def __init__(self, task: Task, begin: float) -> None:
-        """begin: of the performance counter."""
-        self.task, self.begin = task, begin
-        self._shown = task.before
+    def __init__(self, task: Task) -> None:
+        self.task, self._shown = task, task.before
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -184,11 +180,10 @@ class FairsOutside(FairProperties, Redone):
         )
 
     def _read(self, context: bpy.types.Context) -> AskedOutside:
-        begin = time.perf_counter()
         obj = active_object(context)
         if obj.mode == "SCULPT" and not self.is_repeated(context):
             bpy.ops.ed.undo_push(message="Before Fair Masked")  # strokes are steps of another kind
-        try:
+        with refusing(obj.name):
             options = FairOptions.of(self)
             check_shown(obj)
             level = levels.shown_level(obj)
@@ -197,9 +192,7 @@ class FairsOutside(FairProperties, Redone):
             if dynamic and options.remesh:
                 raise ValueError(said("dynamic_faces"))
             with in_object_mode(obj):
-                return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic), begin)
-        except REFUSALS as cause:
-            raise Refused(obj.name, cause) from cause
+                return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic))
 
     def _check_level(self, level: int, options: FairOptions) -> None:
         """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""

@@ -1,31 +1,26 @@
 """The operator that fills holes and joins boundary loops: at once where that is quick, else in the background."""
 
 import time
-from dataclasses import dataclass
 from functools import cached_property
 
 import bpy
-import numpy as np
 
 from ..arrays.border import NO_BORDER, left_by
 from ..arrays.region import MeshArrays
-from ..arrays.types import Floats
+from ..arrays.types import Floats, Mask
 from ..curves.spanning import WIRES_ALONE
-from ..fair.engine import REFUSALS, Progress, sub_range
+from ..fair.engine import REFUSALS, Progress
 from ..host.context import edited_objects
-from ..host.polling import require_edit_mode, require_idle
-from ..mesh import filled, mesh_io
+from ..mesh import filled
 from ..mesh.spanned import selected_wires
-from ..options.options import FairOptions
 from ..options.other_options import FillOptions
 from ..options.properties import FillProperties
-from ..options.redo_panel import draw_options
 from ..run import compare, last_run
-from ..run.asked import AskedInEditMode, Say
-from ..run.job import Refused, show_vertices, write_each
-from ..run.redo import Redone
+from ..run.asked import AskedInEditMode, Say, done
+from ..run.job import Refused, Task, each_of, read_for_new_faces, show_vertices, write_each
+from ..run.operator import InEditMode
 from ..translations import translated
-from ..verdict.properties import store, store_refusal
+from ..verdict.properties import store
 from ..verdict.report import summary
 from ..words.words import said
 from .filling import fill_borders
@@ -34,73 +29,43 @@ from .pieces import Filled
 from .report import make_fill_report, writable
 
 
-@dataclass(frozen=True)
-class Task:
-    """One object's holes, as they were read."""
-
-    object_name: str
-    mesh: MeshArrays
-    matrix: Floats  # (4, 4) to world space
-    borders: Borders
-    key: str  # the shape key that was read, as mesh_io.writable_key names it
-
-    def expected_vertices(self, options: FillOptions) -> float:
-        """Return about how many vertices will be new."""
-        return self.borders.expected_vertices(self.matrix, options.bridge) / options.spacing**2
-
-
 def read(context: bpy.types.Context, options: FillOptions) -> list[Task]:
-    """Read every object in edit mode that has a selected border; raises Refused."""
-    tasks = []
-    for obj in edited_objects(context):
-        seeds = filled.border_seeds(obj.data)
-        if not seeds.any():
-            continue
-        try:
-            mesh_io.check_new_faces(obj)
-            key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_edit_mesh(obj, FairOptions(), widens=False)
-            matrix = np.array(obj.matrix_world, dtype=np.float64)
-            found = borders_at(mesh, seeds)
-            # Where all faces are selected, too, no border was chosen.
-            every = obj.data.count_selected_items()[2] == len(mesh.in_patch)
-            borders = chosen_borders(matrix, found, options, every)
-        except ValueError as cause:
-            raise Refused(obj.name, cause) from cause
-        if not len(borders.vertices):  # a Mirror modifier closes them
-            continue
-        tasks.append(Task(obj.name, mesh, matrix, borders, key))
-    return tasks
+    """Read every object in edit mode that has a selected border, with its borders; raises Refused."""
+
+    def borders(obj: bpy.types.Object, mesh: MeshArrays, matrix: Floats, seeds: Mask) -> Borders | None:
+        # Where all faces are selected, too, no border was chosen.
+        every = obj.data.count_selected_items()[2] == len(mesh.in_patch)
+        found = chosen_borders(matrix, borders_at(mesh, seeds), options, every)
+        return found if len(found.vertices) else None  # a Mirror modifier closes them
+
+    return read_for_new_faces(context, filled.border_seeds, borders)
 
 
 def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[Filled]:
     """Solve task after task, on arrays alone; raises fairing.Cancelled, and Refused where there is no surface."""
-    outcomes = []
-    refused: Refused | None = None
-    for i, task in enumerate(tasks):
-        part = sub_range(progress, i / len(tasks), (i + 1) / len(tasks))
+    refusals: list[Refused] = []
+
+    def fill(task: Task, part: Progress | None) -> Filled:
         try:
-            outcomes.append(fill_borders(task.borders, task.matrix, options, part))
+            return fill_borders(task.about, task.matrix, options, part)
         except REFUSALS as cause:
-            refused = refused or Refused(task.object_name, cause)
-            outcomes.append(Filled([], (*task.borders.left, left_by(cause, task.borders.vertices))))
-    if refused is not None and not any(found.pieces for found in outcomes):
-        raise refused from refused.cause
+            refusals.append(Refused(task.object_name, cause))
+            return Filled([], (*task.about.left, left_by(cause, task.about.vertices)))
+
+    outcomes = each_of(tasks, fill, progress)
+    if refusals and not any(found.pieces for found in outcomes):
+        raise refusals[0] from refusals[0].cause
     return outcomes
 
 
-@dataclass
 class Asked(AskedInEditMode):
-    """What one run was asked for."""
-
-    tasks: list[Task]
-    options: FillOptions
-    begin: float  # of the performance counter
+    """What one run was asked for; tasks are about borders."""
 
     @cached_property
     def size(self) -> float:
         """About as many vertices as will be new."""
-        return sum(task.expected_vertices(self.options) for task in self.tasks)
+        new = sum(task.about.expected_vertices(task.matrix, self.options.bridge) for task in self.tasks)
+        return float(new / self.options.spacing**2)
 
     def work(self, progress: Progress) -> list[Filled]:
         """Find the surfaces."""
@@ -122,39 +87,26 @@ class Asked(AskedInEditMode):
         added = write_each(context, [pair for pair in named if pair[1].pieces], filled.add_to_edit_mesh)
         for name, of_one in named:
             show_vertices(context, name, of_one.left_vertices)
-        notes = tuple(note for task in self.tasks for note in task.borders.notes)
+        notes = tuple(note for task in self.tasks for note in task.about.notes)
         report = make_fill_report(named, self.options, time.perf_counter() - self.begin, added, notes)
         store(context.window_manager.fairing_report, report)
-        for warning in report.warnings:
-            say({"WARNING"}, translated(warning))
-        say({"INFO"}, translated(summary(report)))
-        return {"FINISHED"}
+        return done(say, report.warnings, summary(report))
 
 
-class MESH_OT_fair_fill(FillProperties, Redone, bpy.types.Operator):
+class MESH_OT_fair_fill(FillProperties, InEditMode, bpy.types.Operator):
     """Fill the holes whose boundaries are selected, in part or whole, or join them,
     with the fair surface that continues their surroundings"""
 
     bl_idname = "mesh.fair_fill"
     bl_label = "Fair Fill"
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return require_edit_mode(cls, context, said("select_boundary")) and require_idle(cls, context)
-
-    def draw(self, context: bpy.types.Context) -> None:
-        draw_options(self.layout, self, context.object, context.window_manager)
+    needs = said("select_boundary")
 
     def _read(self, context: bpy.types.Context) -> Asked | None:
-        begin = time.perf_counter()
         options = FillOptions.of(self)
         tasks = read(context, options)
-        if not tasks:
-            wires = any(selected_wires(obj.data).any() for obj in edited_objects(context))
-            reason = WIRES_ALONE if wires else NO_BORDER
-            store_refusal(context.window_manager.fairing_report, "", reason)
-            last_run.forget()
-            self.report({"ERROR"}, translated(reason))
-            return None
-        return Asked(tasks, options, begin)
+        if tasks:
+            return Asked(tasks, options)
+        wires = any(selected_wires(obj.data).any() for obj in edited_objects(context))
+        self.nothing(context, WIRES_ALONE if wires else NO_BORDER)
+        return None

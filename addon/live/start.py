@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 import bpy
 
-from ..fair.engine import REFUSALS, Progress, sub_range
+from ..fair.engine import Progress, sub_range
 from ..host.context import edited_objects
 from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
 from ..mesh import mesh_io
 from ..options.options import FairOptions
 from ..run.asked import Asked, Say
 from ..run.background import Watched
-from ..run.job import Refused, objects_in_mode
+from ..run.job import Refused, objects_in_mode, refusing
 from ..selection.inspection import last_options
 from ..translations import translated
 from .live import live
@@ -35,10 +35,8 @@ def read(context: bpy.types.Context, options: FairOptions) -> dict[str, Session]
     chosen = [obj for obj in edited if obj.data.total_face_sel] or [obj for obj in edited if enclosing(obj)]
     found = {}
     for obj in chosen:
-        try:
+        with refusing(obj.name):
             found[obj.name] = candidate(obj, options)
-        except REFUSALS as cause:
-            raise Refused(obj.name, cause) from cause
     return found
 
 
@@ -48,10 +46,8 @@ def solve(candidates: dict[str, Session], progress: Progress) -> list[Found]:
     for k, (name, session) in enumerate(candidates.items()):
         part = sub_range(progress, k / len(candidates), (k + 1) / len(candidates))
         assert part is not None
-        try:
+        with refusing(name):
             found.append(first(session.region, session.positions, session.matrix, part))
-        except REFUSALS as cause:
-            raise Refused(name, cause) from cause
     return found
 
 

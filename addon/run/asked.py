@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import bpy
 
@@ -37,6 +38,7 @@ class Asked:
         def names(self) -> tuple[str, ...]:
             """Of the objects."""
 
+    begin: float = 0.0  # of reading, by the performance counter
     preview: Preview | None = None  # of what is shown while a thread is at work
 
     def work_aside(self, _large: bool) -> Work:
@@ -59,12 +61,20 @@ class Asked:
         return False
 
 
+@dataclass
 class AskedInEditMode(Asked):
     """One run over all objects in edit mode."""
 
-    tasks: Sequence[job.AsRead]
-    moves = False  # whether vertices stay the same ones
-    _shown: Sequence[job.AsRead] = ()
+    tasks: list[Any]  # each a job.Task or the like
+    options: Any
+    begin: float = 0.0
+    moves: ClassVar[bool] = False  # whether vertices stay the same ones
+    _shown: Sequence[job.AsRead] = field(default=(), init=False)
+
+    @property
+    def size(self) -> float:
+        """Free vertices; or about how many there will be new."""
+        return float(sum(task.free_count for task in self.tasks))
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -101,3 +111,11 @@ def refuse(context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[st
     last_run.forget()
     say({"ERROR"}, translated(str(refusal)))
     return {"CANCELLED"}
+
+
+def done(say: Say, warnings: Iterable[str], text: str) -> set[str]:
+    """Report a run that was written, and return its status."""
+    for warning in dict.fromkeys(warnings):
+        say({"WARNING"}, translated(warning))
+    say({"INFO"}, translated(text))
+    return {"FINISHED"}

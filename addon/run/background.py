@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -143,13 +144,14 @@ class Watched:
         context.view_layer.update()  # a script may just have changed an object's matrix
         for each in tuple(under_way):
             each.end()
+        begin = time.perf_counter()
         try:
             asked = self._read(context)
         except job.Refused as refusal:
             return self._refuse(context, refusal)
         if asked is None:
             return {"CANCELLED"}
-        self._asked = asked
+        self._asked, asked.begin = asked, begin
         return go_on(context)
 
     def _at_once(self, context: bpy.types.Context) -> set[str]:

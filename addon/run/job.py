@@ -9,13 +9,13 @@ import gc
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import bpy
 import numpy as np
 
 from ..arrays.region import MeshArrays, free_vertices, to_local
-from ..arrays.types import Floats, Ints
+from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import REFUSALS, Problem, Progress, RepeatedSolve, sub_range
 from ..fair.fair_keys import fair_all_keys
 from ..fair.memory import Memory
@@ -52,6 +52,15 @@ class Refused(Exception):
         return np.asarray(getattr(self.cause, "elements", ()), dtype=np.int64)
 
 
+@contextmanager
+def refusing(name: str, errors: type[Exception] | tuple[type[Exception], ...] = REFUSALS) -> Iterator[None]:
+    """Have what keeps an object of this name from being done raise Refused."""
+    try:
+        yield
+    except errors as cause:
+        raise Refused(name, cause) from cause
+
+
 @dataclass(frozen=True)
 class Task:
     """One object's mesh, as it was read."""
@@ -59,9 +68,10 @@ class Task:
     object_name: str
     mesh: MeshArrays
     matrix: Floats  # (4, 4) to world space
-    free_count: int
     key: str = ""  # the shape key that was read, as mesh_io.writable_key names it
+    free_count: int = 0
     whole: Whole | None = None  # where the mesh is half of what is faired
+    about: Any = None  # where new faces are to be: borders, wires
 
     @property
     def faired_mesh(self) -> MeshArrays:
@@ -73,10 +83,8 @@ def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
     """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
     tasks = []
     for obj in edited_objects(context):
-        try:
+        with refusing(obj.name, ValueError):
             task = read_object(obj, options)
-        except ValueError as cause:
-            raise Refused(obj.name, cause) from cause
         if task.mesh.in_patch.any():
             tasks.append(task)
     return tasks
@@ -95,12 +103,32 @@ def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
     free = whole.free_count if whole is not None else int(np.count_nonzero(free_vertices(mesh)))
     if options.remesh:  # which makes its own
         free = max(free, int(np.count_nonzero(mesh.in_patch)))
-    return Task(obj.name, mesh, matrix, free, key, whole)
+    return Task(obj.name, mesh, matrix, key, free, whole)
 
 
-def size(tasks: list[Task]) -> int:
-    """Count the free vertices of all tasks."""
-    return sum(task.free_count for task in tasks)
+def read_for_new_faces(
+    context: bpy.types.Context,
+    chosen: Callable[[bpy.types.Mesh], Mask],
+    about: Callable[[bpy.types.Object, MeshArrays, Floats, Mask], Any],
+) -> list[Task]:
+    """Read every object in edit mode of which something is chosen; raises Refused.
+
+    about: given object, mesh, matrix and what is chosen, where new faces are to be; None: nowhere.
+    """
+    tasks = []
+    for obj in edited_objects(context):
+        mask = chosen(obj.data)
+        if not mask.any():
+            continue
+        with refusing(obj.name, ValueError):
+            mesh_io.check_new_faces(obj)
+            key = mesh_io.writable_key(obj)
+            mesh = mesh_io.read_edit_mesh(obj, FairOptions(), widens=False)
+            matrix = np.array(obj.matrix_world, dtype=np.float64)
+            there = about(obj, mesh, matrix, mask)
+        if there is not None:
+            tasks.append(Task(obj.name, mesh, matrix, key, about=there))
+    return tasks
 
 
 Give = Callable[[str, Ints, Floats], None]  # an object's name, vertices (k,) of its mesh, where to show them (k, 3)
@@ -114,17 +142,17 @@ def solve(
     ahead: prepare for a change of options, which takes a while: in the background.
     give: is given each task's first surface, where that is shown as it is.
     """
-    outcomes: list[Fairing] = []
-    done, total = 0, size(tasks)
-    for task in tasks:
+
+    def solve_one(task: Task, part: Progress | None) -> Fairing:
         kept = Kept(memory, solvers, ahead, _preview(task, options, give))
-        part = sub_range(progress, done / total, (done + task.free_count) / total)
-        try:
-            outcomes.append(fair_all_keys(task.mesh, task.matrix, options, part, kept))
-        except REFUSALS as cause:
-            raise Refused(task.object_name, cause) from cause
-        done += task.free_count
-    return outcomes
+        return fair_all_keys(task.mesh, task.matrix, options, part, kept)
+
+    return each_of(tasks, solve_one, progress)
+
+
+def size(tasks: list[Task]) -> int:
+    """Count the free vertices of all tasks."""
+    return sum(task.free_count for task in tasks)
 
 
 class Named(Protocol):
@@ -140,12 +168,10 @@ def each_of(
 ) -> list[Answer]:
     """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
     outcomes = []
-    for k, task in enumerate(tasks):
-        part = sub_range(progress, k / len(tasks), (k + 1) / len(tasks))
-        try:
-            outcomes.append(solve_one(task, part))
-        except REFUSALS as cause:
-            raise Refused(task.object_name, cause) from cause
+    ends = np.cumsum([0, *(getattr(task, "free_count", 0) or 1 for task in tasks)])
+    for task, begin, end in zip(tasks, ends[:-1] / ends[-1], ends[1:] / ends[-1], strict=True):
+        with refusing(task.object_name):
+            outcomes.append(solve_one(task, sub_range(progress, float(begin), float(end))))
     return outcomes
 
 
@@ -185,23 +211,11 @@ class AsRead(Named, Protocol):
         """The shape key that was read, as mesh_io.writable_key names it."""
 
 
-@dataclass(frozen=True)
-class AsItIs:
-    """An object in edit mode, as it is now."""
-
-    object_name: str
-    mesh: mesh_io.Shape
-    key: str
-
-
-def as_they_are(context: bpy.types.Context, tasks: Sequence[AsRead]) -> list[AsItIs]:
-    """Return those of the tasks' objects that are in edit mode, as they are now."""
+def as_they_are(context: bpy.types.Context, tasks: Sequence[AsRead]) -> list[AsRead]:
+    """Return those of the tasks whose objects are in edit mode, with the shapes that these have now."""
     objects = objects_in_mode(context) if context.mode == "EDIT_MESH" else {}
-    return [
-        AsItIs(task.object_name, mesh_io.shape_of(objects[task.object_name].data), task.key)
-        for task in tasks
-        if task.object_name in objects
-    ]
+    there: list[Any] = [task for task in tasks if task.object_name in objects]
+    return [replace(task, mesh=mesh_io.shape_of(objects[task.object_name].data)) for task in there]
 
 
 def is_current(context: bpy.types.Context, tasks: Sequence[AsRead]) -> bool:
@@ -231,10 +245,8 @@ def write_each(
     done = []
     with _without_collector():
         for name, answer in named:
-            try:
+            with refusing(name):
                 done.append(write_one(objects[name], answer))
-            except REFUSALS as cause:
-                raise Refused(name, cause) from cause
     return done
 
 

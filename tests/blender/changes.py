@@ -32,7 +32,7 @@ class Kind:
     """An operator that is run, and where its answers come from."""
 
     operator: str = "fair_region"
-    home: str = "run.job"  # the module whose `solve` finds them
+    home: str = "fair.finish"  # the module whose `Asked` finds them
     enter: Callable[[], None] = _dome  # makes an object and edits it, with what is to be selected
     first: dict[str, Any] = field(default_factory=dict)  # options of the run
     second: dict[str, Any] = field(default_factory=lambda: {"shape": "LEAST_VARIATION"})  # of a change
@@ -65,7 +65,7 @@ class Panel:
         self.waits = 0  # answers that were searched for in the main thread
         self.gates: list[threading.Event] = []
         self.given = threading.Event()
-        solve = home.solve
+        solve = home.Asked.work
         import fairing
 
         def slow(*arguments: Any, **rest: Any) -> Any:
@@ -81,7 +81,7 @@ class Panel:
             finally:
                 self.given.set()
                 gate.wait()
-            if not arguments[2](0.5, ""):
+            if not arguments[1](0.5, ""):
                 raise fairing.Cancelled
             return found
 
@@ -95,7 +95,7 @@ class Panel:
         monkeypatch.setattr(self.redo.background, "LARGE", 0)
         monkeypatch.setattr(self.redo, "watch", lambda: None)
         monkeypatch.setattr(self.redo, "is_held", lambda: False)
-        monkeypatch.setattr(home, "solve", slow)
+        monkeypatch.setattr(home.Asked, "work", slow)
         module("run.job").memory.clear()
 
     @staticmethod

@@ -301,7 +301,7 @@ def test_escape_leaves_the_hole_open() -> None:
         return fill_module.solve(tasks, options, progress)
 
     for kind, answer, added in (("ESC", {"CANCELLED"}, False), ("TIMER", {"FINISHED"}, True)):
-        operator = stand_in(fill_module.MESH_OT_fair_fill, _asked=fill_module.Asked(tasks, options, 0.0))
+        operator = stand_in(fill_module.MESH_OT_fair_fill, _asked=fill_module.Asked(tasks, options))
         operator._run = module("run.runner").Run(work)
         event = SimpleNamespace(type="TIMER", value="PRESS")
         if not go_on.is_set():
