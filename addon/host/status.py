@@ -6,9 +6,9 @@ import bpy
 from mathutils import Vector
 
 from ..translations import translated
+from .text import TAB
 
 CANCEL = "mesh.fair_cancel"
-TAB = "Fairing"  # of the sidebar
 ASKEW = 0.5  # cosine between the view and a surface's normal, below which little can be seen of the surface
 
 

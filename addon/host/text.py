@@ -1,4 +1,4 @@
-"""Sentences in panels, over as many lines as the panel's width asks for."""
+"""Panels of the sidebar, and sentences in them over as many lines as their width asks for."""
 
 from __future__ import annotations
 
@@ -10,10 +10,26 @@ import bpy
 
 from ..translations import translated
 
+TAB = "Fairing"  # of the sidebar
 UNIT = 20.0  # pixels of a button's height at scale 1
 MARGINS = 3.4  # units that a panel and its scroll bar take of the sidebar
 NARROWEST = 60.0  # pixels that are left for words at least
 USUAL = 260.0  # pixels of a sidebar where there is none to ask
+
+
+class SidebarPanel:
+    """A panel of the sidebar."""
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = TAB
+
+
+def pair(layout: Any, name: str, value: str, icon: str = "NONE") -> None:
+    """Draw a name with a value beside it."""
+    row = layout.split(factor=0.62)
+    row.label(text=name, icon=icon)
+    row.label(text=value, translate=False)
 
 
 def wrapped(text: str, width: Callable[[str], float], room: float) -> Iterator[str]:

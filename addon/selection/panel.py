@@ -6,9 +6,8 @@ from typing import Any
 
 import bpy
 
-from ..host.text import draw_text
+from ..host.text import SidebarPanel, draw_text, pair
 from ..run import last_run
-from ..show.sidebar import SidebarPanel, pair
 from ..translations import translated
 from .inspection import Inspection
 from .tools import draw_select

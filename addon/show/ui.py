@@ -8,7 +8,7 @@ from ..fair.masked import MESH_OT_fair_masked
 from ..fair.operator import MESH_OT_fair_region
 from ..fill.operator import MESH_OT_fair_fill
 from ..host.status import draw_progress
-from ..host.text import draw_text
+from ..host.text import SidebarPanel, draw_text, pair
 from ..live.live import live
 from ..live.operators import MESH_OT_fair_live_forget
 from ..live.start import MESH_OT_fair_live_region
@@ -20,7 +20,6 @@ from ..selection.panel import VIEW3D_PT_fairing_counts, VIEW3D_PT_fairing_select
 from ..selection.tools import draw_select
 from ..translations import translated
 from ..verdict.panel import VIEW3D_PT_fairing_details, VIEW3D_PT_fairing_report
-from .sidebar import SidebarPanel, pair
 
 
 class VIEW3D_PT_fairing(SidebarPanel, bpy.types.Panel):

@@ -6,11 +6,10 @@ from typing import Any
 
 import bpy
 
-from ..host.text import draw_text
+from ..host.text import SidebarPanel, draw_text, pair
 from ..run.again import WAY_NAMES, MESH_OT_fair_again, best_first
 from ..selection.tools import draw_select
 from ..selection.watch import watch
-from ..show.sidebar import SidebarPanel, pair
 from ..translations import translated
 from .properties import message
 from .report import GRADE_NAMES
