@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import time
+from dataclasses import dataclass
 from functools import partial
 
 import bpy
 
 from ..host.status import redraw_sidebars
 from ..mirror.symmetry import NOT_SYMMETRIC
-from ..options.options import FairOptions
 from ..run import compare, job, last_run
-from ..run.asked import AskedInEditMode, Say, Work
+from ..run.asked import AskedInEditMode, Say, Work, done
 from ..run.preview import Preview
 from ..translations import translated
 from ..verdict.outcome import Fairing
@@ -23,25 +23,13 @@ from ..words.words import said
 from .engine import Progress
 
 
+@dataclass
 class Asked(AskedInEditMode):
     """What one run was asked for."""
 
+    notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
+    way: str = ""  # tried after a run that was not good, and written only where the verdict improves
     moves = True
-
-    def __init__(
-        self, tasks: list[job.Task], options: FairOptions, notes: tuple[str, ...], begin: float, way: str = ""
-    ) -> None:
-        """notes: on objects that there is nothing to do for; begin: of the performance counter.
-
-        way: tried after a run that was not good, and written only where the verdict improves.
-        """
-        self.tasks: list[job.Task] = tasks
-        self.options, self.notes, self.begin, self.way = options, notes, begin, way
-
-    @property
-    def size(self) -> int:
-        """Free vertices."""
-        return job.size(self.tasks)
 
     def work(self, progress: Progress) -> list[Fairing]:
         """Find the surfaces."""
@@ -75,12 +63,9 @@ class Asked(AskedInEditMode):
         last_run.renumber(written)
         if any(each is not None and not each.is_symmetric for each in written):
             say({"WARNING"}, translated(NOT_SYMMETRIC))
-        for warning in report.warnings:
-            say({"WARNING"}, translated(warning))
         for idle in labels.idle_in(report):
             say({"INFO"}, f"{labels.IDLE} with these options: {idle}")
-        say({"INFO"}, translated(summary(report)))
-        return {"FINISHED"}
+        return done(say, report.warnings, summary(report))
 
 
 def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:

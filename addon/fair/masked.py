@@ -72,6 +72,9 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         return Picks.modal(self, context, event) if self._run is None else Watched.modal(self, context, event)
 
+    def cancel(self, context: bpy.types.Context) -> None:
+        (Picks if self._run is None else Watched).cancel(self, context)
+
     def _picked(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         obj = active_object(context)
         with as_read(obj) as shown:

@@ -37,10 +37,15 @@ class Picks:
         _end(context)
         return self._picked(context, event)
 
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Wait no more; Blender calls this where it ends the operator, maybe without a window."""
+        _end(context)
+
 
 def _end(context: bpy.types.Context) -> None:
-    context.window.cursor_modal_restore()
-    context.workspace.status_text_set(None)
+    for window in context.window_manager.windows:
+        window.cursor_modal_restore()
+        window.workspace.status_text_set(None)
 
 
 def face_under_mouse(context: bpy.types.Context, event: bpy.types.Event, obj: bpy.types.Object) -> int | None:

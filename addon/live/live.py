@@ -14,7 +14,7 @@ made fair for those.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 import bpy
 
@@ -27,6 +27,7 @@ from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
 from ..options.options import FairOptions
 from ..overlay import signals
+from ..run.runner import is_free
 from ..words.words import said
 from .region_search import Found
 from .search import Search
@@ -51,6 +52,7 @@ class Live:
         self.updates = 0  # answers written since the switch was turned on
         self.changed_at = 0.0  # the last change, by time.monotonic
         self.on = False
+        self.rested = False  # changes were left alone, as somebody else had the meshes
 
     def take(self, obj: bpy.types.Object, session: Session, options: FairOptions, found: Found) -> None:
         """Make a candidate the region of its object in edit mode, with these options and its first surface."""
@@ -251,7 +253,15 @@ def _told(act: Callable[[bpy.types.Object], bool], obj: bpy.types.Object) -> boo
 
 
 def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    for obj in _edited(depsgraph):
+    _follow_all(_edited(depsgraph))
+
+
+def _follow_all(changed: Iterable[bpy.types.Object]) -> None:
+    """Follow them, or later, where somebody else has the meshes now: what a run shows meanwhile is no change."""
+    if live.rested or not is_free():
+        rest()
+        return
+    for obj in changed:
         if follow(obj):
             live.changed_at = time.monotonic()
         if live.waits(obj):
@@ -260,6 +270,11 @@ def _on_change(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
 
 def _settle_later() -> float | None:
     """Search, look whether a search has ended, or return the seconds to wait until the changes may have ended."""
+    if not is_free():
+        return TICK
+    if live.rested:
+        live.rested = False
+        _follow_all(edited_objects())
     wait = live.changed_at + PAUSE - time.monotonic()
     if wait > 0.0:
         return wait
@@ -277,17 +292,23 @@ def settle_all() -> bool:
 
 
 def _on_step(*_arguments: object) -> None:
-    """Follow an undo or a redo."""
+    """Follow an undo or a redo, but not before the operator that may be repeated after it has read the mesh."""
     live.doubt()
+    rest()
+
+
+def rest() -> None:
+    """Leave the meshes alone until the next look, and look at all of them then."""
+    live.rested = True
+    call_later(_settle_later, TICK)
 
 
 def switched(context: bpy.types.Context) -> None:
     """Start or stop following, as the switch says."""
     if context.window_manager.fairing_live.on:
         start()
-        for obj in edited_objects():
-            follow(obj)
-        if settle_all():
+        _follow_all(edited_objects())
+        if is_free() and settle_all():
             call_later(_settle_later, TICK)
     else:
         stop()
@@ -311,7 +332,7 @@ def stop() -> None:
         unlisten(bpy.app.handlers.redo_post, _on_step)
         unlisten(bpy.app.handlers.undo_post, _on_step)
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
-    live.on = False
+    live.on = live.rested = False
     call_off(_settle_later)
     live.forget()
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import bpy
 
@@ -16,6 +16,7 @@ from ..words.words import said
 from . import job, runner
 from .asked import Asked, Work, refuse
 from .preview import Preview
+from .runner import under_way
 
 CANCELLED = said("cancelled")
 TICK = 0.05  # seconds between two looks at the thread
@@ -77,18 +78,6 @@ class Signs:
             manager.event_timer_remove(self._timer)
             manager.progress_end()
             hide_progress(bpy.context)
-
-
-class UnderWay(Protocol):
-    """What is awaited: a button or the end of the file may end it."""
-
-    unwanted: bool
-
-    def end(self) -> None:
-        """Await it no more."""
-
-
-under_way: list[UnderWay] = []
 
 
 class MESH_OT_fair_cancel(bpy.types.Operator):

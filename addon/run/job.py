@@ -150,11 +150,6 @@ def solve(
     return each_of(tasks, solve_one, progress)
 
 
-def size(tasks: list[Task]) -> int:
-    """Count the free vertices of all tasks."""
-    return sum(task.free_count for task in tasks)
-
-
 class Named(Protocol):
     """What is to be done for one object."""
 

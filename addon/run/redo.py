@@ -19,13 +19,15 @@ from bpy.props import BoolProperty
 
 import fairing
 
+from ..host.context import in_view
 from ..host.handlers import call_later, call_off, hear_events, listen, unlisten
 from ..host.status import hide_following, redraw_sidebars, show_following
 from ..verdict.properties import clear, kept, message, store_awaited
 from ..words.words import said
 from . import background, runner
 from .asked import Asked, Say
-from .background import TICK, Watched, has_events, under_way
+from .background import TICK, Watched, has_events
+from .runner import under_way
 
 PROMPT = 0.06  # seconds for reading and an answer; with writing and undo a change stays below 0.1
 SOON = 0.01  # seconds until the threads in the way are looked at again
@@ -175,13 +177,11 @@ def _watch() -> float | None:
         return None
     if not runner.call_off_all():
         return SOON
-    windows = bpy.context.window_manager.windows
-    window = next((each for each in windows if each.as_pointer() == following.window), windows[0])
-    area = next((each for each in window.screen.areas if each.type == "VIEW_3D"), window.screen.areas[0])
-    # Not the region of the 3D view itself: the end of a modal operator there ends what pulls an arrow, and Blender
-    # crashes at the next pull.
-    region = next(each for each in area.regions if each.type == "HEADER")
-    with bpy.context.temp_override(window=window, screen=window.screen, area=area, region=region):
+    view = in_view(following.window)
+    if view is None:
+        following.end()
+        return None
+    with bpy.context.temp_override(**view):
         bpy.ops.mesh.fair_follow("INVOKE_DEFAULT")
     return None
 
@@ -242,18 +242,19 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
     change, report = following.change, context.window_manager.fairing_report
     current = change.is_as_shown(context)
     following.end(KEPT)
-    if current and following.is_last(context):
-        _Repeat.now = following
-        try:
-            bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
-        finally:
-            _Repeat.now = None
-    elif current and change.swap(context):  # something else was selected meanwhile
-        following.settle(context, lambda _kinds, _text: None)
-        if following.settled:
-            bpy.ops.ed.undo_push(message=following.step)
-        else:
-            change.swap(context)
+    with runner.holding():  # undo would have Live write as well
+        if current and following.is_last(context):
+            _Repeat.now = following
+            try:
+                bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+            finally:
+                _Repeat.now = None
+        elif current and change.swap(context):  # something else was selected meanwhile
+            following.settle(context, lambda _kinds, _text: None)
+            if following.settled:
+                bpy.ops.ed.undo_push(message=following.step)
+            else:
+                change.swap(context)
     if not following.settled and not report.written and change.is_as_shown(context):
         report.reason, report.written = kept(said("not_taken", reason=message(report.reason))), True
         report.free_vertices = report.free_vertices or max(1, round(change.size))

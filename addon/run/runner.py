@@ -1,4 +1,4 @@
-"""Work in a thread of its own, watched from outside. Knows nothing of Blender.
+"""Work in a thread of its own, watched from outside, and who has the meshes meanwhile. Knows nothing of Blender.
 
 Every thread is known here, from its begin on, so that `stop_all` can end them all. None of them is a daemon: Python
 kills a daemon when the process ends, in the middle of the engine, and that aborts the process. Python joins the
@@ -8,8 +8,9 @@ other threads instead, and a run gives up by itself as soon as the main thread h
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from typing import Generic, TypeVar
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Generic, Protocol, TypeVar
 
 import fairing
 
@@ -17,6 +18,35 @@ Result = TypeVar("Result")
 Progress = Callable[[float, str], "bool | None"]
 
 NAME = "fairing"  # of each thread
+
+
+class Owner(Protocol):
+    """Who has the meshes for a while: a run, or an answer that is awaited. A button or the end of the file may end it."""
+
+    unwanted: bool
+
+    def end(self) -> None:
+        """Have them no more."""
+
+
+under_way: list[Owner] = []
+_holding: list[bool] = []
+
+
+def is_free() -> bool:
+    """Return whether nobody has the meshes: then alone Live writes to them."""
+    return not under_way and not _holding
+
+
+@contextmanager
+def holding() -> Iterator[None]:
+    """Have them as long as one step takes."""
+    _holding.append(True)
+    try:
+        yield
+    finally:
+        _holding.pop()
+
 
 # Threads, each with what stops it; those that have ended as well, until the next one begins. Main thread only.
 _begun: list[tuple[threading.Thread, threading.Event]] = []

@@ -16,6 +16,7 @@ from ..arrays.types import Floats
 from ..fair.operator import MESH_OT_fair_region
 from ..fillet import operator as fillet
 from ..fillet.operator import MESH_OT_fair_fillet
+from ..host.context import in_view
 from ..host.handlers import call_later
 from ..options.options import FairOptions
 from ..options.table import named
@@ -45,7 +46,7 @@ def _tool(context: bpy.types.Context) -> str:
     return tool.idname if tool is not None else ""
 
 
-_wanted: list[Any] = []  # windows in which the last run is to be run again
+_wanted: list[int] = []  # pointers of windows in which the last run is to be run again
 SOON = 0.01  # seconds until the threads in the way are looked at again
 
 
@@ -57,12 +58,11 @@ def _run_again() -> float | None:
     """
     if not runner.call_off_all():
         return SOON
-    window = _wanted[-1]
+    view = in_view(_wanted[-1])
     _wanted.clear()
-    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=window, area=area, region=region):
-        bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+    if view is not None:
+        with bpy.context.temp_override(**view):
+            bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
     return None
 
 
@@ -118,7 +118,7 @@ class _Arrow:
         options = self.chosen(bpy.context)
         if options is not None:
             setattr(options, self.option, way / self.unit)
-            _wanted.append(bpy.context.window)
+            _wanted.append(bpy.context.window.as_pointer())
             call_later(_run_again, 0.0)
 
 

@@ -34,7 +34,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         return job.solve(tasks, options, progress)
 
     stand = stand_in(module("fair.operator").MESH_OT_fair_region)
-    stand._asked = module("fair.finish").Asked(tasks, options, (), 0.0)
+    stand._asked = module("fair.finish").Asked(tasks, options)
     stand._signs = module("run.background").Signs(bpy.context)
     stand._run = module("run.runner").Run(work)
     return stand
@@ -223,7 +223,7 @@ def test_few_vertices_go_to_the_background_when_they_take_long(
         watched.append(stand)
 
     operator = give_options(stand_in(operators.MESH_OT_fair_region, _start_watching=watching))
-    monkeypatch.setattr(operators.job, "solve", slow)
+    monkeypatch.setattr(job, "solve", slow)
     monkeypatch.setattr(background, "has_events", lambda _context: True)
     monkeypatch.setattr(background, "MOMENT", 10.0 if quick else 0.01)
     meshes.enter(obj, faces)
