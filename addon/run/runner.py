@@ -21,7 +21,7 @@ NAME = "fairing"  # of each thread
 
 
 class Owner(Protocol):
-    """Who has the meshes for a while: a run, or an answer that is awaited. A button or the end of the file may end it."""
+    """Who has the meshes for a while: a run, or an answer that is awaited. A button or another file may end it."""
 
     unwanted: bool
 

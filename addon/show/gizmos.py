@@ -58,7 +58,7 @@ def _run_again() -> float | None:
     """
     if not runner.call_off_all():
         return SOON
-    view = in_view(_wanted[-1])
+    view = in_view(_wanted[-1], "WINDOW")
     _wanted.clear()
     if view is not None:
         with bpy.context.temp_override(**view):

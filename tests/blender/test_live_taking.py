@@ -75,6 +75,7 @@ def step(way: Any) -> Any:
     """Undo or redo, and let Live look; returns where all vertices are then."""
     way()
     bpy.context.view_layer.update()
+    module("live.live")._settle_later()  # the timer's function
     return now(bpy.context.object.name)
 
 

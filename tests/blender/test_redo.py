@@ -407,7 +407,7 @@ def test_the_tools_arrows_wait_until_no_thread_is_left(region: Panel) -> None:
     region.change(shape="LEAST_VARIATION")
     leave = threading.Event()
     other = run(lambda _progress: leave.wait())
-    gizmos._wanted.append(bpy.context.window)
+    gizmos._wanted.append(bpy.context.window.as_pointer())
     bpy.context.window_manager.operators[-1].properties.shape = "MINIMAL_ENERGY"
     try:
         for _ in range(5):

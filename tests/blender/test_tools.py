@@ -145,3 +145,26 @@ def test_letting_go_accepts_a_fillet_of_the_tool_alone() -> None:
         release = SimpleNamespace(type="LEFTMOUSE", value="RELEASE", ascii="")
         module("fillet.operator").MESH_OT_fair_fillet.modal(stand, bpy.context, release)
         assert bool(done) == accepted
+
+
+def test_blender_may_end_the_wait_for_a_click() -> None:
+    """As it does where it closes the window or the add-on goes: pointer and status bar are as before."""
+    left: list[Any] = []
+    window = SimpleNamespace(
+        cursor_modal_restore=lambda: left.append("pointer"), workspace=SimpleNamespace(status_text_set=left.append)
+    )
+    context = SimpleNamespace(window=None, window_manager=SimpleNamespace(windows=[window]))
+    module("host.picking").Picks().cancel(context)
+    assert left == ["pointer", None]
+
+
+def test_a_timer_finds_another_window_or_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its own may be closed by then, or show no 3D view any more."""
+    home = module("host.context")
+    assert home.in_view(0, "WINDOW")["area"].type == "VIEW_3D"
+    assert home.in_view(0, "WINDOW")["region"].type == "WINDOW"
+    areas = [SimpleNamespace(type="TEXT_EDITOR", regions=[SimpleNamespace(type="HEADER")])]
+    window = SimpleNamespace(as_pointer=lambda: 0, screen=SimpleNamespace(areas=areas))
+    manager = SimpleNamespace(window_manager=SimpleNamespace(windows=[window]))
+    monkeypatch.setattr(home, "bpy", SimpleNamespace(context=manager))
+    assert home.in_view(0, "HEADER") is None

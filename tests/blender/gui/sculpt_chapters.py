@@ -9,6 +9,7 @@ import numpy as np
 
 import spoilt_scenes
 from driver import Story, in_view, middle, press, screenshot, tell
+from extension import module
 from panel import drag_over, open_redo_panel, open_tab, report, run_operator, run_with, wait_until
 
 
