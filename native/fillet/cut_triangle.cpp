@@ -131,7 +131,8 @@ bool CutTriangle::flip(int a, int b) {
 }
 
 void CutTriangle::make_delaunay() {
-    for (bool changed = true; changed;) {
+    bool changed = true;
+    for (std::size_t sweep = 0; changed && sweep < places_.size(); ++sweep) {
         changed = false;
         std::vector<std::array<int, 2>> edges;
         for (const auto& [side, triangle] : sides_) {
@@ -163,17 +164,6 @@ int CutTriangle::point_between(int a, int b) const {
     return found;
 }
 
-std::vector<std::array<int, 2>> CutTriangle::crossed(int a, int b) const {
-    std::vector<std::array<int, 2>> result;
-    for (const auto& [side, triangle] : sides_) {
-        const auto [c, d] = side;
-        if (c > d || c == a || c == b || d == a || d == b) continue;
-        if ((area(a, b, c) > 0.0) != (area(a, b, d) > 0.0) && (area(c, d, a) > 0.0) != (area(c, d, b) > 0.0))
-            result.push_back(side);
-    }
-    return result;
-}
-
 // Point by point, and no more often than there are points: roundoff may put two that coincide each before the other.
 bool CutTriangle::add_edge(int a, int b) {
     for (std::size_t step = 0; step < places_.size(); ++step) {
@@ -185,15 +175,65 @@ bool CutTriangle::add_edge(int a, int b) {
     return false;
 }
 
+// What the way crosses is meshed anew on both of its sides (Anglada 1997).
 bool CutTriangle::join(int a, int b) {
-    const std::size_t most = triangles_.size() * triangles_.size() + 1;  // flips: each edge crosses each other one once
-    for (std::size_t round = 0; at(a, b) == none && at(b, a) == none; ++round) {
-        bool flipped = false;
-        for (const auto& [c, d] : crossed(a, b)) flipped = flip(c, d) || flipped;
-        if (!flipped || round == most) return false;
+    if (at(a, b) == none && at(b, a) == none) {
+        const std::optional<Passage> passed = passage(a, b);
+        if (!passed) return false;
+        std::vector<Corners> made;
+        if (!cover(a, b, passed->left, made) || !cover(b, a, {passed->right.rbegin(), passed->right.rend()}, made))
+            return false;
+        for (const int t : passed->triangles) remove_sides(t);
+        for (std::size_t k = 0; k < made.size(); ++k) put(passed->triangles[k], made[k]);
     }
     held_[sorted_pair(a, b)] = 1;
     return true;
+}
+
+// Nothing where the way touches a point between, or an edge that is held.
+std::optional<CutTriangle::Passage> CutTriangle::passage(int a, int b) const {
+    Passage found;
+    int right = none;
+    int left = none;
+    for (int t = 0; t < static_cast<int>(triangles_.size()) && found.triangles.empty(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            right = triangles_[t][(k + 1) % 3];
+            left = triangles_[t][(k + 2) % 3];
+            if (triangles_[t][k] != a || !(area(a, b, right) < 0.0) || !(area(a, b, left) > 0.0)) continue;
+            found = {{t}, {left}, {right}};
+            break;
+        }
+    }
+    while (!found.triangles.empty() && found.triangles.size() < triangles_.size()) {
+        right = found.right.back();
+        left = found.left.back();
+        const int t = at(left, right);
+        if (t == none || is_held(left, right)) return std::nullopt;
+        found.triangles.push_back(t);
+        const int next = opposite(t, left, right);
+        if (next == b) return found;
+        const double side = area(a, b, next);
+        if (side == 0.0) return std::nullopt;
+        (side > 0.0 ? found.left : found.right).push_back(next);
+    }
+    return std::nullopt;
+}
+
+// The polygon on the left of the way from a to b, by triangles whose circles hold none of its points. Around an edge
+// that hangs into it a point comes twice: only one of both parts it well.
+bool CutTriangle::cover(int a, int b, const Indices& chain, std::vector<Corners>& made) const {
+    if (chain.empty()) return true;
+    int best = chain.front();
+    for (const int each : chain) best = is_in_circle(a, b, best, each) ? each : best;
+    if (!(area(a, b, best) > flat_)) return false;
+    const std::size_t before = made.size();
+    for (auto at = chain.begin(); at != chain.end(); ++at) {
+        if (*at != best) continue;
+        made.push_back({a, b, best});
+        if (cover(a, best, {chain.begin(), at}, made) && cover(best, b, {at + 1, chain.end()}, made)) return true;
+        made.resize(before);
+    }
+    return false;
 }
 
 }  // namespace fairing

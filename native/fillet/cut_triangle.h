@@ -3,12 +3,14 @@
 
 #include <array>
 #include <map>
+#include <optional>
 
 #include "fillet/seam_mesh.h"
 
 namespace fairing {
 
-// A constrained Delaunay triangulation of a triangle: Lawson's flips, and Sloan's (1993) for the edges asked for.
+// A constrained Delaunay triangulation of a triangle: Lawson's flips, and for the edges asked for Anglada's (1997)
+// polygons beside them.
 class CutTriangle {
 public:
     using Corners = std::array<int, 3>;
@@ -38,9 +40,14 @@ private:
     void remove_sides(int triangle);
     bool flip(int a, int b);
     bool join(int a, int b);  // without points between
+    struct Passage {          // what the way between two points crosses, from the first one on
+        Indices triangles;
+        Indices left, right;  // points beside it
+    };
+    [[nodiscard]] std::optional<Passage> passage(int a, int b) const;
+    [[nodiscard]] bool cover(int a, int b, const Indices& chain, std::vector<Corners>& made) const;
     [[nodiscard]] bool is_in_circle(int a, int b, int c, int d) const;
     [[nodiscard]] int point_between(int a, int b) const;
-    [[nodiscard]] std::vector<std::array<int, 2>> crossed(int a, int b) const;
 
     std::vector<Vector2> places_;
     std::vector<Corners> triangles_;

@@ -89,7 +89,7 @@ private:
         if (other != none) {
             const HalvedMesh::Piece& piece = halves_.pieces()[p];
             const HalvedMesh::Piece& beyond = halves_.pieces()[other];
-            while (halves_.across(other, side) != p) ++side;  // both are in the record of that side
+            while (side < 2 && halves_.across(other, side) != p) ++side;
             inner_there = beyond.nodes[side] == piece.nodes[inner] ? side : (side + 1) % 3;
         }
         const auto at = [&](double share) {

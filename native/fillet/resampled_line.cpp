@@ -90,7 +90,7 @@ private:
         std::size_t at = 1;
         for (int k = 1; k < count; ++k) {
             const double wanted = length * k / count;
-            while (way[at] < wanted) ++at;
+            while (at + 1 < way.size() && way[at] < wanted) ++at;
             const double share = (wanted - way[at - 1]) / (way[at] - way[at - 1]);
             made_.points.push_back(between(chain[at - 1], chain[at], share, triangle));
             const int to = static_cast<int>(made_.points.size()) - 1;

@@ -59,7 +59,10 @@ public:
     // A point, and those that go right after it, with all pieces at them: what they cover is meshed anew.
     void drop(int first) {
         if (!next_.contains(first)) return;  // with one before
-        while (at_.contains(previous(first))) first = previous(first);
+        for (std::size_t step = 0; at_.contains(previous(first)); ++step) {
+            if (step == at_.size()) throw NoRows();  // the line's last points would go
+            first = previous(first);
+        }
         std::set<int> star;
         const int before = previous(first);
         int after = first;
@@ -207,13 +210,14 @@ void check_border(const SplitMesh& cut, const Indices& dropped, const std::vecto
     const Border whole = border_of(sides);
     const std::set<int> left(dropped.begin(), dropped.end());
     Border wanted;
+    std::size_t passed = 0;
     for (const auto& [from, to] : whole) {
         if (left.contains(from)) continue;
         int next = to;
-        while (left.contains(next)) next = whole.at(next);
+        for (++passed; left.contains(next); ++passed) next = whole.at(next);
         wanted[from] = next;
     }
-    if (own != wanted) throw NoRows();
+    if (own != wanted || passed != whole.size()) throw NoRows();  // or a loop of dropped points alone
 }
 
 void drop_points(const Points& vertices, const Indices& dropped, SplitMesh& cut) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "base/progress.h"
 #include "geometry/nearest_point.h"
@@ -62,6 +63,7 @@ private:
     struct Walls {
         std::array<std::vector<WallPoint>, 2> ways;  // right, left
         std::array<Indices, 2> numbers;
+        std::array<std::vector<Spot>, 2> turns;  // the line from the strip to the walls and back, as the walk runs
     };
 
     // All points of the line that quads need, and those on walls.
@@ -69,7 +71,7 @@ private:
         for (const RowCorner& corner : strips_.corners) {
             if (!corner.walled) continue;
             ends_[end_at(corner).end] = walls_.size();
-            walls_.push_back(walls_at(end_at(corner)));
+            walls_.push_back(walls_at(corner));
         }
         for (std::size_t k = 0; k < strips_.strips.size(); ++k) {
             Strip& strip = strips_.strips[k];
@@ -137,12 +139,28 @@ private:
         return end[1] == 0 ? mesh_.tail(run.front()) : mesh_.head(run.back());
     }
 
-    [[nodiscard]] Walls walls_at(const ArcEnd& at) const {
+    // As many quarters of a disc as fit into a turn best, each with a pole.
+    [[nodiscard]] int quarters(const LinePart& turn) const {
+        if (half_ < 2) throw NoRows();
+        return std::max(1, static_cast<int>(std::lround(turn.length() / (0.5 * std::numbers::pi * width_))));
+    }
+
+    [[nodiscard]] Walls walls_at(const RowCorner& corner) {
+        const ArcEnd at = end_at(corner);
         const Strip& strip = strips_.strips[at.end[0]];
         const Column& column = at.end[1] == 0 ? strip.columns.front() : strip.columns.back();
         Walls found;
-        for (const Side side : {right, left})
-            found.ways[side] = line_.wall_way(strip.spot(column, side), vertex_at(at.end), half_);
+        for (const Side side : {right, left}) {
+            const bool leaves = side == at.side;
+            const LinePart& turn = corner.turns[leaves ? 1 : 0];
+            Spot wall = strip.spot(column, side);
+            if (!turn.spots.empty()) {
+                wall = leaves ? turn.spots.front() : turn.spots.back();
+                found.turns[side] = parted(turn, quarters(turn) * 2 * (half_ / 2));
+                for (const Spot& spot : found.turns[side]) line_.add(spot);
+            }
+            found.ways[side] = line_.wall_way(wall, vertex_at(at.end), half_);
+        }
         return found;
     }
 
@@ -231,7 +249,7 @@ private:
         for (const Side side : {right, left}) {
             const int triangle = side == left ? seam.half_edge / 3 : mesh_.twin[seam.half_edge] / 3;
             halves[side].push_back(strip.spot(at, side).place);
-            if (walls != nullptr) {
+            if (walls != nullptr && walls->turns[side].empty()) {
                 for (const WallPoint& point : walls->ways[side]) halves[side].push_back(line_.place(point));
             } else {
                 for (const NearestPlace& place : parted(halves[side].front(), middle, half_, triangle))
@@ -305,11 +323,19 @@ private:
     Indices walled_column(const std::array<int, 2>& end, const Walls& walls) {
         const Strip& strip = strips_.strips[end[0]];
         const Column& at = end[1] == 0 ? strip.columns.front() : strip.columns.back();
-        Indices found{line_.vertex(strip.spot(at, right))};
-        found.insert(found.end(), walls.numbers[right].begin(), walls.numbers[right].end());
+        const OnSeam seam = on_seam(strip.arc, at.way);
+        std::array<Indices, 2> halves;  // from the line on
+        for (const Side side : {right, left}) {
+            const Spot from = strip.spot(at, side);
+            halves[side] = walls.numbers[side];
+            const int triangle = side == left ? seam.half_edge / 3 : mesh_.twin[seam.half_edge] / 3;
+            if (!walls.turns[side].empty())
+                halves[side] = between(from.place, mesh_.points.col(vertex_at(end)), half_, triangle);
+            halves[side].insert(halves[side].begin(), line_.vertex(from));
+        }
+        Indices found = halves[right];
         found.push_back(vertex_at(end));
-        found.insert(found.end(), walls.numbers[left].rbegin(), walls.numbers[left].rend());
-        found.push_back(line_.vertex(strip.spot(at, left)));
+        found.insert(found.end(), halves[left].rbegin(), halves[left].rend());
         return found;
     }
 
@@ -378,7 +404,10 @@ private:
         for (std::size_t k = 0; k < strips_.corners.size(); ++k) {
             const RowCorner& corner = strips_.corners[k];
             checkpoint();
-            if (corner.walled) continue;
+            if (corner.walled) {
+                add_turns(corner);
+                continue;
+            }
             Indices around;
             for (const Spot& spot : around_[k]) around.push_back(line_.vertex(spot));
             if (is_cap(corner))
@@ -386,6 +415,72 @@ private:
             else
                 add_meeting(corner, around);
         }
+    }
+
+    // Around a seam's end to the walls there, or from these to the strip.
+    void add_turns(const RowCorner& corner) {
+        const ArcEnd at = end_at(corner);
+        const Walls& walls = walls_[ends_.at(at.end)];
+        for (const Side side : {right, left}) {
+            const std::vector<Spot>& turn = walls.turns[side];
+            if (turn.empty()) continue;
+            const bool leaves = side == at.side;
+            Indices around;
+            for (const Spot& spot : turn) around.push_back(line_.vertex(spot));
+            const Indices strip = half_column({at.end, side});
+            Indices wall{vertex_at(at.end)};
+            wall.insert(wall.end(), walls.numbers[side].rbegin(), walls.numbers[side].rend());
+            wall.push_back(leaves ? around.front() : around.back());
+            const int triangle = (side == left ? strips_.strips[at.end[0]].arc.half_edges.front()
+                                               : mesh_.twin[strips_.strips[at.end[0]].arc.half_edges.front()]) /
+                                 3;
+            add_quarters(around, leaves ? wall : strip, leaves ? strip : wall, triangle);
+        }
+    }
+
+    // Between two rays from one vertex to a line around it, clockwise.
+    void add_quarters(const Indices& around, const Indices& first, const Indices& last, int triangle) {
+        const int size = 2 * (half_ / 2);
+        Indices ray = first;
+        for (int begin = 0; begin + size < std::ssize(around); begin += size) {
+            Indices next = last;
+            if (begin + size + 1 < std::ssize(around)) {
+                next = {first.front()};
+                const int far = around[begin + size];
+                const Indices inner = between(before_of(first.front()), before_of(far), half_, triangle);
+                next.insert(next.end(), inner.begin(), inner.end());
+                next.push_back(far);
+            }
+            add_quarter(ray, {around.begin() + begin, around.begin() + begin + size + 1}, next, triangle);
+            ray = next;
+        }
+    }
+
+    // Three blocks around a pole: between two rays and the line from the first one's end to that of the other.
+    void add_quarter(const Indices& from, const Indices& line, const Indices& to, int triangle) {
+        const int near = half_ / 2;
+        const auto part_of = [](const Indices& all, int begin, int end) {
+            return Indices(all.begin() + begin, all.begin() + end + 1);
+        };
+        const Vector3 middle = (before_of(from[near]) + before_of(to[near]) + before_of(line[near])) / 3.0;
+        const NearestPlace place = part(triangle).to(middle);
+        const int pole = add(place.triangle, place.weights);
+        const auto to_pole = [&](int vertex, int count) {
+            Indices way{vertex};
+            const Indices inner = between(before_of(vertex), before_of(pole), count, triangle);
+            way.insert(way.end(), inner.begin(), inner.end());
+            way.push_back(pole);
+            return way;
+        };
+        const Indices before = to_pole(from[near], near);
+        const Indices after = to_pole(to[near], near);
+        Indices out = to_pole(line[near], half_ - near);
+        std::reverse(out.begin(), out.end());
+        add_block(part_of(to, 0, near), part_of(from, 0, near), after, before, triangle);
+        add_block(before, part_of(from, near, half_), out, part_of(line, 0, near), triangle);
+        Indices back = part_of(line, near, 2 * near);
+        std::reverse(back.begin(), back.end());
+        add_block(part_of(to, near, half_), after, back, out, triangle);
     }
 
     // From the middle of the column at an arc's end to the line, as a walk passes it.

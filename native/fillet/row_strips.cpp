@@ -50,19 +50,19 @@ private:
             }
         };
         const double near = roundoff * walk.ways.back();
-        std::vector<std::array<int, 2>> at_walls;
+        std::vector<std::array<int, 3>> at_walls;  // corners, and the first and the last point there
         for (int i = 0; i < static_cast<int>(walk.half_edges.size()); ++i) {
             const std::size_t begin = k;
             take_while(walk.ways[i] + near);
-            const int gap = gap_at(w, i, {begin, k});
-            if (gap != none) at_walls.push_back({i, gap});
             add_corner(w, i, {begin, k}, found);
+            const int gap = gap_at(w, i, {begin, k});
+            if (gap != none) at_walls.push_back(beside_gap(walk, gap, {begin, k}, made_.corners.back().turns, i));
             take_while(walk.ways[i + 1] - near);
         }
         take_while(walk.ways.back());
-        for (const auto& [i, gap] : at_walls) {
-            found.first[i] = spot_of[gap];
-            found.last[i] = spot_of[(gap + 1) % spot_of.size()];
+        for (const auto& [i, first, last] : at_walls) {
+            found.first[i] = spot_of[first];
+            found.last[i] = spot_of[last];
         }
         for (Indices* spots : {&found.first, &found.last}) {  // the one before the first is the last
             for (int& spot : *spots) spot = spot < 0 ? static_cast<int>(found.line.spots.size()) - 1 : spot;
@@ -87,6 +87,29 @@ private:
         return none;
     }
 
+    // Ways of some length around the corner to the walls and from them on do not belong to the strip.
+    [[nodiscard]] std::array<int, 3> beside_gap(const SeamWalk& walk, int gap, const std::array<std::size_t, 2>& fan,
+                                                std::array<LinePart, 2>& turns, int corner) const {
+        const int count = static_cast<int>(walk.points.size());
+        const int begin = static_cast<int>(fan[0]);
+        const int end = static_cast<int>(fan[1]);
+        std::array<int, 3> found{corner, gap, (gap + 1) % count};
+        const auto part = [&](int first, int last) {
+            LinePart result;
+            for (int k = first; k <= last; ++k) {
+                result.spots.push_back({points_.points[walk.points[k]].place, walk.points[k], none});
+                if (k < last) result.segments.push_back(walk.segments[k]);
+            }
+            result.measure();
+            return result.length() > round_corner * sizes_.width ? result : LinePart();
+        };
+        if (gap >= begin && gap < end) turns[0] = part(begin, gap);
+        if (found[2] >= begin && found[2] < end) turns[1] = part(found[2], end - 1);
+        if (!turns[0].spots.empty()) found[1] = begin;
+        if (!turns[1].spots.empty()) found[2] = end - 1;
+        return found;
+    }
+
     void add_corner(int w, int i, const std::array<std::size_t, 2>& fan, WalkLine& found) {
         const SeamWalk& walk = walks_.walks()[w];
         const bool meets = walks_.is_meeting(mesh_.tail(walk.half_edges[i]));
@@ -109,7 +132,7 @@ private:
                 around = {};
             }
         }
-        if (meets) made_.corners.push_back({w, i, walled, around});
+        if (meets) made_.corners.push_back({w, i, walled, around, {}});
     }
 
     // Half way around a corner; an end of an edge outside that is near takes its place.

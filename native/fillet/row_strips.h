@@ -41,8 +41,9 @@ struct Strip {
 // The tail of a walk's half-edge where seams meet, or end.
 struct RowCorner {
     int walk, index;
-    bool walled;      // the line ends at walls there
-    LinePart around;  // a long way around it, as the walk runs; empty where both sides meet in one spot
+    bool walled;                    // the line ends at walls there
+    LinePart around;                // a long way around it, as the walk runs; empty where both sides meet in one spot
+    std::array<LinePart, 2> turns;  // likewise long ways around a walled one, to the walls and from them on
 };
 
 struct RowStrips {

@@ -218,6 +218,7 @@ void SeamDistance::propagate(int w) {
 void SeamDistance::pass(const Window& window, int through, double first, double last) {
     const int entered = mesh_.twin[through];
     if (entered == none || mesh_.seam[through] != none) return;
+    if (window.crossed > mesh_.triangles.cols()) return;  // a shortest way enters each triangle once
     const bool is_next = through == SeamMesh::next(window.half_edge);
     const Vector2 apex = mesh_.apex[window.half_edge];
     const Vector2 tail = is_next ? apex : Vector2::Zero();
@@ -229,6 +230,7 @@ void SeamDistance::pass(const Window& window, int through, double first, double 
     Window there = window;
     there.half_edge = entered;
     there.corner = false;
+    ++there.crossed;
     there.origin = turned(window.origin - tail);
     there.zero = turned(window.zero);
     there.first = first;

@@ -63,6 +63,7 @@ private:
         double first, last;  // rays
         double offset;       // the way to the origin
         int source;
+        int crossed = 0;  // edges
     };
     struct Event {
         double key;

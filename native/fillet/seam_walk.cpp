@@ -103,6 +103,7 @@ void SeamWalks::walk_from(int first) {
     SeamWalk walk;
     walk.ways.push_back(0.0);
     for (int h = first; walk.half_edges.empty() || h != first;) {
+        if (at_[h].walk != none) throw NoRows();  // two ways lead on to one
         at_[h] = {static_cast<int>(walks_.size()), static_cast<int>(walk.half_edges.size())};
         walk.half_edges.push_back(h);
         walk.ways.push_back(walk.ways.back() + mesh_.length[h]);

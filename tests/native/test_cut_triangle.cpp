@@ -1,6 +1,7 @@
 // Points added to a triangle: whatever their order and roundoff, its pieces cover it once.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -74,5 +75,30 @@ TEST_CASE("points on random ways across a triangle") {
         cut.make_delaunay();
         for (std::size_t k = 1; k < line.size(); ++k) CHECK(cut.add_edge(line[k - 1], line[k]));
         check_cover(cut, 0.5 * fairing::cross2(b - a, c - a));
+    }
+}
+
+// By flips in turn such edges came and went for as many rounds as there are pairs of triangles.
+TEST_CASE("edges along random ways through many points") {
+    std::mt19937 random(20261129);
+    std::uniform_real_distribution<double> share(0.02, 0.95);
+    for (int trial = 0; trial < 40; ++trial) {
+        CutTriangle cut({0.0, 0.0}, {1.0, 0.0}, {share(random), 0.02 + share(random)});
+        std::vector<int> points;
+        while (points.size() < 60) {
+            const double v = share(random);
+            const double w = (1.0 - v) * share(random);
+            points.push_back(cut.add_inside(v * cut.place(1) + w * cut.place(2)));
+        }
+        cut.make_delaunay();
+        std::sort(points.begin(), points.end(), [&](int a, int b) { return cut.place(a)[0] < cut.place(b)[0]; });
+        const double whole = 0.5 * cut.place(2)[1];
+        for (std::size_t k = 1; k < points.size(); ++k) CHECK(cut.add_edge(points[k - 1], points[k]));
+        for (std::size_t k = 1; k < points.size(); ++k) {
+            CHECK(cut.is_held(points[k - 1], points[k]));
+            CHECK((cut.at(points[k - 1], points[k]) != fairing::none ||
+                   cut.at(points[k], points[k - 1]) != fairing::none));
+        }
+        check_cover(cut, whole);
     }
 }
