@@ -280,6 +280,40 @@ def test_fillets_that_would_close_a_slot_are_refused(width: float) -> None:
     assert result.vertices[:, 2].max() <= 2.0 + 1e-6
 
 
+@pytest.mark.parametrize("height", [0.5, 1.0, 4.0])
+def test_a_fillet_is_a_fifth_of_the_shortest_side_wide(height: float) -> None:
+    """Of all edges of a box and of one; of a cylinder's lid, which is wider than its rim is long."""
+    vertices, triangles = solids.box(3)
+    vertices = vertices * (1.0, 1.0, 0.5 * height)
+    assert fairing.fillet_width(vertices, triangles) == pytest.approx(0.2 * min(2.0, height))
+    upright = np.flatnonzero((np.abs(vertices[:, :2] - 1.0) < 1e-9).all(axis=1))
+    order = upright[np.argsort(vertices[upright, 2])]
+    seam = np.column_stack([order[:-1], order[1:]])
+    assert fairing.fillet_width(vertices, triangles, seam) == pytest.approx(0.4)
+    result = fairing.fillet(vertices, triangles, seam)
+    assert abs(vertices[:, :2]).max() - abs(result.vertices[:, 0]).min() == pytest.approx(0.4, rel=0.02)
+    vertices, triangles = solids.cylinder(32, 4, height)
+    across = 2.0 * np.cos(np.pi / 32)
+    assert fairing.fillet_width(vertices, triangles) == pytest.approx(0.2 * min(height, across), rel=0.01)
+
+
+def test_a_clamped_width_fits_and_says_where() -> None:
+    vertices, triangles = slotted()
+    result = fairing.fillet(vertices, triangles, width=0.55, clamp=True)
+    (warning,) = [each for each in result.warnings if each.code == "WIDTH_TOO_LARGE"]
+    assert (warning.figures["width"], warning.figures["clamped"]) == (0.55, 1.0)
+    assert warning.figures["widest"] == pytest.approx(0.45)
+    assert set(warning.elements.tolist()) == set(range(len(vertices)))
+    assert result.converged
+    assert result.vertices[:, 2].max() <= 2.0 + 1e-6
+    points, faces = whole(vertices, triangles, result)
+    assert fairing.boundary_loops(faces) == []
+    assert len(fairing.self_intersections(points, faces)) == 0
+    same = fairing.fillet(vertices, triangles, width=0.4, clamp=True)
+    np.testing.assert_array_equal(same.vertices, fairing.fillet(vertices, triangles, width=0.4).vertices)
+    assert same.warnings == ()
+
+
 def test_a_width_that_is_too_large_tells_what_fits() -> None:
     with pytest.raises(fairing.MeshError) as caught:
         fairing.fillet(*slotted(), width=0.55)

@@ -127,7 +127,8 @@ class Asked(AskedInEditMode):
     def size(self) -> float:
         """About as many vertices as will be new: those of bands as wide as both sides."""
         options, length = self.options, sum(task.length for task in self.tasks)
-        width, width_2 = options.width, options.width_2 or options.width
+        width = options.width or 0.02 * length  # a guess: the seams alone don't tell it
+        width_2 = options.width_2 or width
         return length * (width + width_2) / (options.spacing or 0.25 * min(width, width_2)) ** 2
 
     def work(self, progress: Progress) -> list[Rounded]:

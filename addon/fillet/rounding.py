@@ -110,14 +110,16 @@ def _rounded(
     world = mesh.transformed(matrix)
     count = len(world.positions)
     factors = np.ones(count) if mesh.parts is None else np.maximum(mesh.parts, LEAST_WEIGHT)
-    second = options.width_2 or options.width
+    seam, walls = world.edges[seams], world.edges[hard(world) & ~seams]
     as_given = Origin(np.arange(count), world.triangles, world.triangle_faces)
     with in_mesh_words(as_given):
+        first = options.width or fairing.fillet_width(world.positions, world.triangles, seam, walls=walls)
+        second = options.width_2 or first
         result = fairing.fillet(
-            world.positions, world.triangles, world.edges[seams],
+            world.positions, world.triangles, seam,
             fairing.Options(fairing.Surface(continuity=options.continuity)),
-            width=options.width * factors, width_2=None if second == options.width else second * factors,
-            walls=world.edges[hard(world) & ~seams], profile=options.profile, spacing=options.spacing,
+            width=first * factors, width_2=None if second == first else second * factors,
+            clamp=options.clamp, walls=walls, profile=options.profile, spacing=options.spacing,
             faces="quads" if options.quads else "triangles", neighbours=world.edges,
             progress=progress,
         )  # fmt: skip

@@ -76,13 +76,19 @@ class FilletOptions(Chosen):
     width: float = shared.length(
         SURFACE,
         "Width",
-        "How far the fillet reaches along the surface, in world space, on the larger side of each seam",
-        0.1,
-        bounds=(1e-6, 1e9),
+        "How far the fillet reaches along the surface, in world space, on the larger side of each seam; 0: a fifth of "
+        "the shortest side beside it",
+        0.0,
         slider=(0.0, 10.0),
     )
     width_2: float = shared.length(
         SURFACE, "Width 2", "The same on the smaller side; 0: as wide", 0.0, slider=(0.0, 10.0)
+    )
+    clamp: bool = option(
+        SURFACE,
+        "Clamp",
+        "No wider than there is room beside each edge, and a message says where. Otherwise such a width is refused",
+        True,
     )
     profile: float = option(
         SURFACE,

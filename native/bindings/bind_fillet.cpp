@@ -5,6 +5,7 @@
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "fillet/profile.h"
+#include "fillet/seam_room.h"
 #include "fillet/solid_sides.h"
 
 namespace fairing::bindings {
@@ -61,6 +62,17 @@ py::dict cut_arrays(const DoubleArray& vertices, const IntArray& triangles, cons
     const FilletInput input = input_of(vertices, triangles, edges, widths, spacing);
     return from_cut(run.without_gil([&](const ProgressCallback& progress) { return cut_fillet(input, progress); }));
 }
+// The usual width, and of each vertex the widest.
+py::tuple room_arrays(const DoubleArray& vertices, const IntArray& triangles, const std::tuple<Pairs, Pairs>& edges) {
+    PythonRun run;
+    const Points points = to_points(vertices);
+    const Triangles corners = to_triangles(triangles);
+    const SeamRoom room = run.without_gil([&](const ProgressCallback&) {
+        return seam_room(SeamMesh(points, corners, std::get<0>(edges), std::get<1>(edges)));
+    });
+    return py::make_tuple(room.usual, from_vector(room.widest));
+}
+
 py::array wrong_side_array(const DoubleArray& vertices, const IntArray& triangles, const Pairs& edges, double width,
                            const DoubleArray& before, const DoubleArray& after, const py::object& callback) {
     PythonRun run(callback);
@@ -116,6 +128,7 @@ py::array drawn_arrays(const DoubleArray& points, const IntArray& triangles, con
 }  // namespace
 
 void bind_fillet(py::module_& module) {
+    module.def("seam_room", &room_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("edges"));
     module.def("on_wrong_side", &wrong_side_array, py::arg("vertices"), py::arg("triangles"), py::arg("edges"),
                py::arg("width"), py::arg("before"), py::arg("after"), py::arg("progress"));
     module.def("drawn_to", &drawn_arrays, py::arg("points"), py::arg("triangles"), py::arg("fixed"), py::arg("target"),

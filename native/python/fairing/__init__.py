@@ -9,7 +9,7 @@ from fairing._fair import fair
 from fairing._fair_edges import FairEdges, fair_edges
 from fairing._feather import feather_weights
 from fairing._fill import fill
-from fairing._fillet import fillet
+from fairing._fillet import fillet, fillet_width
 from fairing._foreign import refuse_foreign as _refuse_foreign
 from fairing._from_curves import surface_from_curves
 from fairing._groups import Boundary, Curves, Layout, Options, Skin, Solving, Surface
@@ -103,6 +103,7 @@ __all__ = [
     "fill_holes",
     "fillet",
     "fillet_edges",
+    "fillet_width",
     "flank",
     "flipped_triangles",
     "girth",

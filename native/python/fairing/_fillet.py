@@ -29,8 +29,9 @@ def fillet(
     seam: npt.ArrayLike | None = None,
     options: Options | None = None,
     *,
-    width: npt.ArrayLike,
+    width: npt.ArrayLike | None = None,
     width_2: npt.ArrayLike | None = None,
+    clamp: bool = False,
     walls: npt.ArrayLike | None = None,
     profile: float = 0.0,
     spacing: float = 0.0,
@@ -60,11 +61,14 @@ def fillet(
         both sides, "G2" continues their curvature, too.
     width : float or (n,) float
         How far the fillet reaches on either side, a length; of the vertices, where it varies: those of the seams count,
-        and lengths in between are interpolated along each edge.
+        and lengths in between are interpolated along each edge. Default: :func:`fairing.fillet_width`.
     width_2 : float or (n,) float
         The same on the other side, where that differs: ``width`` is that of the larger part, by the area that hangs
         together without seams and walls, ``width_2`` that of the smaller one. Where both are one, or of one size,
         ``width`` lies on the left of the first edge given, and of those that follow each other from there.
+    clamp : bool
+        Make fillets no wider than there is room: nine tenths of the way square to each piece of a seam, or of half of
+        it where another seam is there. WIDTH_TOO_LARGE is then a warning that names the vertices, with the least width.
     walls : (w, 2) int
         Edges that a fillet does not reach over: it ends there, tangent to its own side. Default: the other hard edges.
         Open borders always are walls.
@@ -109,11 +113,7 @@ def fillet(
     counted = None if neighbours is None else _neighbours(neighbours, len(points))
     refuse_made_here(given, progress)
     seams, ends = _seams.seams_and_walls(points, corners, seam, walls)
-    widths = (
-        _seams.width_of("width", width, seams, len(points)),
-        _seams.width_of("width_2", width_2, seams, len(points)),
-    )
-    both = widths[0], widths[0] if width_2 is None else widths[1]
+    both, clamped = _widths((width, width_2), (points, corners, seams, ends), clamp)
     length = _spacing(spacing, both, seams)
     _refuse_large(points, seams, both, length, max_vertices)
     shape = _arguments.finite("profile", profile)
@@ -132,9 +132,52 @@ def fillet(
     except MeshError as error:
         raise _named(error, len(points)) from error
     _refuse_outside(mesh, made, wishes)
+    made = replace(made, values={**made.values, "warnings": (*clamped, *made.values["warnings"])})
     if not wants_rows:
         return result_of(mesh, made, wishes)
     return _with_quads(mesh, made, wishes, length, counted)
+
+
+def fillet_width(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    seam: npt.ArrayLike | None = None,
+    *,
+    walls: npt.ArrayLike | None = None,
+) -> float:
+    """The width of a fillet by default: a fifth of the shortest side beside the seams.
+
+    A side is the way square to a seam, straight on over the surface to the next seam, wall or border; of each piece of
+    a seam from corner to corner, the middle one. Arguments as for :func:`fairing.fillet`.
+    """
+    points = _arguments.floats("vertices", vertices)
+    corners = _arguments.triangles_within(triangles, len(points))
+    _seams.check_finite(points, corners)
+    seams, ends = _seams.seams_and_walls(points, corners, seam, walls)
+    return float(_core.seam_room(points, corners, (seams.tolist(), ends.tolist()))[0])
+
+
+def _widths(
+    given: tuple[Any, Any], mesh: tuple[FloatArray, IntArray, IntArray, IntArray], clamp: bool
+) -> tuple[tuple[FloatArray, FloatArray], tuple[Diagnostic, ...]]:
+    """Of both sides, and what is said where there is less room. mesh: vertices, triangles, seams, walls."""
+    points, corners, seams, ends = mesh
+    first, second = given
+    usual, widest = 0.0, np.full(len(points), np.inf)
+    if first is None or clamp:
+        usual, widest = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
+    one = _seams.width_of("width", usual if first is None else first, seams, len(points))
+    other = one if second is None else _seams.width_of("width_2", second, seams, len(points))
+    where = np.unique(seams[np.maximum(one, other)[seams] > widest[seams]]).astype(np.int32)
+    if not clamp or not len(where):
+        return (one, other), ()
+    figures = {
+        "width": float(np.maximum(one, other)[where].max()), "widest": float(widest[where].min()),
+        "vertices": float(len(where)), "clamped": 1.0,
+    }  # fmt: skip
+    text = f"width: there is less room at {len(where)} vertices, down to {figures['widest']:.4g}, which is taken there"
+    warning = Diagnostic("WIDTH_TOO_LARGE", text, where, "vertex", figures)
+    return (np.minimum(one, widest), np.minimum(other, widest)), (warning,)
 
 
 def _named(error: MeshError, count: int) -> MeshError:
