@@ -70,14 +70,6 @@ def test_a_group_off_the_boundary_says_so_and_the_join_is_tangent(remesh: bool) 
         np.testing.assert_array_equal(meshes.positions(obj)[free], faired(None)[1])
 
 
-def test_a_missing_group_is_refused_and_nothing_changes() -> None:
-    obj, faces, _ = rough_egg()
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match="Missing"):
-        meshes.fair(obj, faces, continuity="G2", continuity_group="Missing")
-    assert meshes.contents(obj) == before
-
-
 def test_a_band_has_no_effect_beside_it() -> None:
     options = module("options.options").FairOptions
     assert options(continuity="G2", continuity_group="Loose", falloff=0.1).idle == ("falloff",)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable
-from types import SimpleNamespace
 from typing import Any
 
 import bmesh
@@ -13,7 +11,7 @@ import numpy as np
 import pytest
 
 import meshes
-from extension import module, stand_in
+from extension import module
 
 Chosen = Callable[[Any], bool]
 
@@ -80,25 +78,6 @@ def test_hole_of_a_sphere_becomes_the_sphere() -> None:
     assert meshes.positions(obj)[:, 2].max() > 0.99
     chosen = [polygon.index for polygon in obj.data.polygons if polygon.select]
     assert chosen == list(range(before, len(obj.data.polygons)))
-
-
-def test_bits_outside_are_kept() -> None:
-    obj = open_sphere()
-    dress(obj)
-    select_vertices(obj, lambda _: True)
-    meshes.leave()
-    before = meshes.contents(obj)
-    points, corners = len(obj.data.vertices), len(obj.data.loops)
-    assert fill_hole(obj) == {"FINISHED"}
-    after = meshes.contents(obj)
-    assert {name for name in before.keys() ^ after.keys() if "select" not in name} == set()
-    for name in before:
-        if name == "weights":
-            assert after[name][:-1].startswith(before[name][:-1])
-        elif "select" not in name:
-            assert after[name].startswith(before[name]), name
-    assert len(obj.data.vertices) > points
-    assert len(obj.data.loops) > corners
 
 
 def dress(obj: bpy.types.Object) -> None:
@@ -219,27 +198,6 @@ def refused(text: str, **properties: Any) -> None:
     assert {key: data for key, data in meshes.contents(obj).items() if ".select" not in key} == before
 
 
-def test_nothing_selected_is_refused() -> None:
-    select_vertices(open_sphere(), lambda _: False)
-    refused("No border is selected")
-
-
-def test_multiresolution_is_refused() -> None:
-    obj = open_sphere()
-    obj.modifiers.new("Levels", "MULTIRES")
-    select_vertices(obj, lambda _: True)
-    refused("Multiresolution")
-
-
-def test_a_locked_shape_key_is_refused() -> None:
-    obj = open_sphere()
-    dress(obj)
-    obj.data.shape_keys.key_blocks["Basis"].lock_shape = True
-    obj.active_shape_key_index = 0
-    select_vertices(obj, lambda _: True)
-    refused("locked")
-
-
 def test_a_surface_through_the_mesh_is_written_on_demand_only() -> None:
     obj = pierced()
     old = len(obj.data.polygons)
@@ -285,34 +243,6 @@ def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
     np.testing.assert_allclose(normals[:old], [(0.0, 0.6, 0.8)] * old, atol=0.02)  # kept as angles
     centres = np.array([polygon.normal[:] for polygon in obj.data.polygons for _ in polygon.loop_indices])
     assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
-
-
-def test_escape_leaves_the_hole_open() -> None:
-    """In the background, with a stand-in for the operator: there is no window here."""
-    go_on = threading.Event()
-    obj = open_sphere()
-    select_vertices(obj, lambda _: True)
-    count = len(bmesh.from_edit_mesh(obj.data).faces)
-    fill_module, options = module("fill.operator"), module("options.other_options").FillOptions()
-    tasks = fill_module.read(bpy.context, options)
-
-    def work(progress: Any) -> Any:
-        assert go_on.wait(10.0)
-        return fill_module.solve(tasks, options, progress)
-
-    for kind, answer, added in (("ESC", {"CANCELLED"}, False), ("TIMER", {"FINISHED"}, True)):
-        operator = stand_in(fill_module.MESH_OT_fair_fill, _asked=fill_module.Asked(tasks, options))
-        operator._run = module("run.runner").Run(work)
-        event = SimpleNamespace(type="TIMER", value="PRESS")
-        if not go_on.is_set():
-            assert operator.modal(bpy.context, event) == {"RUNNING_MODAL"}
-        else:
-            assert operator._run.wait(10.0)
-        event.type = kind
-        assert operator.modal(bpy.context, event) == answer
-        go_on.set()
-        assert operator._run.wait(10.0)
-        assert (len(bmesh.from_edit_mesh(obj.data).faces) > count) == added
 
 
 def test_a_script_fills_without_edit_mode() -> None:

@@ -275,25 +275,6 @@ def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> Non
         meshes.leave()
 
 
-def test_scripts_round_the_hard_edges_of_a_mesh() -> None:
-    obj = cube()
-    result = module("fillet.script").fillet_mesh(obj.data, width=WIDTH, quads=False)
-    assert result.converged
-    assert border_edges(obj) == 0
-    assert off_the_arc(meshes.positions(obj)).max() < 2e-3
-
-
-def test_a_mirrored_object_is_rounded_the_same_way_round() -> None:
-    obj = cube()
-    obj.scale = (-1.0, 1.0, 1.0)
-    assert run(obj, edge_mask(obj, upright)) == {"FINISHED"}
-    assert border_edges(obj) == 0
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    assert 6.0 < bm.calc_volume(signed=True) < 8.0
-    bm.free()
-
-
 def test_shape_keys_and_weights_are_carried_over() -> None:
     obj = cube()
     obj.shape_key_add(name="Basis")

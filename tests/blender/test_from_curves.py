@@ -81,15 +81,6 @@ def test_three_circles_become_a_sphere_and_keep_their_bits() -> None:
         assert all(face.select and face.smooth for face in bm.faces)
 
 
-def test_a_mirrored_object_is_turned_outwards_too() -> None:
-    obj = wired(circles())
-    obj.scale = (2.0, -2.0, 2.0)
-    assert run(obj) == {"FINISHED"}
-    with meshes.rebuilt(obj, write=False) as bm:
-        assert bm.calc_volume(signed=True) > 4.0
-    assert np.abs(radii(obj) - 1.0).max() < 1e-5
-
-
 def test_openings_stay_or_are_filled() -> None:
     obj = wired(tube())
     assert run(obj) == {"FINISHED"}
@@ -158,7 +149,7 @@ def test_faces_beside_and_wires_that_are_not_selected_stay() -> None:
         assert sum(face.calc_center_median().x > 4.0 for face in bm.faces) == 1
 
 
-@pytest.mark.parametrize("wrong", ["no edge", "open end", "not finite", "crossing", "locked key"])
+@pytest.mark.parametrize("wrong", ["no edge", "open end", "crossing"])
 def test_what_can_not_be_done_is_refused_and_leaves_the_mesh(wrong: str) -> None:
     lines = circles()
     if wrong == "open end":
@@ -167,19 +158,10 @@ def test_what_can_not_be_done_is_refused_and_leaves_the_mesh(wrong: str) -> None
         lines += [np.array([[x, 0.0, z] for x, z in ((-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3))])]
         lines += [np.array([[0.0, y, z] for y, z in ((-4, 3), (4, 3), (4, 5), (-4, 3))])]
     obj = wired(lines)
-    if wrong == "not finite":
-        obj.data.vertices[7].co.x = float("nan")
-    elif wrong == "locked key":
-        obj.shape_key_add(name="Basis")
-        obj.shape_key_add(name="Smile").lock_shape = True
-        obj.active_shape_key_index = 1
     with pytest.raises(RuntimeError, match="No edge"):  # once through edit mode
         run(obj, lambda edge: False)
     before = {name: value for name, value in meshes.contents(obj).items() if "select" not in name}
-    said = {
-        "no edge": "No edge without a face", "open end": "A curve of edges ends", "not finite": "NaN",
-        "crossing": "Edges cross", "locked key": "locked",
-    }  # fmt: skip
+    said = {"no edge": "No edge without a face", "open end": "A curve of edges ends", "crossing": "Edges cross"}
     with pytest.raises(RuntimeError, match=said[wrong]):
         run(obj, lambda edge: wrong != "no edge")
     after = {name: value for name, value in meshes.contents(obj).items() if "select" not in name}

@@ -44,22 +44,6 @@ def test_all_but_free_positions_keep_their_bits() -> None:
     np.testing.assert_array_equal(changed, meshes.free_vertices(obj, faces))
 
 
-def test_hidden_faces_stay() -> None:
-    obj, faces = meshes.domed_grid()
-    hidden = meshes.faces_where(obj, lambda c: c.x > 0.3)
-    before = meshes.in_edit_mode_once(obj, faces)
-    meshes.select(obj, faces)
-    obj.data.polygons.foreach_set("hide", hidden.tolist())
-    meshes.edit(obj)
-    assert meshes.run() == {"FINISHED"}
-    meshes.leave()
-    old, new = (np.frombuffer(c["POINT position"], np.uint32).reshape(-1, 3) for c in (before, meshes.contents(obj)))
-    changed = (old != new).any(axis=1)
-    expected = meshes.free_vertices(obj, faces & ~hidden)
-    np.testing.assert_array_equal(changed, expected)
-    assert (np.array([p.hide for p in obj.data.polygons]) == hidden).all()
-
-
 @pytest.mark.parametrize("active", [0, 1])
 def test_shape_keys(active: int) -> None:
     obj, faces = meshes.domed_grid()

@@ -21,22 +21,6 @@ def evaluated(obj: bpy.types.Object) -> meshes.Floats:
     return flat.reshape(-1, 3).astype(np.float64)
 
 
-def test_modifiers_change_nothing() -> None:
-    plain, faces = meshes.domed_grid()
-    meshes.fair(plain, faces)
-    obj, _ = meshes.domed_grid()
-    obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
-    obj.modifiers.new("Array", "ARRAY").count = 3
-    obj.modifiers.new("Thick", "SOLIDIFY").thickness = 0.1
-    before = evaluated(obj)
-    assert meshes.fair(obj, faces) == {"FINISHED"}
-    assert meshes.positions(obj).tobytes() == meshes.positions(plain).tobytes()
-    assert [modifier.type for modifier in obj.modifiers] == ["SUBSURF", "ARRAY", "SOLIDIFY"]
-    after = evaluated(obj)
-    assert after.shape == before.shape  # the modifiers still work on it
-    assert np.abs(after - before).max() > 0.01
-
-
 def test_multiresolution_detail_stays() -> None:
     obj, faces = meshes.domed_grid()
     modifier = obj.modifiers.new("Multires", "MULTIRES")

@@ -30,14 +30,6 @@ def linked(request: pytest.FixtureRequest, tmp_path: Path) -> tuple[bpy.types.Ob
     return found, np.flatnonzero(faces).tolist()
 
 
-def test_fair_mesh_refuses_linked_data(linked: tuple[bpy.types.Object, list[int]]) -> None:
-    obj, faces = linked
-    before = meshes.positions(obj)
-    with pytest.raises(ValueError, match="linked from another file"):
-        module().fair_mesh(obj.data, faces)
-    assert np.array_equal(meshes.positions(obj), before)
-
-
 def test_command_refuses_linked_data(
     linked: tuple[bpy.types.Object, list[int]], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -5,7 +5,6 @@ A background process updates the scene by view_layer.update(), which calls the s
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -282,7 +281,7 @@ def test_a_slow_answer_is_stood_in_for_until_the_end_of_the_drag(live: Any, monk
 def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     live: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A hemisphere's rim is turned inside out and back: no step is slow, and nothing broken is ever shown.
+    """A hemisphere's rim is turned inside out and back: nothing broken is ever shown.
 
     Where it is farthest out, answers come too late: whether they do by themselves is the machine's matter.
     """
@@ -290,7 +289,7 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     obj, _ = table_mountain()
     points = now()
     beside = np.flatnonzero(np.hypot(points[:, 0], points[:, 1]) > 0.9)
-    slowest, lost = 0.0, 0
+    lost = 0
     way = [(0.0, 0.0, -0.4 * side) for side in np.sign(points[beside, 0])]
     for k, direction in enumerate([1.0] * 6 + [-1.0] * 6):
         monkeypatch.setattr(home, "PATIENCE", -1.0 if 4 <= k < 8 else 0.15)
@@ -300,10 +299,8 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
         for vertex, step in zip(beside, way, strict=True):
             bm.verts[vertex].co.z += direction * step[2]
             bm.verts[vertex].co.x *= 0.6 if direction > 0 else 1.0 / 0.6
-        begin = time.process_time()
         bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
         bpy.context.view_layer.update()
-        slowest = max(slowest, time.process_time() - begin)
         lost += live.stands_in()
         assert np.isfinite(now()).all()
     live.changed_at -= 10.0
@@ -311,7 +308,6 @@ def test_a_region_that_has_lost_its_surface_mends_when_the_drag_comes_back(
     np.testing.assert_allclose(now(), points, atol=1e-4)
     assert not live.stands_in()
     assert lost >= 4
-    assert slowest < 0.6  # of the processor's time, two cores; 0.3 by the clock where nothing else runs
 
 
 def with_keys() -> tuple[bpy.types.Object, Any]:

@@ -48,20 +48,6 @@ def go_on() -> Any:
     module("run.background").stop_all()
 
 
-def test_escape_leaves_every_bit(go_on: threading.Event) -> None:
-    obj, faces = meshes.domed_grid()
-    before = meshes.in_edit_mode_once(obj, faces)
-    operator = started(obj, faces, go_on)
-    assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
-    assert bpy.context.window_manager.fairing_progress.running
-    assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
-    assert not bpy.context.window_manager.fairing_progress.running
-    go_on.set()
-    assert operator._run.wait(10.0)
-    meshes.leave()
-    assert meshes.contents(obj) == before
-
-
 def test_the_button_cancels_as_escape_does(go_on: threading.Event) -> None:
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)

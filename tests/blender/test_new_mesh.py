@@ -147,20 +147,6 @@ def test_another_key_than_the_basis_changes_alone() -> None:
     assert np.abs(np.linalg.norm(basis[inner], axis=1) - 1.0).max() < 0.02
 
 
-def test_a_script_gets_it_without_edit_mode() -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    faces = np.flatnonzero(chosen).tolist()
-    result = extension.module().fair_mesh(obj.data, faces, remesh=True, spacing=0.7)
-    assert result.converged
-    assert border_edges(obj) == 0
-    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 1e-3
-    keys = obj.data.shape_keys.key_blocks
-    basis, wide = (np.array([point.co[:] for point in keys[name].data]) for name in ("Basis", "Wide"))
-    np.testing.assert_array_equal(basis, meshes.positions(obj))
-    np.testing.assert_allclose((wide - basis)[:, 2], 0.25, atol=1e-5)
-
-
 @pytest.mark.parametrize(("uvs", "wave"), [(True, 0.0), (False, 0.1)])
 def test_corners_of_the_selection_and_seams_leave_no_loose_ends(uvs: bool, wave: float) -> None:
     """Faces without a vertex inside stay; a new triangle that was there already, along a seam, does not come twice."""

@@ -77,11 +77,3 @@ def test_a_group_without_boundary_vertices_says_so(weight: float) -> None:
     put(obj, np.ones_like(free) if weight == 0.0 else free, weight)
     notes = inspect(obj, faces, continuity="G0", continuity_group="Loose").notes
     assert any("tangent all along" in note for note in notes)
-
-
-def test_a_missing_group_is_refused_and_nothing_changes() -> None:
-    obj, faces = meshes.domed_grid()
-    before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match="Missing"):
-        meshes.fair(obj, faces, continuity="G0", continuity_group="Missing")
-    assert meshes.contents(obj) == before

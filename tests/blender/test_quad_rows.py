@@ -76,21 +76,6 @@ def _ring_length(edge: Any) -> int:
         count += 1
 
 
-def test_a_refusal_leaves_every_bit() -> None:
-    obj = pipe()
-    select_border(obj, lambda place: abs(place.z) < 1.2)
-    meshes.leave()
-    before = meshes.contents(obj)
-    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    select_border(obj, lambda place: abs(place.z) < 1.2)
-    try:
-        assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True, longest=1) == {"CANCELLED"}
-    except RuntimeError as error:
-        assert "edges" in str(error)
-    meshes.leave()
-    assert meshes.contents(obj) == before
-
-
 def test_a_bridge_goes_on_from_both_sides() -> None:
     """The rows of a pipe whose middle is gone, and an edge loop from one end to the other."""
     obj = meshes.remove(pipe(), lambda centre: abs(centre.z) < 0.5)

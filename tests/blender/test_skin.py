@@ -67,20 +67,3 @@ def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
     moves = np.linalg.norm(meshes.positions(obj) - before, axis=1)[band]
     assert moves[gaps > np.median(gaps)].max() < 0.5 * moves.max()
     assert meshes.report().free_vertices == np.count_nonzero(free)
-
-
-def test_undo_takes_the_band_back() -> None:
-    obj = meshes.grid(12)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.3 * np.exp(-4.0 * (points[:, :2] ** 2).sum(axis=1))
-    meshes.move(obj, points)
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.4)
-    meshes.enter(obj, faces)
-    bpy.ops.ed.undo_push(message="start")
-    before = meshes.contents_in_edit_mode(obj.name)
-    assert meshes.run(falloff=0.4) == {"FINISHED"}
-    after = meshes.contents_in_edit_mode(obj.name)
-    assert np.count_nonzero(meshes.moved(before, after)) > np.count_nonzero(meshes.free_vertices(obj, faces))
-    bpy.ops.ed.undo()
-    assert meshes.contents_in_edit_mode("Grid") == before
-    meshes.leave()

