@@ -11,6 +11,8 @@ ROOT = Path(__file__).parents[1]
 PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 FILE = re.compile(r"`((?:addon|benchmarks|docs|native|scripts|tests)/[\w./-]+)`")
+# A file and what it defines or calls, as the walks of docs/architecture.md have them.
+WALK = re.compile(r"`((?:addon|native)/[\w/]+\.\w+)` \(((?:`\w+`(?:, )?)+)\)")
 # Figures make some of their lines long.
 GENERATED = ("docs/paper.md", "docs/performance.md", "docs/dev/performance_log.md")
 
@@ -46,6 +48,16 @@ def test_links_lead_somewhere(page: Path) -> None:
 def test_files_that_are_named_exist(page: Path) -> None:
     for file in FILE.findall(page.read_text(encoding="utf-8")):
         assert (ROOT / file).exists() or list(ROOT.glob(f"{file}.*")), file
+
+
+def test_walks_name_functions_that_are_there() -> None:
+    steps = WALK.findall((ROOT / "docs/architecture.md").read_text(encoding="utf-8"))
+    assert len(steps) > 25
+    for file, names in steps:
+        text = (ROOT / file).read_text(encoding="utf-8")
+        assert [
+            word for word in re.findall(r"\w+", names) if not re.search(rf"\b{word}\(|\bclass {word}\b", text)
+        ] == [], file
 
 
 @pytest.mark.parametrize("page", [page for page in PAGES if name(page) not in GENERATED], ids=name)

@@ -1,6 +1,6 @@
 """Holes and bridges: exact surfaces, real meshes, peers.
 
-    python benchmarks/fill [hemisphere | peers | caps | shapes | curvature | bridges | elbows | unseen …]
+    python benchmarks/fill [hemisphere | peers | caps | shapes | curvature | elbows | unseen …]
 
 Prints all tables of docs/fill.md, in one run where none is named. Processor time, one thread. `unseen` needs
 shared/data beside the checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
@@ -77,17 +77,6 @@ def curvature() -> Iterator[str]:
     yield from known_surfaces.curvature()
 
 
-def joined() -> Iterator[str]:
-    """Bridges between tubes."""
-    yield "| bridge | new vertices | converged | angle | least angle | valence | equation | s |"
-    for name, (vertices, triangles, loops) in bridges.all_of_them().items():
-        result, seconds = timed(vertices, triangles, loops, bridge=True)
-        yield (
-            f"| {name} | {len(result.vertices)} | {result.converged} | {result.boundary_angle.max():.1f}° | "
-            f"{shape_of(vertices, result)} | {result.equation} | {seconds:.2f} |"
-        )
-
-
 def elbows() -> Iterator[str]:
     """Bridges around bends of radius 1, and by how much they miss the torus."""
     yield "| bend | radius | new vertices | converged | angle | least angle | valence | equation | off the torus | s |"
@@ -140,7 +129,7 @@ def peers() -> Iterator[str]:
 
 TABLES: dict[str, Callable[[], Iterator[str]]] = {
     "hemisphere": hemisphere, "peers": peers, "caps": caps, "shapes": shapes, "curvature": curvature,
-    "bridges": joined, "elbows": elbows, "unseen": unseen,
+    "elbows": elbows, "unseen": unseen,
 }  # fmt: skip
 
 

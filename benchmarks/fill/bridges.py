@@ -1,4 +1,4 @@
-"""Open tubes to be bridged: an S-bend, elbows, three and four arms."""
+"""Open tubes to be bridged: elbows."""
 
 from __future__ import annotations
 
@@ -37,13 +37,6 @@ def joined(*tubes: tuple[FloatArray, IntArray]) -> Gap:
     return points, faces, loops
 
 
-def arms(count: int, distance: float = 1.0, radius: float = 0.45) -> Gap:
-    """Tubes in a plane, evenly around."""
-    turns = 2 * np.pi * np.arange(count) / count
-    axes = [np.array([np.cos(turn), np.sin(turn), 0.0]) for turn in turns]
-    return joined(*(tube(distance * axis, axis, radius) for axis in axes))
-
-
 def elbow(radius: float, bend: float = 90.0) -> Gap:
     """Two tubes where a part of a torus of radius 1 around the origin is missing, of so many degrees."""
     c, s = np.cos(np.radians(bend)), np.sin(np.radians(bend))
@@ -59,16 +52,3 @@ def elbows() -> dict[tuple[float, float], Gap]:
     """By degrees and radius, of the tables only."""
     bends = [(90.0, 0.4), (90.0, 0.25), (90.0, 0.2), (90.0, 0.15), (120.0, 0.4), (120.0, 0.25), (150.0, 0.4)]
     return {(bend, radius): elbow(radius, bend) for bend, radius in [*bends, (180.0, 0.4), (60.0, 0.3)]}
-
-
-def all_of_them() -> dict[str, Gap]:
-    """By name."""
-    return {
-        "S-bend, radii .5 and .3, offset .9, gap 1": joined(
-            tube([0, 0, 0], [0, 0, -1], 0.5), tube([0.9, 0, 1.0], [0, 0, 1], 0.3)
-        ),
-        "straight, gap of 3 radii": joined(tube([0, 0, 0], [0, 0, -1], 0.5), tube([0, 0, 1.5], [0, 0, 1], 0.5)),
-        "elbow of 90°": elbow(0.4),
-        "three tubes": arms(3),
-        "four tubes": arms(4),
-    }

@@ -105,7 +105,7 @@ def corner_case(times: int = 2) -> Case:
     return Case("regular blend", start, triangles, fixed, normals, start)
 
 
-def head_case(name: str, head: Path | None, drawing: heads.Drawing) -> Case:
+def head_case(name: str, head: Path, drawing: heads.Drawing) -> Case:
     """The region of a head inside a drawn outline; normals average all adjacent triangles of the head (§7.5)."""
     region = heads.outlined(head, drawing)
     used, local = np.unique(region.triangles[region.own], return_inverse=True)
@@ -117,23 +117,14 @@ def head_case(name: str, head: Path | None, drawing: heads.Drawing) -> Case:
 
 
 def ear_case(data: Path) -> Case:
-    """Fig. 9: of the ICT head, or Suzanne's where the folder hasn't got it."""
-    head = data / "ict_head.obj"
-    if head.exists():
-        made = head_case("human ear", head, heads.EAR)
-    else:
-        made = head_case("ear (Suzanne)", None, heads.MONKEY_EAR)
+    """Fig. 9: of the ICT head."""
+    made = head_case("human ear", data / "ict_head.obj", heads.EAR)
     return replace(made, inner_fairness="uniform", base=248, seconds=21.0)
 
 
 def face_case(data: Path) -> Case:
-    """Fig. 10, conformal to the head: of a bust of Demosthenes, or Suzanne's where the folder hasn't got it."""
-    bust = data / "demosthenes-low-res.obj"
-    if bust.exists():
-        made = head_case("bust face", bust, heads.FACE)
-    else:
-        made = head_case("muzzle (Suzanne)", None, heads.MONKEY_FACE)
-    return replace(made, base=256, seconds=12.0)
+    """Fig. 10, conformal to the head: of a bust of Demosthenes."""
+    return replace(head_case("bust face", data / "demosthenes-low-res.obj", heads.FACE), base=256, seconds=12.0)
 
 
 def all_cases(data: Path) -> list[Case]:

@@ -69,35 +69,16 @@ FACE = Drawing(
 )  # fmt: skip
 
 
-# Suzanne's, in Blender's own units.
-MONKEY_EAR = Drawing(
-    Drawn(
-        np.array([[0.02, 0.2], [-0.05, 0.45], [-0.3, 0.62], [-0.58, 0.58], [-0.7, 0.3], [-0.62, 0.0], [-0.4, -0.2],
-                  [-0.15, -0.22], [0.0, -0.02]]),
-        (2, 1), (1.33, 0.3, -0.3),
-    ),
-    4665, 108, 4, 3.2,
-)  # fmt: skip
-MONKEY_FACE = Drawing(
-    Drawn(
-        np.array([[0.0, -0.38], [0.13, -0.4], [0.19, -0.5], [0.21, -0.65], [0.2, -0.82], [0.12, -0.91], [0.0, -0.92],
-                  [-0.12, -0.91], [-0.2, -0.82], [-0.21, -0.65], [-0.19, -0.5], [-0.13, -0.4]]),
-        (0, 1), (0.0, -0.5, 0.7),
-    ),
-    2926, 130, 4,
-)  # fmt: skip
-
-
-def subdivided_head(path: Path | None, steps: int) -> tuple[FloatArray, IntArray]:
-    """The head in the file, or Suzanne without one; holes closed, Catmull–Clark steps, triangles."""
-    vertices, faces = read_polygons(path) if path else polygon_mesh.suzanne()
+def subdivided_head(path: Path, steps: int) -> tuple[FloatArray, IntArray]:
+    """The head in the file; holes closed, Catmull–Clark steps, triangles."""
+    vertices, faces = read_polygons(path)
     faces = polygon_mesh.closed(faces)
     for _ in range(steps):
         vertices, faces = polygon_mesh.catmull_clark(vertices, faces)
     return vertices, polygon_mesh.triangulated(vertices, faces)
 
 
-def outlined(path: Path | None, drawing: Drawing) -> Region:
+def outlined(path: Path, drawing: Drawing) -> Region:
     """The head with the outline in it, both sides of it thinned out to the wanted size."""
     vertices, triangles = subdivided_head(path, drawing.steps)
     cut = _around(cut_along(vertices, triangles, drawing.outline), drawing.shown)

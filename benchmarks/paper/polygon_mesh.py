@@ -1,40 +1,14 @@
-"""Polygon meshes: Suzanne, closing holes, Catmull–Clark subdivision."""
+"""Polygon meshes: closing holes, Catmull–Clark subdivision."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 Polygons = list[list[int]]
-
-
-def suzanne() -> tuple[FloatArray, Polygons]:
-    """The head of Blender's monkey (needs bpy), turned so that y is up and z the view."""
-    import bpy
-
-    bpy.ops.wm.read_factory_settings(use_empty=True)
-    bpy.ops.mesh.primitive_monkey_add()
-    mesh = bpy.context.object.data
-    vertices = np.array([v.co for v in mesh.vertices], dtype=np.float64)
-    polygons = [list(p.vertices) for p in mesh.polygons]
-    return largest_part(vertices[:, [0, 2, 1]] * [1.0, 1.0, -1.0], polygons)
-
-
-def largest_part(vertices: FloatArray, polygons: Polygons) -> tuple[FloatArray, Polygons]:
-    """The connected piece with the most vertices."""
-    ends = _ends(polygons)
-    count = len(vertices)
-    graph = coo_array((np.ones(len(ends)), tuple(ends.T)), shape=(count, count))
-    part = connected_components(graph, directed=False)[1]
-    keep = part == np.bincount(part).argmax()
-    number = np.cumsum(keep) - 1
-    kept = [number[p].tolist() for p in polygons if keep[p[0]]]
-    return vertices[keep], kept
 
 
 def closed(polygons: Polygons) -> Polygons:

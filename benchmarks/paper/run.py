@@ -4,9 +4,8 @@
     python benchmarks/paper/run.py [--data FOLDER] [--out FOLDER] [PART …]
 
 Needs fairing, numpy, scipy and matplotlib. The ear is cut out of ict_head.obj and the face out of
-demosthenes-low-res.obj in the data folder, by default `../shared/data` beside the checkout; where a file is missing out
-of Suzanne, which needs bpy. PARTs (names of the placeholders in page.md) are printed instead of the page. Takes some
-minutes.
+demosthenes-low-res.obj in the data folder, by default `../shared/data` beside the checkout. PARTs (names of the
+placeholders in page.md) are printed instead of the page. Takes some minutes.
 """
 
 from __future__ import annotations
@@ -24,11 +23,10 @@ DATA = ROOT.parent / "shared" / "data"
 sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks" / "common")]
 
 
-def missing_modules(data: Path) -> list[str]:
-    """What has to be installed first."""
-    whole = all((data / name).exists() for name in ("ict_head.obj", "demosthenes-low-res.obj"))
-    wanted = ["fairing", "numpy", "scipy", "matplotlib"] + ([] if whole else ["bpy"])
-    return [name for name in wanted if find_spec(name) is None]
+def missing(data: Path) -> list[str]:
+    """What has to be there first."""
+    files = [str(data / name) for name in ("ict_head.obj", "demosthenes-low-res.obj") if not (data / name).exists()]
+    return [name for name in ("fairing", "numpy", "scipy", "matplotlib") if find_spec(name) is None] + files
 
 
 def parts(data: Path, pictures: Path) -> dict[str, Callable[[], str]]:
@@ -68,8 +66,8 @@ def main() -> int:
     parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of paper.md and pictures/")
     parser.add_argument("part", nargs="*", help="only these placeholders, printed")
     options = parser.parse_args()
-    if missing := missing_modules(options.data):
-        print(f"first: pip install {' '.join(missing)}   (fairing: pip install . in {ROOT.name})", file=sys.stderr)
+    if lacking := missing(options.data):
+        print(f"missing: {' '.join(lacking)}   (fairing: pip install . in {ROOT.name})", file=sys.stderr)
         return 2
     made = parts(options.data, options.out / "pictures")
     for name in options.part:
