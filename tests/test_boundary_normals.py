@@ -53,6 +53,29 @@ def test_an_undivided_box_with_a_boss_comes_back_flat() -> None:
     assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
 
 
+def bevelled_box(segments: int, width: float, cells: int = 6) -> tuple[FloatArray, IntArray, IntArray]:
+    """A box with rounded edges, and noise on its flat top: vertices, the top's triangles, the others."""
+    half = segments // 2
+    vertices, triangles = solids.box(cells + segments)
+    step = np.rint((vertices + 1) * (cells + segments) / 2) - (cells + segments) / 2
+    inner = (1 - width) * np.clip(step / (cells / 2), -1, 1)
+    beyond = np.sign(step) * np.clip(np.abs(step) - cells / 2, 0, None)
+    offset = np.tan(np.pi / 4 * beyond / half)
+    vertices = inner + width * offset / np.linalg.norm(offset, axis=1, keepdims=True)
+    top = (vertices[triangles][:, :, 2] > 1 - 1e-9).all(axis=1)
+    own = np.setdiff1d(triangles[top], triangles[~top])
+    vertices[own, 2] += 0.1 * np.random.default_rng(7).normal(size=len(own))
+    return vertices, triangles[top], triangles[~top]
+
+
+@pytest.mark.parametrize("width", [0.02, 0.1, 0.3])
+@pytest.mark.parametrize("segments", [2, 4, 6])
+def test_the_top_of_a_bevelled_box_comes_back_flat(segments: int, width: float) -> None:
+    """Fits see the walls beyond two rows, and took the slope of the bevel: .2 high."""
+    result, _, free = faired(*bevelled_box(segments, width))
+    assert np.abs(result.vertices[free, 2] - 1).max() < 1e-3 * width
+
+
 @pytest.mark.parametrize("noise", [0.07, 0.3, 1.0])
 def test_noise_on_the_top_does_not_count(noise: float) -> None:
     """In edges; tangent to the sides it rises by .98."""

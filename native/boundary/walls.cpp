@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/direction.h"
 #include "boundary/closing.h"
@@ -22,10 +23,8 @@ struct Meeting {
     int outside;
 };
 
-std::vector<Meeting> meetings(const PatchInMesh& mesh) {
-    const auto count = static_cast<int>(mesh.points.cols());
-    const EdgeTable inside = make_edges(mesh.inside, count);
-    const EdgeTable outside = make_edges(mesh.outside, count);
+std::vector<Meeting> meetings(const PatchInMesh& mesh, const EdgeTable& outside) {
+    const EdgeTable inside = make_edges(mesh.inside, static_cast<int>(mesh.points.cols()));
     std::vector<Meeting> found;
     for (int i = 0, o = 0; i < inside.size() && o < outside.size();) {
         if (inside.ends[i] < outside.ends[o]) {
@@ -50,31 +49,47 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
 struct Means {
     Eigen::Vector2d patch = Eigen::Vector2d::Zero();  // cosine and sine of the angle of its own triangles
     Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise
+    Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
+    double rows_bend = 0.0;                           // likewise, of that arc
     double length = 0.0;
 };
 
 double angle_of(const Eigen::Vector2d& sum) { return std::atan2(sum.y(), sum.x()) / degree; }
 
+constexpr double flat = 1.0;         // degrees: the two triangles of a quad
 constexpr double explained = 0.25;   // of the dip: balls .8 to 1.1, ellipsoids .35 to 2, boxes and cans 0 to .05
 constexpr double rounder = 1.25;     // bend of which there is no ball: it has 1 at most
 constexpr double far_rounder = 3.0;  // times the dip
 // Of a loop: real meshes have single edges like walls everywhere.
 constexpr double shortest_row = 0.125;
 
-// A film can be nearer to the patch than to the surroundings by no more than these are apart.
 bool may_be_wall(const Means& part) {
     const double own = std::abs(angle_of(part.patch));
-    return own > fading_bend || (own > 1.0 && std::abs(part.bend) > rounder * part.length);
+    const double bend = std::max(own > 1.0 ? std::abs(part.bend) : 0.0, part.rows_bend);
+    return own > fading_bend || bend > rounder * part.length;
+}
+
+// What fits or the first two rows say bends more than any ball, and goes on in the film. Fits look beyond few rows, or
+// see one of them alone; they count where the patch is as near to the film, rows where they are nearer to it than fits.
+bool is_bevel(const Means& part) {
+    const double film = std::abs(angle_of(part.film));
+    const double off_patch = std::abs(angle_of(part.film) - angle_of(part.patch));
+    const double off_rows = std::abs(angle_of(part.film) - angle_of(part.rows));
+    const auto goes_on = [&](double bend, double off) {
+        return bend > std::max(rounder, far_rounder * std::sin(off * degree)) * part.length;
+    };
+    return (goes_on(part.rows_bend, off_rows) && off_rows < 0.5 * film) ||
+           (goes_on(std::abs(part.bend), film) && off_patch < 0.5 * film);
 }
 
 bool is_wall(const Means& part) {
     const double film = angle_of(part.film);
-    const double nearer = std::abs(film) - std::abs(film - angle_of(part.patch));
     const double dip = part.film.y();
-    if (part.bend * dip < explained * dip * dip) return nearer > fading_bend;
-    const bool is_bevel = std::abs(part.bend) > std::max(rounder * part.length, far_rounder * std::abs(dip));
-    return is_bevel && nearer > 0.5 * std::abs(film);
+    const bool bends_away = std::min(film, angle_of(part.patch)) > fading_bend;
+    const bool bends_back = std::max(film, angle_of(part.patch)) < -fading_bend;
+    const bool is_unexplained = part.bend * dip < explained * dip * dip;
+    return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
 
 class Rim {
@@ -82,7 +97,8 @@ public:
     Rim(const PatchInMesh& mesh, const RimFits& rim)
         : mesh_(mesh),
           rim_(rim),
-          edges_(meetings(mesh)),
+          outside_(make_edges(mesh.outside, static_cast<int>(mesh.points.cols()))),
+          edges_(meetings(mesh, outside_)),
           place_(static_cast<std::size_t>(mesh.points.cols()), none),
           parts_(place_.size(), 0) {
         for (std::size_t k = 0; k < rim.vertices.size(); ++k) place_[rim.vertices[k]] = static_cast<int>(k);
@@ -193,6 +209,54 @@ private:
         return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(t)), -inwards.dot(normal));
     }
 
+    // The surroundings cut across the edge: where their first two rows end, from its middle. Faces in a plane are one.
+    [[nodiscard]] std::optional<std::array<Vector3, 2>> rows_beyond(const Meeting& edge) const {
+        constexpr int most_faces = 40;  // two rows of quads have four, fans beside an undivided row many
+        const Triangles& all = mesh_.outside;
+        const Vector3 from = middle(edge);
+        const Vector3 t = direction(between(edge));
+        const auto height = [&](int v) { return t.dot(mesh_.points.col(v) - from); };
+        std::vector<Vector3> ends;
+        for (int side = edge.outside, k = 0; k < most_faces; ++k) {
+            const int corner = side % 3;
+            const int tip = all((corner + 2) % 3, side / 3);
+            const bool by_head = (height(tip) > 0.0) != (height(side_head(all, side)) > 0.0);
+            const int exit = side - corner + (corner + (by_head ? 1 : 2)) % 3;
+            const int e = outside_.edge_of_side[exit];
+            if (outside_.side_count(e) != 2) return std::nullopt;
+            const int other = outside_.side(e, outside_.side(e, 0) == exit ? 1 : 0);
+            const double bend =
+                degrees_between(normal_of(mesh_.points, all, exit), normal_of(mesh_.points, all, other));
+            if (bend > flat) {
+                const double a = height(side_tail(all, exit));
+                const double b = height(side_head(all, exit));
+                const Vector3 tail = mesh_.points.col(side_tail(all, exit));
+                ends.push_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
+                if (ends.size() == 2) return std::array{ends[0], ends[1]};
+            }
+            side = other;
+        }
+        return std::nullopt;
+    }
+
+    // The arc through the edge's middle and these ends, seen along the edge.
+    void add_rows(const Meeting& edge, double reach, Means& means) const {
+        const auto ends = rows_beyond(edge);
+        if (!ends) return;
+        const Vector3 normal = normal_at(edge);
+        const Vector3 onwards = normal.cross(along(edge));
+        const auto plane = [&](const Vector3& p) { return Eigen::Vector2d(onwards.dot(p), -normal.dot(p)); };
+        const Eigen::Vector2d last = -plane((*ends)[0]);
+        const Eigen::Vector2d first = -plane((*ends)[1]) - last;
+        const double turn = first.x() * last.y() - first.y() * last.x();
+        const double curvature = 2.0 * turn / (first.norm() * last.norm() * (first + last).norm());
+        if (!std::isfinite(curvature)) return;
+        const double length = between(edge).norm();
+        const double rest = std::asin(std::clamp(0.5 * curvature * last.norm(), -1.0, 1.0));
+        means.rows += length * (Eigen::Rotation2Dd(rest) * last.normalized());
+        means.rows_bend += length * curvature * reach;
+    }
+
     void add(const Meeting& edge, const Vector3& loop_middle, Means& means) const {
         const double length = between(edge).norm();
         const Vector3 t = along(edge);
@@ -207,12 +271,15 @@ private:
             ++count;
         }
         means.patch += turn(edge, mesh_.points);
-        means.bend += length * curvature / std::max(count, 1) * (reach - reach.dot(t) * t).norm();
+        const double distance = (reach - reach.dot(t) * t).norm();
+        means.bend += length * curvature / std::max(count, 1) * distance;
+        add_rows(edge, distance, means);
         means.length += length;
     }
 
     const PatchInMesh& mesh_;
     const RimFits& rim_;
+    EdgeTable outside_;
     std::vector<Meeting> edges_;
     Indices place_;            // of each vertex in rim_.vertices
     std::vector<char> parts_;  // vertices at which a hard edge outside ends
@@ -222,7 +289,8 @@ private:
 
 VertexPairs outline_edges(const PatchInMesh& mesh) {
     VertexPairs result;
-    for (const Meeting& edge : meetings(mesh)) result.push_back(edge.ends);
+    const EdgeTable outside = make_edges(mesh.outside, static_cast<int>(mesh.points.cols()));
+    for (const Meeting& edge : meetings(mesh, outside)) result.push_back(edge.ends);
     return result;
 }
 

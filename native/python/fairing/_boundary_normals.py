@@ -37,9 +37,9 @@ def boundary_normals(
 
     ``side``: "outside" takes the slope of the triangles outside, as :func:`fairing.surrounding_normals` does. "inside"
     takes that of the patch's own triangles beside the boundary, for the top of a box that is to stay flat. "automatic"
-    decides for each row of hard edges (:func:`fairing.hard_edges`) that closes a loop or goes on outside. The inside
-    counts where a surface over the boundary is nearer to it than to the outside. The outside counts everywhere else,
-    and at a vertex between edges of both kinds.
+    looks for walls, beside which the surface does not go on: sides of boxes and cans, bevels. There the slope is that
+    of the patch's own triangles where these are clean, else that of a film over the boundary. The outside counts
+    everywhere else, and at a vertex between edges of both kinds.
 
     ``creases``: (c, 2) edges that are hard whatever they bend. Fits use one side of hard edges alone.
     """
