@@ -14,7 +14,7 @@ FILE = re.compile(r"`((?:addon|benchmarks|docs|native|scripts|tests)/[\w./-]+)`"
 # A file and what it defines or calls, as the walks of docs/architecture.md have them.
 WALK = re.compile(r"`((?:addon|native)/[\w/]+\.\w+)` \(((?:`\w+`(?:, )?)+)\)")
 # Figures make some of their lines long.
-GENERATED = ("docs/paper.md", "docs/performance.md", "docs/dev/performance_log.md")
+GENERATED = ("docs/paper.md", "docs/performance.md")
 
 
 def name(page: Path) -> str:
@@ -94,7 +94,6 @@ def test_tables_are_whole(page: Path) -> None:
     ("page", "template"),
     [
         ("docs/performance.md", "benchmarks/peers/page.md"),
-        ("docs/dev/performance_log.md", "benchmarks/peers/log.md"),
         ("docs/paper.md", "benchmarks/paper/page.md"),
     ],
 )

@@ -1,6 +1,6 @@
 """Holes and bridges: exact surfaces, real meshes, peers.
 
-    python benchmarks/fill [hemisphere | peers | caps | shapes | curvature | elbows | unseen …]
+    python benchmarks/fill [hemisphere | peers | caps | shapes | elbows | unseen …]
 
 Prints all tables of docs/fill.md, in one run where none is named. Processor time, one thread. `unseen` needs
 shared/data beside the checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
@@ -72,11 +72,6 @@ def shapes() -> Iterator[str]:
     yield from known_surfaces.shapes()
 
 
-def curvature() -> Iterator[str]:
-    """Where the curvature around is continued, fitted or exact."""
-    yield from known_surfaces.curvature()
-
-
 def elbows() -> Iterator[str]:
     """Bridges around bends of radius 1, and by how much they miss the torus."""
     yield "| bend | radius | new vertices | converged | angle | least angle | valence | equation | off the torus | s |"
@@ -128,7 +123,7 @@ def peers() -> Iterator[str]:
 
 
 TABLES: dict[str, Callable[[], Iterator[str]]] = {
-    "hemisphere": hemisphere, "peers": peers, "caps": caps, "shapes": shapes, "curvature": curvature,
+    "hemisphere": hemisphere, "peers": peers, "caps": caps, "shapes": shapes,
     "elbows": elbows, "unseen": unseen,
 }  # fmt: skip
 

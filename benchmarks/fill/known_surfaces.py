@@ -11,7 +11,6 @@ import numpy as np
 import fairing
 import holes
 import test_fill
-import test_fill_joins
 from holes import FloatArray
 
 
@@ -54,31 +53,3 @@ def _shape(name: str, vertices: FloatArray, triangles: Any, loops: list[Any], of
     diameter = 2 * np.linalg.norm(outline - outline.mean(axis=0), axis=1).max()
     error = abs(off(result.vertices)).max() / diameter
     return f"| {name} | {len(outline) // len(loops)} | {error:.1e} | {seconds:.2f} |"
-
-
-def curvature() -> Iterator[str]:
-    """Holes whose surroundings' curvature is continued: errors ÷ D."""
-    yield "| surface | rim | tangent | curvature, fitted | curvature, exact |"
-    for name in test_fill_joins.SURFACES:
-        for cells in (20, 40, 80):
-            vertices, triangles, loop = test_fill_joins.holed(name, cells)
-            fits = fairing.surrounding_normals(vertices, triangles, loop).curvatures
-            exact = _EXACT[name](vertices)
-            exact = exact * np.sign((exact[loop] * fits).sum())
-            ways = ({}, {"continuity": "G2"}, {"continuity": "G2", "fixed_curvatures": exact})
-            errors = [
-                test_fill_joins.error(name, cells, test_fill_joins.filled(name, cells, threads=1, **way))
-                for way in ways
-            ]
-            yield f"| {name} | {len(loop)} | " + " | ".join(f"{error:.1e}" for error in errors) + " |"
-
-
-def _curvature_of_torus(points: FloatArray) -> FloatArray:
-    axis = _from_axis(points)
-    result: FloatArray = 0.5 * (1 + (axis - 2) / axis)
-    return result
-
-
-_EXACT: dict[str, Callable[[FloatArray], FloatArray]] = {
-    "cubic": test_fill_joins.curvature_of_cubic, "torus": _curvature_of_torus,
-}  # fmt: skip

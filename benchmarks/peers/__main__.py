@@ -5,8 +5,8 @@
     python benchmarks/peers --parts memory,quality | --page
 
 Needs fairing, igl, meshlib, pymeshlab, numpy, scipy, matplotlib and the driver that `run` builds. Measurements go to
-build/peers/measured.json, the page with its plots to docs/performance.md, its log to docs/dev/performance_log.md.
---parts measures some tables anew and keeps the others, --page only writes both pages.
+build/peers/measured.json, the page with its plots to docs/performance.md. --parts measures some tables anew and keeps
+the others, --page only writes the page.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "peers"
 sys.path += [str(ROOT / "tests"), str(BUILD / "driver")]
-PARTS = "times,live,graded,real,irregular,repeated,memory,quality"
+PARTS = "times,live,real,irregular,memory,quality"
 NEEDED = ("fairing", "igl", "meshlib", "pymeshlab", "peers_driver", "numpy", "scipy", "matplotlib")
 
 
@@ -31,14 +31,14 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--limit", type=float, default=300.0, help="leave out calls expected to take longer, s")
     parser.add_argument("--calls", type=int, default=7, help="of each tool at most")
     parser.add_argument("--parts", default=PARTS, help="measure only these anew")
-    parser.add_argument("--page", action="store_true", help="measure nothing, write the pages from the last run")
+    parser.add_argument("--page", action="store_true", help="measure nothing, write the page from the last run")
     parser.add_argument("--measured", type=Path, default=BUILD / "measured.json", help="file of the measurements")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of performance.md, dev/ and pictures/")
+    parser.add_argument("--out", type=Path, default=ROOT / "docs", help="folder of performance.md and pictures/")
     return parser.parse_args()
 
 
-def write_pages(path: Path, out: Path) -> None:
-    """Fills the placeholders of page.md and log.md and draws the plots."""
+def write_page(path: Path, out: Path) -> None:
+    """Fills the placeholders of page.md and draws the plots."""
     import charts
     import goals
     import tables
@@ -46,19 +46,16 @@ def write_pages(path: Path, out: Path) -> None:
 
     done = Measured.load(path)
     made = {"goals": goals.table, **tables.BY_NAME}
-    for template, name in (("page.md", "performance.md"), ("log.md", "dev/performance_log.md")):
-        page = (Path(__file__).parent / template).read_text()
-        for placeholder, make in made.items():
-            if "{{" + placeholder + "}}" in page:
-                page = page.replace("{{" + placeholder + "}}", make(done))
-        (out / name).parent.mkdir(parents=True, exist_ok=True)
-        (out / name).write_text(page)
+    page = (Path(__file__).parent / "page.md").read_text()
+    for placeholder, make in made.items():
+        page = page.replace("{{" + placeholder + "}}", make(done))
+    (out / "performance.md").write_text(page)
     charts.save(done, out / "pictures")
     print(goals.table(done, notes=True))
 
 
 def main() -> int:
-    """Measures, then writes the pages."""
+    """Measures, then writes the page."""
     options = arguments()
     if missing := [name for name in NEEDED if find_spec(name) is None]:
         print(f"missing: {', '.join(missing)}; benchmarks/peers/run installs and builds them", file=sys.stderr)
@@ -69,7 +66,7 @@ def main() -> int:
         sizes = [int(word) for word in options.sizes.split(",")] + [1_000_000] * options.million
         parts = tuple(options.parts.split(","))
         run(Plan(sizes, options.limit, BUILD / "inputs", options.calls, parts), options.measured)
-    write_pages(options.measured, options.out)
+    write_page(options.measured, options.out)
     return 0
 
 

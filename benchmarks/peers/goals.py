@@ -43,7 +43,7 @@ class Goal:
 def goals(done: Measured) -> list[Goal]:
     """In the order of the plan."""
     return [
-        *_ratios(done), *_live(done), *_repeated(done), *_growth(done), *_memory(done), *_graded(done),
+        *_ratios(done), *_live(done), *_growth(done), *_memory(done),
         *_irregular(done), *_real(done), *_steps(done),
     ]  # fmt: skip
 
@@ -145,22 +145,6 @@ def _growth(done: Measured) -> Iterator[Goal]:
 def _memory(done: Measured) -> Iterator[Goal]:
     used = [row["megabytes"] for row in done.memory if row["tool"] == OURS and row["size"] == 1_000_000]
     yield Goal("memory above the input, 1M", 1.2, used[0] / 1000 if used else None, unit=" GB")
-
-
-def _repeated(done: Measured) -> Iterator[Goal]:
-    for size, most in ((2_000, 10.0), (10_000, 50.0)):
-        rows = [row for row in done.repeated if row["size"] == size]
-        slowest = max((1000 * row["median"] for row in rows), default=None)
-        note = "; ".join(f"{row['shape']}: linear back-substitution {1000 * row['linear']:.2g} ms" for row in rows)
-        text = f"`Solver.solve` after a small boundary move, {_thousands(size)}"
-        yield Goal(text, most, slowest, note or "this engine has no `fairing.Solver`", unit=" ms")
-
-
-def _graded(done: Measured) -> Iterator[Goal]:
-    text = "graded irregular 100k (edge ratio 40) ÷ regular 100k"
-    walls = {row["kind"]: row["wall"] / row["free"] for row in done.graded if "wall" in row}
-    ratio = walls["graded irregular"] / walls["regular"] if len(walls) == 2 else None
-    yield Goal(text, 2, ratio, "per vertex")
 
 
 def _irregular(done: Measured) -> Iterator[Goal]:

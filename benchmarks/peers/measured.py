@@ -16,12 +16,10 @@ import fairing
 import live_rows
 import memory
 import real_rows
-import repeated
 from problems import BLEND, IRREGULAR, PATCHES, REGULAR, problem
 from tools import BY_NAME, OURS, TOOLS, Tool
 
 SHAPES = [name for name in PATCHES if name != "graded hemisphere"] + [BLEND]
-GRADED = 100_000
 UNEVEN = (1_000, 10_000)
 REAL = (10_000, 30_000, 100_000)
 LARGEST_FOR_ALL = 256_000  # beyond, ours and the peers alone: others take hours
@@ -37,8 +35,6 @@ class Measured:
     live: list[Row] = field(default_factory=list)
     memory: list[Row] = field(default_factory=list)
     quality: list[Row] = field(default_factory=list)
-    repeated: list[Row] = field(default_factory=list)
-    graded: list[Row] = field(default_factory=list)
     real: list[Row] = field(default_factory=list)
     irregular: list[Row] = field(default_factory=list)
 
@@ -139,20 +135,6 @@ def _live(plan: Plan, _done: Measured) -> Iterator[Row]:
             yield {"shape": shape, "size": size, **asdict(live_rows.timed(problem(plan.folder, shape, size)))}
 
 
-def _graded(plan: Plan, _done: Measured) -> Iterator[Row]:
-    """Ours on a graded irregular mesh and on a regular one of the same size, in turns."""
-    if GRADED not in plan.sizes:
-        return
-    ours = BY_NAME[OURS]
-    made = [problem(plan.folder, "graded hemisphere", GRADED), problem(plan.folder, "hemisphere", GRADED, REGULAR)]
-    found = [clock.Clocked(), clock.Clocked()]
-    for _ in range(plan.calls):
-        for mesh, clocked in zip(made, found, strict=True):
-            clocked.call(ours, mesh)
-    for mesh, clocked, kind in zip(made, found, ("graded irregular", "regular"), strict=True):
-        yield {"kind": kind, "free": len(mesh.free), **_clocked(mesh, clocked)}
-
-
 def _irregular(plan: Plan, _done: Measured) -> Iterator[Row]:
     """Ours on irregular and regular meshes of a surface, the fast peers on the same irregular one."""
     peers = [tool for tool in TOOLS if tool.kind == "peer" and not tool.alike]
@@ -170,14 +152,6 @@ def _real(plan: Plan, _done: Measured) -> Iterator[Row]:
     for size in (size for size in REAL if size <= max(plan.sizes)):
         for name in filter(real_rows.available, real_rows.MESHES):
             yield {"mesh": name, "size": size, **asdict(real_rows.timed(name, size, min(plan.calls, 3)))}
-
-
-def _repeated(plan: Plan, _done: Measured) -> Iterator[Row]:
-    for size in (2_000, 10_000):
-        for shape in ("hemisphere", "catenoid"):
-            made = problem(plan.folder, shape, size)
-            if repeated.available():
-                yield {"shape": shape, "size": size, **asdict(repeated.dragged(made))}
 
 
 def _memory(plan: Plan, done: Measured) -> Iterator[Row]:
@@ -202,10 +176,8 @@ def _quality(plan: Plan, _done: Measured) -> Iterator[Row]:
 PARTS: dict[str, Callable[[Plan, Measured], Iterator[Row]]] = {
     "times": _times,
     "live": _live,
-    "graded": _graded,
     "real": _real,
     "irregular": _irregular,
-    "repeated": _repeated,
     "memory": _memory,
     "quality": _quality,
 }

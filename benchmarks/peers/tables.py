@@ -1,4 +1,4 @@
-"""The tables of docs/performance.md and docs/dev/performance_log.md."""
+"""The tables of docs/performance.md."""
 
 from __future__ import annotations
 
@@ -67,21 +67,6 @@ def _judged_shapes(done: Measured) -> list[str]:
     return [*CAPS, *(shape for shape in shapes if shape not in CAPS)]
 
 
-def repeated(done: Measured) -> str:
-    """Milliseconds, or why there are none."""
-    if not done.repeated:
-        return "This engine has no `fairing.Solver`: not measured."
-    names = ("first", "median", "longest", "whole", "linear")
-    rows = [
-        [f"{row['shape']}, {row['size']:,}", *(f"{1000 * row[name]:.3g}" for name in names), str(row["steps"]),
-         f"{row['apart']:.0e}"]
-        for row in done.repeated
-    ]  # fmt: skip
-    head = ["milliseconds", "first solve", "after a move, median", "longest", "whole call of `fair`",
-            "linear back-substitution", "outer steps, most", "from the whole call's answer / D"]  # fmt: skip
-    return _table(head, rows)
-
-
 def steps(_: Measured) -> str:
     """Of PyMeshLab's smoothing."""
     return str(SMOOTHING_STEPS)
@@ -93,6 +78,6 @@ def quality_size(done: Measured) -> str:
 
 
 BY_NAME: dict[str, Callable[[Measured], str]] = {
-    "machine": machine, "times": times, "repeated": repeated,
+    "machine": machine, "times": times,
     "errors": errors, "quality_size": quality_size, "steps": steps,
 }  # fmt: skip
