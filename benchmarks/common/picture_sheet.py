@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-import webp
 from rasteriser import FloatArray
 
 CAPTION = 26  # pixels
 GAP = 6
+LARGEST = 400_000  # bytes of a WebP file
+QUALITIES = (92, 86, 78, 68)
 PAPER = (255, 255, 255)
 Panel = tuple[FloatArray, str]
 
@@ -37,10 +38,14 @@ def save_sheet(rows: Sequence[Sequence[Panel]], path: Path) -> None:
     if path.suffix == ".png":
         sheet.save(path)
     else:
-        webp.save(sheet, path)
+        save_webp(sheet, path)
 
 
-def save_pairs(shown: Iterable[tuple[str, Iterable[FloatArray]]], path: Path) -> None:
-    """Write names and their tiles, which stand side by side, two names in each row."""
-    panels = [(np.hstack(list(tiles)), name) for name, tiles in shown]
-    save_sheet([panels[k : k + 2] for k in range(0, len(panels), 2)], path)
+def save_webp(picture: Image.Image, path: Path) -> None:
+    """Write the picture with the best quality that is small enough; path ends in .webp."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    for quality in QUALITIES:
+        picture.convert("RGB").save(path, "WEBP", quality=quality, method=6)
+        if path.stat().st_size <= LARGEST:
+            return
+    raise ValueError(f"{path} has more than {LARGEST} bytes: draw fewer or smaller tiles")

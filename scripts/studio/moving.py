@@ -1,4 +1,4 @@
-"""Two short animations: a seam that becomes a fillet, and Live while a bottle's neck is dragged."""
+"""A short animation: Live while a bottle's neck is dragged."""
 
 import sys
 from collections.abc import Iterator
@@ -12,26 +12,11 @@ import demo_pictures as pictures
 import lesson_sheets
 import sheet
 from lesson_play import Move, box_above, move
-from rows import smooth
 
 SIZE = 600  # pixels of each of two pictures beside each other
 FRAMES = 20
 PAUSE, HOLD = 90, 1200  # ms of a frame, of the first and the last one
 LARGEST = 2_000_000  # bytes
-
-
-def fillet(out: Path) -> Iterator[Path]:
-    """The width grows."""
-    lesson = lesson_sheets.LESSONS["tutorial_seam"]
-    lesson_sheets.begun(lesson)
-    yield frame(out / "fillet_0.png", "Edge ▸ Fair Fillet: the seam is selected", with_selection=True)
-    for k in range(1, FRAMES + 1):
-        width = 0.3 * k / FRAMES
-        lesson_sheets.begun(lesson)
-        bpy.ops.object.mode_set(mode="EDIT")
-        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", width=width)
-        smooth()
-        yield frame(out / f"fillet_{k}.png", f"Width {width:.2f}", with_selection=False)
 
 
 def live(out: Path) -> Iterator[Path]:
@@ -77,4 +62,4 @@ def write(name: str, out: Path) -> None:
         raise ValueError(f"{target} has more than {LARGEST} bytes")
 
 
-MOVING = {"fillet": fillet, "live": live}
+MOVING = {"live": live}
