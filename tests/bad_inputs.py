@@ -1,11 +1,8 @@
-"""Meshes that can't be faired, or only with a warning: each with the code it must cause.
+"""Meshes that can't be faired, or only with a warning, by name; closed balls.
 
-`CASES` are refused with MeshError, `WARNINGS` are solved. A case is a function without arguments.
+`CASES` are refused with MeshError, `WARNINGS` are solved.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -19,108 +16,23 @@ from meshing import IntArray
 
 @dataclass(frozen=True)
 class Case:
-    """vertices (n, 3), triangles (m, 3), further arguments of `fair`, and what must come of it.
-
-    elements: indices that the error or warning must name (None: any).
-    """
+    """vertices (n, 3), triangles (m, 3), the code that must come of it, the elements that must be named, options."""
 
     vertices: FloatArray
     triangles: IntArray
     code: str
-    elements: tuple[int, ...] | None = None
+    elements: tuple[int, ...] = ()
     options: dict[str, Any] = field(default_factory=dict)
 
 
-def _base(n_free: int = 60) -> shapes.Patch:
-    return shapes.cap(n_free)
-
-
-def _inner_edge(patch: shapes.Patch) -> tuple[int, int]:
-    """An edge between two free vertices."""
-    edges = measures.edges(patch.triangles)
-    free = edges[np.isin(edges, patch.free).all(axis=1)]
-    return int(free[0, 0]), int(free[0, 1])
-
-
-def _spoilt(array: Any, row: int, column: int, value: float) -> Any:
+def with_entry(array: Any, row: int, column: int, value: float) -> Any:
     """A copy with one entry changed."""
     copy = array.copy()
     copy[row, column] = value
     return copy
 
 
-def not_a_number() -> Case:
-    """One free vertex is NaN."""
-    patch = _base()
-    at = int(patch.free[5])
-    return Case(_spoilt(patch.vertices, at, 1, np.nan), patch.triangles, "NONFINITE", (at,))
-
-
-def infinite() -> Case:
-    """One fixed vertex is infinite."""
-    patch = _base()
-    at = int(patch.fixed[2])
-    return Case(_spoilt(patch.vertices, at, 0, np.inf), patch.triangles, "NONFINITE", (at,))
-
-
-def normal_not_a_number() -> Case:
-    """One prescribed normal is NaN."""
-    patch = _base()
-    options = {"fixed": patch.fixed, "fixed_normals": _spoilt(patch.fixed_normals, 3, 0, np.nan)}
-    return Case(patch.vertices, patch.triangles, "NONFINITE", None, options)
-
-
-def index_too_large() -> Case:
-    """A triangle names a vertex that does not exist."""
-    patch = _base()
-    return Case(patch.vertices, _spoilt(patch.triangles, 4, 1, len(patch.vertices)), "INDEX_RANGE")
-
-
-def index_negative() -> Case:
-    """A triangle names vertex −1."""
-    patch = _base()
-    return Case(patch.vertices, _spoilt(patch.triangles, 4, 1, -1), "INDEX_RANGE")
-
-
-def fixed_out_of_range() -> Case:
-    """`fixed` names a vertex that does not exist."""
-    patch = _base()
-    fixed = np.append(patch.fixed, len(patch.vertices) + 3)
-    return Case(patch.vertices, patch.triangles, "INDEX_RANGE", None, {"fixed": fixed})
-
-
-def edge_of_three() -> Case:
-    """A bubble stands on a triangle between free vertices: three edges of three triangles."""
-    patch = _base()
-    inside = patch.triangles[np.isin(patch.triangles, patch.free).all(axis=1)][0]
-    vertices = np.vstack([patch.vertices, 1.5 * patch.vertices[[inside[0]]]])
-    top = len(patch.vertices)
-    bubble = [[inside[k], inside[(k + 1) % 3], top] for k in range(3)]
-    triangles = np.vstack([patch.triangles, bubble])
-    return Case(vertices, triangles, "NONMANIFOLD_EDGE", tuple(int(v) for v in inside))
-
-
-def fin() -> Case:
-    """A single triangle stands on an edge in the middle of the patch, whose outline is given."""
-    patch = _base()
-    a, b = _inner_edge(patch)
-    vertices = np.vstack([patch.vertices, 2 * patch.vertices[[a]]])
-    triangles = np.vstack([patch.triangles, [[a, b, len(patch.vertices)]]])
-    options = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
-    return Case(vertices, triangles, "NONMANIFOLD_EDGE", (a, b), options)
-
-
-def bow_tie() -> Case:
-    """Two discs share one free vertex."""
-    patch = _base()
-    count, shared = len(patch.vertices), int(patch.free[0])
-    other = patch.triangles + count
-    other[other == shared + count] = shared
-    vertices = np.vstack([patch.vertices, patch.vertices + np.array([0.0, 0.0, 2.0])])
-    return Case(vertices, np.vstack([patch.triangles, other]), "NONMANIFOLD_VERTEX", (shared,))
-
-
-def moebius_strip() -> Case:
+def moebius_strip() -> tuple[FloatArray, IntArray]:
     """A band with half a twist, five vertices across."""
     rows, columns = 30, 5
     angle = np.repeat(2 * np.pi * np.arange(rows) / rows, columns)
@@ -129,42 +41,18 @@ def moebius_strip() -> Case:
     vertices = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), across * np.sin(angle / 2)])
     i, j = (k.ravel() for k in np.meshgrid(np.arange(rows), np.arange(columns - 1), indexing="ij"))
     a, d = i * columns + j, i * columns + j + 1
-    last = i == rows - 1
-    b = np.where(last, columns - 1 - j, (i + 1) * columns + j)
-    c = np.where(last, columns - 2 - j, (i + 1) * columns + j + 1)
-    triangles = np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
-    return Case(vertices, triangles, "NOT_ORIENTABLE")
-
-
-def closed_sphere() -> Case:
-    """Two hemispheres joined at the equator, nothing fixed."""
-    vertices, triangles, _ = closed_ball()
-    return Case(vertices, triangles, "NO_BOUNDARY")
-
-
-def single_triangle() -> Case:
-    """Nothing to move."""
-    vertices = np.eye(3)
-    return Case(vertices, np.array([[0, 1, 2]]), "NO_FREE_VERTICES")
-
-
-def everything_fixed() -> Case:
-    """All vertices are fixed by the caller."""
-    patch = _base()
-    everything = np.arange(len(patch.vertices))
-    options = {"fixed": everything, "fixed_normals": patch.normals}
-    return Case(patch.vertices, patch.triangles, "NO_FREE_VERTICES", None, options)
+    b = np.where(i == rows - 1, columns - 1 - j, (i + 1) * columns + j)
+    c = np.where(i == rows - 1, columns - 2 - j, (i + 1) * columns + j + 1)
+    return vertices, np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
 
 
 def closed_ball(n_free: int = 60) -> tuple[FloatArray, IntArray, IntArray]:
     """The unit sphere from two different irregular hemispheres: vertices, triangles, equator."""
-    upper = shapes.cap(n_free, shapes.Style(seed=1))
-    lower = shapes.cap(n_free, shapes.Style(seed=2))
+    upper, lower = (shapes.cap(n_free, shapes.Style(seed=seed)) for seed in (1, 2))
     if len(upper.fixed) != len(lower.fixed):
         raise RuntimeError("the rims of the two hemispheres differ")
-    count = len(upper.vertices)
     index = np.empty(len(lower.vertices), dtype=np.int64)
-    index[lower.free] = count + np.arange(len(lower.free))
+    index[lower.free] = len(upper.vertices) + np.arange(len(lower.free))
     index[lower.fixed] = upper.fixed
     mirrored = lower.vertices[lower.free] * [1.0, 1.0, -1.0]
     triangles = np.vstack([upper.triangles, index[lower.triangles][:, ::-1]])
@@ -177,80 +65,81 @@ def ball_of_meridians(segments: int, rings: int) -> tuple[FloatArray, IntArray]:
     around = 2 * np.pi * np.arange(segments) / segments
     inner = [(np.sin(t) * np.cos(p), np.sin(t) * np.sin(p), np.cos(t)) for t in polar for p in around]
     vertices = np.array([(0, 0, 1), *inner, (0, 0, -1)])
-    last = len(vertices) - 1
-    triangles = []
+    last, end, triangles = len(vertices) - 1, 1 + (rings - 2) * segments, []
     for i in range(segments):
         j = (i + 1) % segments
         for k in range(rings - 2):
             a, b = 1 + k * segments, 1 + (k + 1) * segments
             triangles += [(a + i, b + i, b + j), (a + i, b + j, a + j)]
-        end = 1 + (rings - 2) * segments
         triangles += [(0, 1 + i, 1 + j), (end + i, last, end + j)]
     return vertices, np.array(triangles)
 
 
-def folded_winding() -> Case:
-    """One triangle is wound the other way."""
-    patch = _base()
-    triangles = patch.triangles.copy()
-    triangles[7] = triangles[7, ::-1]
-    options = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
-    return Case(patch.vertices, triangles, "INCONSISTENT_WINDING", (7,), options)
+_CAP = shapes.cap(60)
+_V, _T, _COUNT = _CAP.vertices, _CAP.triangles, len(_CAP.vertices)
+_HELD = {"fixed": _CAP.fixed, "fixed_normals": _CAP.fixed_normals}
+_AT, _RIM = int(_CAP.free[5]), int(_CAP.fixed[2])
+_EDGES = measures.edges(_T)
+_A, _B = (int(v) for v in _EDGES[np.isin(_EDGES, _CAP.free).all(axis=1)][0])
+_WITHIN = _T[np.isin(_T, _CAP.free).all(axis=1)][0]
 
 
-def zero_area() -> Case:
-    """A triangle names a vertex twice."""
-    patch = _base()
-    a, b = _inner_edge(patch)
-    triangles = np.vstack([patch.triangles, [[a, b, b]]])
-    options = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
-    return Case(patch.vertices, triangles, "DEGENERATE_FACE", (len(patch.triangles),), options)
+def _bubble() -> Case:
+    """It stands on a triangle between free vertices: three edges of three triangles."""
+    sides = [[_WITHIN[k], _WITHIN[(k + 1) % 3], _COUNT] for k in range(3)]
+    vertices = np.vstack([_V, 1.5 * _V[[_WITHIN[0]]]])
+    return Case(vertices, np.vstack([_T, sides]), "NONMANIFOLD_EDGE", tuple(int(v) for v in _WITHIN))
 
 
-def reversed_normals() -> Case:
-    """All prescribed normals point against the winding."""
-    patch = _base()
-    options = {"fixed": patch.fixed, "fixed_normals": -patch.fixed_normals}
-    return Case(patch.vertices, patch.triangles, "NORMALS_OPPOSE_WINDING", None, options)
-
-
-def no_normals() -> Case:
-    """Normals are left to the patch itself."""
-    patch = _base()
-    return Case(patch.vertices, patch.triangles, "NORMALS_FROM_PATCH")
-
-
-def pinned_normal() -> Case:
-    """One vertex in the middle is fixed alone, with a normal."""
-    patch = _base(200)
-    pin = int(patch.free[np.argmax(patch.vertices[patch.free, 2])])
-    fixed = np.append(patch.fixed, pin)
-    options = {"fixed": fixed, "fixed_normals": patch.normals[fixed]}
-    return Case(patch.vertices, patch.triangles, "PIN_NORMAL_IGNORED", (pin,), options)
-
-
-def island_without_border() -> Case:
-    """A hemisphere, and beside it a closed sphere that has nothing to hold on to."""
-    patch = _base()
-    vertices, triangles, _ = closed_ball()
-    count = len(patch.vertices)
-    options = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals}
-    everything = np.vstack([patch.vertices, vertices + np.array([3.0, 0.0, 0.0])])
-    return Case(everything, np.vstack([patch.triangles, triangles + count]), "NO_BOUNDARY", None, options)
-
-
-CASES: dict[str, Callable[[], Case]] = {
-    case.__name__: case
-    for case in (
-        not_a_number, infinite, normal_not_a_number, index_too_large, index_negative,
-        fixed_out_of_range, edge_of_three, fin, bow_tie, moebius_strip, closed_sphere, single_triangle,
-        everything_fixed,
+def _bow_tie() -> Case:
+    """Two discs share one free vertex."""
+    shared = int(_CAP.free[0])
+    other = np.where(shared == _T, shared, _T + _COUNT)
+    return Case(
+        np.vstack([_V, _V + np.array([0.0, 0.0, 2.0])]), np.vstack([_T, other]), "NONMANIFOLD_VERTEX", (shared,)
     )
+
+
+CASES: dict[str, Case] = {
+    "not a number": Case(with_entry(_V, _AT, 1, np.nan), _T, "NONFINITE", (_AT,)),
+    "infinite": Case(with_entry(_V, _RIM, 0, np.inf), _T, "NONFINITE", (_RIM,)),
+    "normal not a number": Case(
+        _V, _T, "NONFINITE", (), {**_HELD, "fixed_normals": with_entry(_CAP.fixed_normals, 3, 0, np.nan)}
+    ),
+    "normal of length zero": Case(
+        _V, _T, "ZERO_NORMAL", (int(_CAP.fixed[3]),), {**_HELD, "fixed_normals": _CAP.fixed_normals * (np.arange(
+            len(_CAP.fixed)) != 3)[:, None]}
+    ),
+    "index too large": Case(_V, with_entry(_T, 4, 1, _COUNT), "INDEX_RANGE", (4,)),
+    "index negative": Case(_V, with_entry(_T, 4, 1, -1), "INDEX_RANGE", (4,)),
+    "fixed out of range": Case(_V, _T, "INDEX_RANGE", (_COUNT + 3,), {"fixed": np.append(_CAP.fixed, _COUNT + 3)}),
+    "edge of three": _bubble(),
+    "fin": Case(
+        np.vstack([_V, 2 * _V[[_A]]]), np.vstack([_T, [[_A, _B, _COUNT]]]), "NONMANIFOLD_EDGE", (_A, _B), _HELD
+    ),
+    "bow tie": _bow_tie(),
+    "moebius strip": Case(*moebius_strip(), "NOT_ORIENTABLE"),
+    "closed sphere": Case(*closed_ball()[:2], "NO_BOUNDARY"),
+    "single triangle": Case(np.eye(3), np.array([[0, 1, 2]]), "NO_FREE_VERTICES"),
+    "everything fixed": Case(
+        _V, _T, "NO_FREE_VERTICES", (), {"fixed": np.arange(_COUNT), "fixed_normals": _CAP.normals}
+    ),
 }  # fmt: skip
-WARNINGS: dict[str, Callable[[], Case]] = {
-    case.__name__: case
-    for case in (
-        folded_winding, zero_area, reversed_normals, no_normals, pinned_normal,
-        island_without_border,
-    )
+_PINNED = np.append(_CAP.fixed, _AT)
+_TURNED = _T.copy()
+_TURNED[7] = _T[7, ::-1]
+WARNINGS: dict[str, Case] = {
+    "one triangle turned": Case(_V, _TURNED, "INCONSISTENT_WINDING", (7,), _HELD),
+    "no area": Case(_V, np.vstack([_T, [[_A, _B, _B]]]), "DEGENERATE_FACE", (len(_T),), _HELD),
+    "normals reversed": Case(
+        _V, _T, "NORMALS_OPPOSE_WINDING", (), {**_HELD, "fixed_normals": -_CAP.fixed_normals}
+    ),
+    "no normals": Case(_V, _T, "NORMALS_FROM_PATCH"),
+    "a pin's normal": Case(
+        _V, _T, "PIN_NORMAL_IGNORED", (_AT,), {"fixed": _PINNED, "fixed_normals": _CAP.normals[_PINNED]}
+    ),
+    "an island without a border": Case(
+        np.vstack([_V, closed_ball()[0] + [3.0, 0.0, 0.0]]), np.vstack([_T, closed_ball()[1] + _COUNT]),
+        "NO_BOUNDARY", (), _HELD,
+    ),
 }  # fmt: skip

@@ -6,8 +6,6 @@ triangulations of a sheet above and a sheet below, glued along the three sides o
 the flat Y are as wide as half a circumference, so edges keep about their length.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 

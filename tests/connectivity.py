@@ -1,7 +1,5 @@
 """Other connectivity for the same vertices, without looking at positions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import measures

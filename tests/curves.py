@@ -4,8 +4,6 @@ A curve has the tangent (cos angle, sin angle) and the signed curvature d angle 
 positive where it turns left. All lengths share one unit; every array argument is (k,).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property

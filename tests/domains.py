@@ -3,8 +3,6 @@
 Points are (k, 2) arrays of (s, t). Spacing `h` is a length in space; everything random is seeded.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 

@@ -1,7 +1,5 @@
 """Which small angles of a new mesh its outline forces."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

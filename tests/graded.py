@@ -5,8 +5,6 @@ twelfth edge is flipped where the two triangles stay below an aspect of 12 (`mea
 of longest to shortest edge of about 40.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -212,20 +212,3 @@ def needle(patch: Patch, ratio: float) -> Input:
     mid = patch.triangles[np.isin(patch.triangles, patch.free).all(axis=1)][0]
     start[mid[0]] = start[mid[1]] + (start[mid[0]] - start[mid[1]]) / ratio
     return of_patch(patch).changed(vertices=start, reference=start)
-
-
-def renumbered(item: Input, rng: np.random.Generator) -> tuple[Input, IntArray]:
-    """Vertices, triangles, their corners and `fixed` in another order; new vertex k is the old one order[k]."""
-    order = rng.permutation(len(item.vertices))
-    place = np.argsort(order)
-    triangles = place[item.triangles][rng.permutation(len(item.triangles))]
-    triangles = np.stack([np.roll(triangle, rng.integers(3)) for triangle in triangles])
-    listed = rng.permutation(len(item.fixed))
-    return replace(
-        item,
-        vertices=item.vertices[order],
-        triangles=triangles,
-        fixed=place[item.fixed][listed],
-        normals=None if item.normals is None else item.normals[listed],
-        reference=None if item.reference is None else item.reference[order],
-    ), order

@@ -1,7 +1,5 @@
 """Exact surfaces with a hole cut into them, for `fairing.fill`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

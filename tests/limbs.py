@@ -1,7 +1,5 @@
 """Hands over one outline: a patch some of whose inner vertices are replaced by the connectivity of long limbs."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How far apart two surfaces are, and what a mesh is made of."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array

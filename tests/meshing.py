@@ -1,18 +1,13 @@
 """Irregular triangle meshes of exact surface patches, with exact vertices."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import Delaunay, cKDTree
 
-import grids
 from curves import FloatArray
-from domains import Domain, Style, interior, outline
-
-IntArray = NDArray[np.int64]
+from domains import Domain, Style, interior, jittered, outline, spacing, stations
+from grids import IntArray, halves
 
 
 @dataclass(frozen=True)
@@ -27,7 +22,7 @@ class Mesh:
 def mesh(domain: Domain, n_free: int, style: Style) -> Mesh:
     """A mesh with about n_free free vertices (within a few per cent)."""
     plain = round(n_free * (1.0 - style.valence3))
-    build = grids.grid if style.layout == "grid" else delaunay
+    build = grid if style.layout == "grid" else delaunay
     result = build(domain, _edge_length(domain, plain, style), style)
     rng = np.random.default_rng([style.seed, 7])
     triangles = oriented(domain, result.st, result.triangles)
@@ -39,7 +34,7 @@ def mesh(domain: Domain, n_free: int, style: Style) -> Mesh:
 
 def _edge_length(domain: Domain, n_free: int, style: Style) -> float:
     """The edge length that gives nearly n_free free vertices, by a multiplicative search."""
-    count_of = grids.count if style.layout == "grid" else _count
+    count_of = grid_count if style.layout == "grid" else _count
     h, error = float(np.sqrt(_area(domain) / n_free)), np.inf
     best = h
     for _ in range(12):
@@ -211,3 +206,60 @@ def _clustered(domain: Domain, base: Mesh, clusters: int, rng: np.random.Generat
     centres = domain.space(base.st)[base.triangles[usable]].mean(axis=1)
     seeds = centres[rng.permutation(len(usable))[:clusters]]
     return np.asarray(usable[np.argsort(cKDTree(seeds).query(centres)[0], kind="stable")])
+
+
+def _axes(domain: Domain, h: float, style: Style) -> tuple[FloatArray, FloatArray]:
+    if domain.shape not in ("tube", "rectangle"):
+        raise ValueError(f"no grid on a {domain.shape}")
+    s = stations(domain, style, h * np.sqrt(style.aspect))
+    width = float(domain.surface.width(np.linspace(*domain.ends, 101)).mean())
+    across = max(6, round((domain.high - domain.low) * width / h * np.sqrt(style.aspect)))
+    t = np.linspace(domain.low, domain.high, across + 1)
+    return s, t[:-1] if domain.closed else t
+
+
+def grid_count(domain: Domain, h: float, style: Style) -> int:
+    """Number of free vertices for the edge length h."""
+    s, t = _axes(domain, h, style)
+    return (len(s) - 2) * (len(t) if domain.closed else len(t) - 2)
+
+
+def grid(domain: Domain, h: float, style: Style) -> Mesh:
+    """The grid with its rows along t; free vertices jittered, jitter halved where it would fold."""
+    s, t = _axes(domain, h, style)
+    rng = np.random.default_rng(style.seed)
+    rows, columns = len(s), len(t)
+    st = np.column_stack([np.repeat(s, columns), np.tile(t, rows)])
+    border = np.zeros((rows, columns), dtype=bool)
+    border[[0, -1]] = True
+    if not domain.closed:
+        border[:, [0, -1]] = True
+    fixed = np.flatnonzero(border.ravel())
+    number = np.arange(rows * columns).reshape(rows, columns)
+    triangles = halves(np.column_stack([number, number[:, 0]]) if domain.closed else number, rng)
+    offset = _shaken(domain, st, fixed, h, style, rng)
+    return Mesh(_unfolded(domain, st, offset, triangles), triangles, fixed)
+
+
+def _shaken(
+    domain: Domain, st: FloatArray, fixed: IntArray, h: float, style: Style,
+    rng: np.random.Generator,
+) -> FloatArray:  # fmt: skip
+    """Random offsets (k, 2) of the free points."""
+    size = h * spacing(domain, style, st[:, 0])
+    moved = jittered(domain, st, size, style, rng) - st
+    if domain.closed:
+        moved[:, 1] = (moved[:, 1] + np.pi) % (2 * np.pi) - np.pi
+    moved[fixed] = 0.0
+    return moved
+
+
+def _unfolded(domain: Domain, st: FloatArray, offset: FloatArray, triangles: IntArray) -> FloatArray:
+    """Points st + offset (k, 2), offsets halved at the corners of triangles that turn over."""
+    for _ in range(10):
+        corner = domain.space(st + offset)[triangles]
+        cross = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        normals = domain.surface.normal(st[:, 0], st[:, 1])[triangles].mean(axis=1)
+        signed = (cross * normals).sum(axis=1) * np.sign((cross * normals).sum())
+        offset[triangles[signed < 0.1 * np.median(signed)]] *= 0.5
+    return st + offset

@@ -71,14 +71,6 @@ def patches(draw: st.DrawFn) -> Input:
     )  # fmt: skip
 
 
-@st.composite
-def rotations(draw: st.DrawFn) -> FloatArray:
-    """A rotation matrix."""
-    rng = np.random.default_rng(draw(st.integers(0, 2**32 - 1)))
-    turn = np.linalg.qr(rng.standard_normal((3, 3)))[0]
-    return np.asarray(turn * np.sign(np.linalg.det(turn)))
-
-
 def flip(item: Input, rng: np.random.Generator) -> Input:
     """One triangle wound the other way."""
     triangles = item.triangles.copy()

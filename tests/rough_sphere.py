@@ -1,7 +1,5 @@
 """A whole unit sphere, rough everywhere, with a swelling in its selected part."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

@@ -8,8 +8,6 @@ Closed forms, or ordinary differential equations integrated at 1e-13. `FAMILIES`
 Δ_B H = 0 by name. Sizes are about 1 in an arbitrary unit.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial

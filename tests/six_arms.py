@@ -4,8 +4,6 @@ Each octant is a hexagon: three quarter circles `reach` from the origin and thre
 planes, which it shares with its neighbours. It is triangulated flat, and the eight are glued.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import product
 

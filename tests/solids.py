@@ -1,11 +1,11 @@
 """Closed solids with hard edges, and coarse ones without."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from grids import halves, numbered
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -26,6 +26,18 @@ def box(n: int) -> Solid:
     places, index = np.unique(np.concatenate(faces).reshape(-1, 3), axis=0, return_inverse=True)
     square = index.reshape(-1, 4)
     return 2.0 * places / n - 1.0, np.concatenate([square[:, [0, 1, 2]], square[:, [0, 2, 3]]])
+
+
+def cube_cap(quads: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """The unit sphere above its equator as a cube blown up: vertices, which are the normals, triangles, the border.
+
+    `quads`, even: along an edge of the cube. About 1.5 quads² free vertices; four have three neighbours of quads.
+    """
+    vertices, triangles = box(quads)
+    above = vertices[:, 2] > 1e-9
+    used, compact = np.unique(triangles[above[triangles].any(axis=1)], return_inverse=True)
+    points = vertices[used] / np.linalg.norm(vertices[used], axis=1, keepdims=True)
+    return points, compact.reshape(-1, 3), np.flatnonzero(~above[used])
 
 
 def _ring(sides: int, radius: float, height: float) -> FloatArray:
@@ -130,9 +142,7 @@ def panel(rings: float, step: float = 0.05) -> Panel:
     """
     x, y = (a.ravel() for a in np.meshgrid(step * np.arange(-20, 21), step * np.arange(-16, 17), indexing="ij"))
     clean = np.column_stack([x, y, -0.2 * x**2 - 0.1 * y**2])
-    number = np.arange(41 * 33).reshape(41, 33)
-    a, b, c, d = (q.ravel() for q in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
-    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    triangles = halves(numbered(41, 33))
     centre = np.abs(clean[triangles].mean(axis=1))
     inside = (centre[:, 0] < 0.45) & (centre[:, 1] < 0.3)
     vertices = clean.copy()

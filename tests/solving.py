@@ -1,8 +1,5 @@
 """Fairing of exact patches from their boundary alone, cached for the tests that look at it."""
 
-from __future__ import annotations
-
-from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -16,19 +13,8 @@ TIGHT = 1e-10
 
 def fair_patch(patch: Patch, **options: Any) -> fairing.FairResult:
     """The patch from its outline and the normals there, starting from a membrane."""
-    settings: dict[str, Any] = {"tolerance": TIGHT, **options}
-    boundary = fairing.Boundary(patch.fixed, patch.fixed_normals)
-    return called(shapes.start_from_nothing(patch), patch.triangles, boundary, settings)
-
-
-def called(vertices: Any, triangles: Any, boundary: fairing.Boundary, settings: dict[str, Any]) -> fairing.FairResult:
-    """A call with options by name, those of the boundary among them."""
-    if "fixed_curvatures" in settings:
-        boundary = replace(boundary, curvatures=settings.pop("fixed_curvatures"))
-    if "outside" in settings:
-        boundary = replace(boundary, outside=settings.pop("outside"))
-    apart = {name: settings.pop(name) for name in ("progress", "threads") if name in settings}
-    return fairing.fair(vertices, triangles, boundary, fairing.Options.of(**settings), **apart)
+    given = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals, "tolerance": TIGHT}
+    return fairing.fair(shapes.start_from_nothing(patch), patch.triangles, **{**given, **options})
 
 
 @lru_cache(maxsize=64)
@@ -40,8 +26,8 @@ def solved(family: str, n_free: int, style: Style | None = None) -> tuple[Patch,
 
 def fair_blend(patch: blend.Blend, **options: Any) -> fairing.FairResult:
     """The three-cylinder blend from its rims."""
-    settings: dict[str, Any] = {"tolerance": TIGHT, **options}
-    return called(patch.vertices, patch.triangles, fairing.Boundary(patch.fixed, patch.fixed_normals), settings)
+    given = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals, "tolerance": TIGHT}
+    return fairing.fair(patch.vertices, patch.triangles, **{**given, **options})
 
 
 def codes(result: fairing.FairResult) -> set[str]:

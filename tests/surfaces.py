@@ -5,66 +5,32 @@ the surface normal left of the curve, −1 for right. Mean curvature has the sig
 Schneider & Kobbelt (2001): −1/R on a sphere of radius R with outward normals.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
 from curves import Curve, FloatArray
 
 
-class Surface(Protocol):
-    """What the mesher and the measures need. Arrays s, t are (k,), points (k, 3)."""
-
-    @property
-    def curve(self) -> Curve: ...
-
-    def point(self, s: FloatArray, t: FloatArray) -> FloatArray:
-        """Positions (k, 3)."""
-        ...
-
-    def normal(self, s: FloatArray, t: FloatArray) -> FloatArray:
-        """Exact unit normals (k, 3)."""
-        ...
-
-    def mean_curvature(self, s: FloatArray) -> FloatArray:
-        """Exact H (k,), length⁻¹."""
-        ...
-
-    def width(self, s: FloatArray) -> FloatArray:
-        """Length per unit of t, (k,)."""
-        ...
-
-    def frame(self, s: FloatArray, t: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Unit tangents along s and along t, (k, 3) each."""
-        ...
-
-    def locate(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """(s, t) of the nearest points of the surface, continued a little past its outline."""
-        ...
-
-    def distance(self, points: FloatArray) -> FloatArray:
-        """Unsigned distances (k,) to the surface, continued a little past its outline."""
-        ...
-
-    def chart(self, s: FloatArray, t: FloatArray) -> FloatArray:
-        """A conformal map to the plane, (k, 2): there, Delaunay is nearly Delaunay in space."""
-        ...
-
-
-def _nearest_distance(surface: Surface, points: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.norm(points - surface.point(*surface.locate(points)), axis=1))
-
-
 @dataclass(frozen=True)
-class Extrusion:
-    """The curve (x, y) times the z axis."""
+class Surface:
+    """What the mesher and the measures need: `point`, `normal`, `mean_curvature` (length⁻¹), `width` (length per unit
+    of t), `frame` (unit tangents along s and t), `locate` (the nearest (s, t), continued a little past the outline),
+    `chart` (a conformal map to the plane, in which Delaunay is nearly Delaunay in space). Arrays s, t are (k,).
+    """
 
     curve: Curve
     side: int = 1
+
+    def distance(self, points: FloatArray) -> FloatArray:
+        """Unsigned distances (k,) to the surface, continued a little past its outline."""
+        return np.asarray(np.linalg.norm(points - self.point(*self.locate(points)), axis=1))
+
+
+@dataclass(frozen=True)
+class Extrusion(Surface):
+    """The curve (x, y) times the z axis."""
 
     def point(self, s: FloatArray, t: FloatArray) -> FloatArray:
         at = self.curve.frame(s)
@@ -88,18 +54,14 @@ class Extrusion:
     def locate(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         return self.curve.nearest(points[:, 0], points[:, 1]), points[:, 2].copy()
 
-    def distance(self, points: FloatArray) -> FloatArray:
-        return _nearest_distance(self, points)
-
     def chart(self, s: FloatArray, t: FloatArray) -> FloatArray:
         return np.column_stack([s, t])
 
 
 @dataclass(frozen=True)
-class Revolution:
+class Revolution(Surface):
     """The curve (r, z) about the z axis."""
 
-    curve: Curve
     side: int = -1
 
     def point(self, s: FloatArray, t: FloatArray) -> FloatArray:
@@ -129,9 +91,6 @@ class Revolution:
     def locate(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         radius = np.hypot(points[:, 0], points[:, 1])
         return self.curve.nearest(radius, points[:, 2]), np.arctan2(points[:, 1], points[:, 0])
-
-    def distance(self, points: FloatArray) -> FloatArray:
-        return _nearest_distance(self, points)
 
     @cached_property
     def _isothermal(self) -> tuple[FloatArray, FloatArray]:

@@ -1,7 +1,5 @@
 """equation="automatic": between two loops the cheapest surface that keeps the girth of its ends."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

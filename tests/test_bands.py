@@ -1,17 +1,15 @@
 """Bevels and rolled edges that end at a hole run on through it with their width and their profile."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
+import creased
 import fairing
-import hard_holes
 import holes
+from creased import Hole
 from fairing._bands import bands_at, pairs_across
-from hard_holes import Hole
 
 TENTH = 0.1  # of the radius
 
@@ -44,18 +42,18 @@ def off(hole: Hole, radius: float, **options: object) -> float:
     ids=["coarse", "fine", "three rows", "narrow", "tapering", "a lid's rim", "a bore's rim"],
 )
 def test_a_rolled_edge_runs_on(n: int, options: dict[str, float], bound: float) -> None:
-    hole = hard_holes.in_bevel(n, 1, **options)  # type: ignore[arg-type]
+    hole = creased.in_bevel(n, 1, **options)  # type: ignore[arg-type]
     radius = options.get("radius", 0.12)
     assert off(hole, radius) < bound
 
 
 def test_without_the_rule_it_swells() -> None:
-    assert off(hard_holes.in_bevel(20, 1), 0.12, edges="ignored") > 0.4
+    assert off(creased.in_bevel(20, 1), 0.12, edges="ignored") > 0.4
 
 
 def test_bands_are_found_where_they_come_to_the_outline() -> None:
     """Two, a quarter turn each, that face each other; sides belong together, in order, each vertex once."""
-    hole = hard_holes.in_bevel(24, 1)
+    hole = creased.in_bevel(24, 1)
     loop = hole.loop[::-1]
     normals = fairing.surrounding_normals(hole.vertices, hole.triangles, loop).normals
     one, other = bands_at(loop, hole.vertices, normals)
@@ -81,7 +79,7 @@ def test_a_ball_has_no_bands(half_angle: float) -> None:
 @pytest.mark.parametrize("noise", [0.1, 0.3])
 def test_noise_has_no_bands(noise: float) -> None:
     """A flat mesh with noise of so many edges."""
-    hole = hard_holes.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, 0.0)], 16)
+    hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, 0.0)], 16)
     rough = hole.vertices + noise / 16 * np.random.default_rng(2).normal(size=hole.vertices.shape)
     loop = hole.loop[::-1]
     normals = fairing.surrounding_normals(rough, hole.triangles, loop).normals
@@ -90,7 +88,7 @@ def test_noise_has_no_bands(noise: float) -> None:
 
 def test_a_band_that_ends_in_the_hole_is_no_band_through_it() -> None:
     """Its other side is flat: nothing is held inside."""
-    hole = hard_holes.in_bevel(20, 1)
+    hole = creased.in_bevel(20, 1)
     fade = np.clip((hole.vertices[:, 1] + 0.35) / 0.3, 0, 1)[:, None]
     onto = np.column_stack([hole.vertices[:, 0] - hole.vertices[:, 2], hole.vertices[:, 1], np.zeros(len(fade))])
     vertices = (1 - fade) * hole.vertices + fade * onto

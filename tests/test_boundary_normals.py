@@ -1,7 +1,5 @@
 """`fairing.boundary_normals`: along hard edges the slope of the patch's own triangles, elsewhere that outside."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -204,28 +202,6 @@ def test_a_dent_that_ends_in_a_crease_goes(above: float) -> None:
     result, found, free = faired(dented, triangles[inside], triangles[~inside])
     assert not found.from_inside.any()
     assert np.abs(np.linalg.norm(result.vertices[free], axis=1) - 1).max() < 1e-3
-
-
-def test_smooth_outlines_take_the_outside_to_the_bit() -> None:
-    panel = solids.panel(3)
-    found = fairing.boundary_normals(panel.vertices, panel.inside, panel.rim, outside=panel.outside)
-    outside = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
-    assert np.array_equal(found.normals, outside.normals)
-    assert np.array_equal(found.errors, outside.errors)
-    assert not found.from_inside.any()
-
-
-def test_motion_scale_and_winding_change_nothing() -> None:
-    vertices, inside, outside = dented_box(8)
-    rim = np.intersect1d(inside, outside)
-    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
-    turn *= np.linalg.det(turn)
-    moved = fairing.boundary_normals(1e3 * vertices @ turn.T - 7.0, inside, rim, outside=outside)
-    assert np.abs(moved.normals - turn[:, 2]).max() < 1e-6
-    wound = fairing.boundary_normals(vertices, inside[:, ::-1], rim, outside=outside[:, ::-1])
-    assert np.abs(wound.normals - [0, 0, -1]).max() < 1e-9
-    against = fairing.boundary_normals(vertices, inside, rim, outside=outside[:, ::-1])
-    assert np.abs(against.normals - [0, 0, 1]).max() < 1e-9
 
 
 def test_sides_can_be_chosen() -> None:

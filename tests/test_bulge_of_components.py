@@ -1,7 +1,5 @@
 """`bulge`: a load by each component's own outline, 8 bulge / a³; and which triangles form a component."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np
@@ -10,7 +8,6 @@ import pytest
 import fairing
 import shapes
 from curves import FloatArray
-from meshing import IntArray
 from shapes import Patch
 
 TIGHT = 1e-10
@@ -28,26 +25,6 @@ def radius(points: FloatArray) -> float:
     return float(np.sqrt(((points - points.mean(axis=0)) ** 2).sum(axis=1).mean()))
 
 
-def square(size: int) -> tuple[FloatArray, IntArray, IntArray, FloatArray]:
-    """A flat grid from −1 to 1: vertices, triangles, border, the largest coordinate of each vertex."""
-    steps = np.linspace(-1.0, 1.0, size + 1)
-    x, y = np.meshgrid(steps, steps)
-    vertices = np.column_stack([x.ravel(), y.ravel(), np.zeros(x.size)])
-    height = np.abs(vertices[:, :2]).max(axis=1)
-    row, column = np.divmod(np.arange(size * size), size)
-    a = row * (size + 1) + column
-    quads = np.column_stack([a, a + 1, a + size + 2, a + size + 1])
-    # Diagonals that end in the corners of squares around the middle: none cuts a corner off.
-    turned = vertices[quads, 0].sum(axis=1) * vertices[quads, 1].sum(axis=1) < 0.0
-    quads[turned] = np.roll(quads[turned], 1, axis=1)
-    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    return vertices, triangles, np.flatnonzero(np.isclose(height, 1.0)), height
-
-
-def up(fixed: IntArray) -> FloatArray:
-    return np.tile([0.0, 0.0, 1.0], (len(fixed), 1))
-
-
 @pytest.mark.parametrize("scale", [1.0, 1e-3, 250.0])
 @pytest.mark.parametrize("method", ["global", "paper"])
 def test_it_is_the_load_of_the_outlines_radius(scale: float, method: str) -> None:
@@ -57,12 +34,6 @@ def test_it_is_the_load_of_the_outlines_radius(scale: float, method: str) -> Non
     assert measured.converged
     assert np.abs(measured.vertices - by_hand.vertices).max() < 1e-9 * scale
     assert np.abs(measured.vertices - solved(patch, scale, method=method).vertices).max() > 1e-2 * scale
-
-
-def test_load_and_bulge_add() -> None:
-    patch = shapes.cap(150, half_angle=60.0)
-    half = 4 * 0.15 / radius(patch.vertices[patch.fixed]) ** 3
-    assert np.abs(solved(patch, load=half, bulge=0.075).vertices - solved(patch, bulge=0.15).vertices).max() < 1e-9
 
 
 def test_components_of_different_size_are_lifted_by_the_same_share() -> None:
@@ -85,19 +56,6 @@ def test_components_of_different_size_are_lifted_by_the_same_share() -> None:
     heights = (small - unit) @ disc.fixed_normals.mean(axis=0)
     # The biharmonic plate would be lifted by bulge / 4; what is lifted that far bends a little less or more.
     assert heights.max() == pytest.approx(0.5 / 4, rel=0.1)
-
-
-def test_a_fixed_loop_is_the_outline_of_either_side() -> None:
-    vertices, triangles, border, height = square(12)
-    loop = np.flatnonzero(np.isclose(height, 0.5))
-    fixed = np.concatenate([border, loop])
-    given: dict[str, Any] = {"fixed": fixed, "fixed_normals": up(fixed), "equation": "constant", "tolerance": TIGHT}
-    measured = fairing.fair(vertices, triangles, bulge=0.5, **given).vertices
-    for inside, outline in ((height < 0.49, loop), (height > 0.51, fixed)):
-        load = 8 * 0.5 / radius(vertices[outline]) ** 3
-        by_hand = fairing.fair(vertices, triangles, load=load, **given).vertices
-        assert np.abs(by_hand[inside, 2]).max() > 1e-3
-        assert np.abs(measured[inside] - by_hand[inside]).max() < 1e-9
 
 
 def test_a_solver_measures_the_outline_of_each_solve() -> None:

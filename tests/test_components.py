@@ -1,7 +1,5 @@
 """Islands are solved each on its own: the same alone and together."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import fairing
@@ -35,27 +33,6 @@ def test_islands_together_are_the_islands_alone() -> None:
     assert together.iterations == max(result.iterations for result in results)
     assert together.converged
     assert together.residual == max(result.residual for result in results)
-
-
-def test_lobes_that_share_an_outline_vertex_are_solved_apart() -> None:
-    patch = shapes.plane(200)
-    count, shared = len(patch.vertices), int(patch.fixed[0])
-    other = patch.triangles + count
-    other[other == shared + count] = shared
-    turned = 2 * patch.vertices[shared] - patch.vertices
-    everything = np.vstack([patch.vertices, turned])
-    used = np.unique(np.vstack([patch.triangles, other]))
-    normals = np.vstack([patch.normals, patch.normals])
-    fixed = np.setdiff1d(np.concatenate([patch.fixed, patch.fixed + count]), [shared + count])
-    start = everything.copy()
-    free = np.setdiff1d(used, fixed)
-    start[free, 0] += 0.2
-    result = fairing.fair(
-        start, np.vstack([patch.triangles, other]),
-        fixed=fixed, fixed_normals=normals[fixed], tolerance=1e-10,
-    )  # fmt: skip
-    assert np.abs(result.vertices[free] - everything[free])[:, 0].max() < 1e-9
-    assert np.array_equal(result.vertices[shared], patch.vertices[shared])
 
 
 def collapsing(fixed: IntArray) -> fairing.FairResult:

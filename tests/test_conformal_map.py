@@ -1,7 +1,5 @@
 """fairing.conformal_map: exact maps come back; a border that is fixed all around makes it harmonic."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from scipy.sparse import coo_array
@@ -64,15 +62,3 @@ def test_what_is_not_determined_is_refused() -> None:
     twice = np.concatenate([points, points + 5.0]), np.concatenate([triangles, triangles + len(points)])
     with pytest.raises(fairing.SolverError, match="less than two fixed vertices"):
         fairing.conformal_map(*twice, [0, 1, len(points)], flat[[0, 1, 0]])
-
-
-@pytest.mark.parametrize(
-    ("fixed", "places", "text"),
-    [([0, 1], np.zeros((3, 2)), "places"), ([0, 0], np.zeros((2, 2)), "twice"), ([0, 1], [[0, np.nan]] * 2, "finite")],
-)
-def test_bad_arguments_are_refused(fixed: list[int], places: object, text: str) -> None:
-    _, points, triangles = tilted_sheet()
-    with pytest.raises(ValueError, match=text):
-        fairing.conformal_map(points, triangles, fixed, places)
-    with pytest.raises(fairing.MeshError):
-        fairing.conformal_map(points, triangles, [0, len(points)], np.zeros((2, 2)))

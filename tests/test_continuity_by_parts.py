@@ -1,7 +1,5 @@
 """`Boundary.continuity`: position, tangent plane and curvature met on parts of the boundary."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -70,24 +68,6 @@ def test_a_ball_comes_back_over_a_jagged_boundary(seed: int, share: float) -> No
     result = fairing.fair(ball.exact, ball.inside, fairing.Boundary(ball.outline, places, continuity=kinds))
     assert result.converged and result.equation == "least_variation"
     assert np.abs(ball.heights(result.vertices, ball.free)).max() < 1e-6
-
-
-def test_a_slope_that_is_met_on_a_part_counts_there_and_not_on_the_rest() -> None:
-    """A flat strip, one of whose sides asks for 30°: what the normals on the other side say changes nothing."""
-    patch = shapes.plane(400, shape="rectangle")
-    places = patch.vertices[patch.fixed]
-    across = np.ptp(patch.vertices, axis=0).argmax()
-    low, high = (np.isclose(places[:, across], end(places[:, across])) for end in (np.min, np.max))
-    normals = patch.fixed_normals.copy()
-    tilted = np.cos(np.radians(30)) * normals + np.sin(np.radians(30)) * np.eye(3)[across]
-    normals[low] = tilted[low]
-    kinds = np.where(low, "G1", "G0")
-    start = shapes.start_from_nothing(patch)
-    one = fairing.fair(start, patch.triangles, fairing.Boundary(patch.fixed, normals, continuity=kinds))
-    normals[high] = tilted[high]
-    other = fairing.fair(start, patch.triangles, fairing.Boundary(patch.fixed, normals, continuity=kinds))
-    assert np.array_equal(one.vertices, other.vertices)
-    assert patch.error(one.vertices) > 0.02
 
 
 def test_curvature_is_continued_where_it_is_asked_for() -> None:
@@ -159,26 +139,6 @@ def test_a_solver_and_a_new_mesh_continue_it_on_a_part_too() -> None:
     held = fairing.Boundary(patch.fixed, patch.fixed_normals, curvatures, continuity=kinds)
     new = fairing.remesh(start, patch.triangles, held)
     assert new.continuity == "G2" and not new.warnings
-
-
-def test_no_curvature_on_any_part_is_a_tangent_join_whatever_the_option_says() -> None:
-    patch = shapes.torus(500)
-    tangent = ["G1"] * len(patch.fixed)
-    curved = fairing.Options(fairing.Surface(continuity="G2"))
-    held = fairing.Boundary(patch.fixed, patch.fixed_normals, patch.mean_curvature[patch.fixed], continuity=tangent)
-    result = fairing.fair(shapes.start_from_nothing(patch), patch.triangles, held, curved)
-    assert result.continuity == "G1"
-    assert np.array_equal(result.vertices, faired(patch, tangent).vertices)
-
-
-def test_one_kind_everywhere_is_the_option_of_before() -> None:
-    patch = shapes.cap(300, half_angle=50)
-    held = fairing.Boundary(patch.fixed, patch.fixed_normals)
-    start = shapes.start_from_nothing(patch)
-    plain = fairing.fair(start, patch.triangles, held)
-    assert np.array_equal(faired(patch, ["G1"] * len(patch.fixed)).vertices, plain.vertices)
-    soap = faired(patch, ["G0"] * len(patch.fixed))
-    assert soap.equation == "soap_film"
 
 
 def test_what_contradicts_is_refused_with_a_word_on_what_is_needed() -> None:

@@ -1,7 +1,5 @@
 """`fairing.denoise`: what is shorter than a wavelength goes, what is longer stays."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -76,34 +74,6 @@ def test_an_open_border_stays_and_the_surface_bends_freely_at_it() -> None:
     assert np.abs(smooth - rough).max() > 0.005
 
 
-def test_amount_is_linear_and_nothing_moves_without_it() -> None:
-    rough = rough_sphere(600)
-    triangles = np.concatenate([rough.inside, rough.outside])
-    whole, half, none = (fairing.denoise(rough.skin, triangles, amount=share) for share in (1.0, 0.5, 0.0))
-    assert np.array_equal(none, rough.skin)
-    assert half == pytest.approx((whole + rough.skin) / 2, abs=1e-12)
-
-
-@pytest.mark.parametrize("scale", [1e-150, 1e-3, 1e150])
-def test_motion_and_scale_change_nothing_else(scale: float) -> None:
-    rough = rough_sphere(600)
-    triangles = np.concatenate([rough.inside, rough.outside])
-    plain = fairing.denoise(rough.skin, triangles)
-    turn = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))[0]
-    moved = fairing.denoise(scale * (rough.skin @ turn + 2), triangles)
-    assert moved / scale == pytest.approx(plain @ turn + 2, abs=1e-8)
-
-
-def test_the_surroundings_count_only_next_to_what_moves() -> None:
-    """The same bits with the whole mesh as with three rings around what moves."""
-    rough = rough_sphere(2_000)
-    triangles = np.concatenate([rough.inside, rough.outside])
-    fixed = np.flatnonzero(rough.exact[:, 2] < 0.6)
-    part = triangles[(rough.exact[triangles, 2] > 0.3).any(axis=1)]
-    whole = fairing.denoise(rough.skin, triangles, fixed=fixed, size=0.5)
-    assert whole == pytest.approx(fairing.denoise(rough.skin, part, fixed=fixed, size=0.5), abs=1e-12)
-
-
 def test_bad_input_is_refused_with_a_word_on_what_is_needed() -> None:
     vertices, triangles = solids.box(2)
     for wrong in ({"size": -1.0}, {"amount": 2.0}, {"edges": [[0, len(vertices) - 1]]}, {"threads": -1}):
@@ -115,12 +85,6 @@ def test_bad_input_is_refused_with_a_word_on_what_is_needed() -> None:
     holed[3] = np.nan
     with pytest.raises(fairing.MeshError, match="NaN"):
         fairing.denoise(holed, triangles)
-
-
-def test_it_can_be_cancelled() -> None:
-    rough = rough_sphere(2_000)
-    with pytest.raises(fairing.Cancelled):
-        fairing.denoise(rough.skin, np.concatenate([rough.inside, rough.outside]), progress=lambda *_: False)
 
 
 def test_triangles_without_area_and_loose_ones_do_no_harm() -> None:

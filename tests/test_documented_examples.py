@@ -1,7 +1,5 @@
 """The Python code of docs/python.md and README.md, run as printed, and what it claims."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Hard edges that run on through a patch are found by their angle, along edges of its own."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -11,7 +9,7 @@ import creased
 import fairing
 import holes
 import measures
-from hard_holes import IntArray
+from grids import IntArray
 
 Through = tuple[creased.Creased, IntArray, IntArray, IntArray]
 
@@ -123,13 +121,3 @@ def test_a_smooth_surface_has_none() -> None:
     vertices, triangles = holes.bowl(24)
     inside = vertices[triangles][:, :, 2].mean(axis=1) < np.median(vertices[:, 2])
     assert len(fairing.edges_through(vertices, triangles[inside], triangles[~inside]).edges) == 0
-
-
-def test_motion_scale_and_order_change_nothing() -> None:
-    exact, inside, outside, _ = box_corner()
-    expected = fairing.edges_through(exact.vertices, inside, outside).edges
-    turn, _ = np.linalg.qr(np.random.default_rng(2).normal(size=(3, 3)))
-    moved = 1e3 * exact.vertices @ turn.T + [3.0, -2.0, 7.0]
-    order = np.random.default_rng(3).permutation(len(inside))
-    found = fairing.edges_through(moved, np.roll(inside[order], 1, axis=1), outside[::-1]).edges
-    assert np.array_equal(found, expected)

@@ -1,7 +1,5 @@
 """Equations besides Δ_B H = 0 with G1 data: constant load and minimal energy (§7.5)."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np
@@ -12,7 +10,6 @@ from scipy.optimize import brentq
 import fairing
 import shapes
 from curves import FloatArray
-from solving import codes
 
 
 def flat_disc(n_free: int) -> tuple[FloatArray, shapes.IntArray, shapes.IntArray]:
@@ -70,17 +67,6 @@ def test_a_loaded_disc_converges_to_second_order() -> None:
     assert disc_error(500, 1.0) > 3.4 * disc_error(2000, 1.0)
 
 
-def test_a_load_without_a_solution_is_said() -> None:
-    """The branch of the loaded disc turns back at a bulge of about 1.15: beyond, there is nothing to find."""
-    vertices, triangles, rim = flat_disc(300)
-    up = np.tile([0.0, 0.0, 1.0], (len(rim), 1))
-    result = fairing.fair(vertices, triangles, fixed=rim, fixed_normals=up, equation="constant", load=16.0)
-    assert not result.converged
-    assert result.termination == "stalled"
-    assert "NOT_CONVERGED" in codes(result)
-    assert np.isfinite(result.vertices).all()
-
-
 @pytest.mark.parametrize("bulge", [1.3, 2.0, 4.0])
 def test_a_load_that_is_too_much_keeps_the_surface_of_the_last_one(bulge: float) -> None:
     """Not the unloaded one: it is higher than that of the largest bulges that are surely solved, and its own H tells
@@ -133,9 +119,3 @@ def test_minimal_energy_reproduces_spheres_but_not_cylinders() -> None:
 def test_minimal_energy_has_less_energy_than_the_harmonic_surface(family: type) -> None:
     patch = family(700)
     assert willmore(solve(patch, "minimal_energy"), patch) < willmore(solve(patch, "harmonic"), patch)
-
-
-def test_a_load_needs_its_equation() -> None:
-    patch = shapes.cap(50)
-    with pytest.raises(ValueError, match="load"):
-        fairing.fair(patch.vertices, patch.triangles, load=1.0)

@@ -1,7 +1,5 @@
 """An interpreter that ends while the engine is at work in another thread: always in order, never by abort."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys
@@ -110,14 +108,6 @@ if sys.argv[3] == "cancelled":
 @pytest.mark.parametrize("state", ["running", "cancelled"])
 def test_a_daemon_at_work_does_not_abort_the_process(state: str, delay: float) -> None:
     ended(DURING_A_RUN, str(delay), state)
-
-
-def test_a_thread_that_is_no_daemon_comes_to_its_end() -> None:
-    done = ended("""
-start(lambda: print(fair(progress=progress).converged), daemon=False)
-begun.wait()
-""")
-    assert done.stdout.split() == ["True"]
 
 
 def test_the_thread_that_ends_may_still_call() -> None:

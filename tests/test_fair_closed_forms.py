@@ -4,8 +4,6 @@ Distances are over D. With averaged normals instead of fitted ones the errors ar
 at any size.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

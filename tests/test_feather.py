@@ -1,7 +1,5 @@
 """`feather` and `weights`: the change fades out in a band outside the patch."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
@@ -108,14 +106,6 @@ def test_the_change_fades_without_slope_at_either_end(clean: RoughSphere) -> Non
         assert np.polyfit(before[here], kept[here], 1)[0] == pytest.approx(wanted, abs=0.05)
 
 
-def test_detail_is_linear_with_a_feather(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
-    """What a slider may answer from."""
-    none, half = (sphere.fair(feather=WIDTH, detail=share) for share in (0.0, 0.5))
-    assert none.vertices == pytest.approx(feathered.base, abs=1e-12)
-    assert half.vertices == pytest.approx(0.5 * (feathered.base + feathered.vertices), abs=1e-12)
-    assert np.array_equal(none.moved, feathered.moved)
-
-
 def test_weights_instead(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
     """Half of a weight goes half of the way from one base to the other, inside too."""
     whole = np.zeros(len(sphere.vertices))
@@ -129,15 +119,6 @@ def test_weights_instead(sphere: RoughSphere, feathered: fairing.FairResult) -> 
     assert heights[2] == pytest.approx((heights[0] + heights[1]) / 2, abs=0.01)
 
 
-def test_a_patch_without_area_is_blended_without_its_detail(clean: RoughSphere) -> None:
-    old = clean.vertices.copy()
-    old[clean.free] = 0
-    case = RoughSphere(clean.exact, clean.exact, old, clean.inside, clean.outside, clean.outline)
-    result = case.fair(feather=WIDTH, detail=1.0)
-    assert "REFERENCE_UNUSABLE" in {reported.code for reported in result.warnings}
-    assert np.abs(case.heights(result.vertices, case.free)).max() < 3e-3
-
-
 def test_the_mesh_border_stays(sphere: RoughSphere) -> None:
     """A feather wider than what there is ends at the border."""
     near = sphere.outside[(sphere.exact[sphere.outside, 2] > 0).all(axis=1)]
@@ -145,14 +126,6 @@ def test_the_mesh_border_stays(sphere: RoughSphere) -> None:
     border = np.unique(np.concatenate(fairing.boundary_loops(np.concatenate([sphere.inside, near]))))
     assert np.array_equal(result.vertices[border], sphere.vertices[border])
     assert not np.isin(border, result.moved).any()
-
-
-def test_warnings_name_the_callers_triangles() -> None:
-    sphere = rough_sphere(2000, noise=0.9, seed=3)
-    result = sphere.fair(feather=WIDTH, detail=1.0)
-    named = [reported.elements for reported in result.warnings if reported.kind == "triangle"]
-    assert sum(map(len, named))
-    assert np.concatenate(named).max() < len(sphere.inside)
 
 
 @pytest.mark.parametrize(

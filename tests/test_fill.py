@@ -1,7 +1,5 @@
 """fairing.fill: holes in exact surfaces come back, whatever the spacing; clean meshes; clear errors."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

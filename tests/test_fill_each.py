@@ -1,7 +1,5 @@
 """Each hole by itself: borders that touch, loops that no surface closes beside others, single faces, flat lids."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which border loops fairing.fill takes for holes, and what is out of proportion."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -1,7 +1,5 @@
 """fairing.fill with continuity="G2": surfaces over holes that continue the curvature around them."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Loops for fairing.fill: which way they run, whose normals are whose, and what no surface fills or joins."""
 
-from __future__ import annotations
-
 from itertools import product
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What fairing.fill says where an outline is odd: what, where, and what helps."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 

@@ -1,7 +1,5 @@
 """`spacing` and `inner` of fairing.fill and fairing.remesh: new edges as the outline's nearby, or all of one length."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """fairing.fillet: seams are rounded by the fairest surface within a width along the surface."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

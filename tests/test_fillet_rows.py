@@ -1,7 +1,5 @@
 """fairing.fillet with quads: rows run along the seams, and edges outside go on across them."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Two distributions that share the package's folder."""
 
-from __future__ import annotations
-
 import os
 import shutil
 import subprocess

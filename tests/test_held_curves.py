@@ -1,13 +1,10 @@
 """Curves inside the patch: creases with a slope for each side, smooth ones with one slope."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 import creased
 import fairing
-import shapes
 from creased import Creased
 
 
@@ -31,21 +28,6 @@ def test_both_sides_of_a_crease_come_back(make: object, seed: int) -> None:
     assert patch.error(result.vertices) < 1e-9
     assert not {"SHARP_BOUNDARY", "PIN_NORMAL_IGNORED", "NO_SOLUTION"} & {reported.code for reported in result.warnings}
     assert (result.boundary_angle[np.isin(result.fixed, patch.curve)] == 0).all()
-
-
-def test_a_smooth_curve_on_the_surface_changes_nothing() -> None:
-    """A meridian of a hemisphere is held: the sphere, with one H across, and no cut."""
-    patch = shapes.cap(600)
-    middle = np.abs(patch.vertices[:, 0]) < 0.08
-    curve = np.intersect1d(np.flatnonzero(middle), patch.free)
-    fixed = np.concatenate([patch.fixed, curve])
-    normals = np.vstack([patch.fixed_normals, np.zeros((len(curve), 3))])
-    start = patch.vertices + 0.02 * np.random.default_rng(3).normal(size=patch.vertices.shape)
-    start[fixed] = patch.vertices[fixed]
-    result = fairing.fair(start, patch.triangles, fixed=fixed, fixed_normals=normals, smooth_curves=curve)
-    assert result.converged
-    assert patch.error(result.vertices) < 1e-9
-    assert np.array_equal(result.vertices[curve], patch.vertices[curve])
 
 
 def lifted_line(n: int) -> tuple[Creased, fairing.FairResult]:
@@ -109,19 +91,6 @@ def test_slopes_have_to_be_those_of_fixed_vertices() -> None:
     assert reported.value.code == "INDEX_RANGE"
     with pytest.raises(ValueError, match="creases: not accepted by method 'paper'"):
         fairing.fair(patch.vertices, patch.triangles, **given, creases=patch.curve, method="paper")
-
-
-def test_a_solver_has_the_same_creases() -> None:
-    patch = creased.box_edge(6)
-    solver = fairing.Solver(patch.triangles, fixed=patch.fixed, creases=patch.curve)
-    start = patch.noisy(0.25)
-    once = fairing.fair(
-        start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.normals[patch.fixed], creases=patch.curve
-    )
-    result = solver.solve(start, patch.normals[patch.fixed])
-    assert np.array_equal(result.vertices, once.vertices)
-    moved = solver.solve(1.1 * start, patch.normals[patch.fixed])
-    assert patch.error(moved.vertices) < 1e-9
 
 
 def test_the_interior_given_does_not_matter() -> None:

@@ -1,7 +1,5 @@
 """`fairing.hierarchy`: levels of a progressive mesh by half-edge collapses (§7.4)."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np
@@ -19,15 +17,6 @@ def test_the_number_of_levels_is_the_callers(levels: int) -> None:
     patch = shapes.cap(2000)
     result = fairing.hierarchy(patch.vertices, patch.triangles, levels=levels)
     assert len(result) == levels
-
-
-def test_the_last_level_is_the_mesh_itself() -> None:
-    patch = shapes.cap(500)
-    vertices, triangles = fairing.hierarchy(patch.vertices, patch.triangles)[-1]
-    assert np.array_equal(vertices, np.arange(len(patch.vertices)))
-    assert {tuple(np.roll(t, -t.argmin())) for t in triangles} == {
-        tuple(np.roll(t, -t.argmin())) for t in patch.triangles
-    }
 
 
 @pytest.mark.parametrize("make", ["disk", "blend"])
@@ -57,10 +46,3 @@ def test_fixed_curves_inside_the_mesh_stay() -> None:
     on_circle = measures.edges(capsule.triangles)
     on_circle = on_circle[np.isin(on_circle, capsule.circle).all(axis=1)]
     assert {tuple(e) for e in on_circle.tolist()} <= ends
-
-
-@pytest.mark.parametrize("levels", [-1, 1.5, "two"])
-def test_wrong_numbers_of_levels_are_named(levels: object) -> None:
-    patch = shapes.cap(60)
-    with pytest.raises(ValueError, match="levels"):
-        fairing.hierarchy(patch.vertices, patch.triangles, levels=levels)  # type: ignore[arg-type]

@@ -1,7 +1,5 @@
 """Includes: the parts of Eigen that sources use, or builds without precompiled headers fail; and one way only."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -89,29 +89,6 @@ def test_custom_weights_that_lead_to_no_fixed_vertex_are_refused() -> None:
         fair_patch(patch, inner_fairness=rows)
 
 
-def test_conformal_uses_the_reference_not_the_start() -> None:
-    """A reference squeezed towards one end (not linearly: that would be reproduced as well)."""
-    patch = shapes.plane(300)
-    squeezed = patch.vertices.copy()
-    squeezed[:, 2] = squeezed[:, 2] ** 2
-    plain = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
-    other = fair_patch(patch, inner_fairness="conformal", reference=squeezed)
-    assert np.abs(plain.vertices - other.vertices).max() > 1e-3
-
-
-def test_reference_defaults_to_the_vertices() -> None:
-    patch = shapes.linear_flux(300)
-    given = fairing.fair(
-        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
-        inner_fairness="conformal", reference=patch.vertices,
-    )  # fmt: skip
-    default = fairing.fair(
-        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
-        inner_fairness="conformal",
-    )  # fmt: skip
-    assert np.array_equal(given.vertices, default.vertices)
-
-
 def quad_edges(patch: Patch, quads: int) -> IntArray:
     """Edges of the grid's quads: triangles k and k + quads share the diagonal of quad k."""
     first, second = patch.triangles[:quads], patch.triangles[quads:]
@@ -129,14 +106,6 @@ def test_neighbours_of_quads_leave_the_diagonals_out() -> None:
     weights = uniform_weights(edges, len(patch.vertices))
     assert tangential_imbalance(patch, result, weights) < 1e-6
     assert np.abs(result.vertices - fair_patch(patch).vertices).max() > 1e-3
-
-
-def test_the_surface_does_not_depend_on_inner_fairness() -> None:
-    """Inner and outer fairness are independent: both meshes lie on the same surface."""
-    patch = CURVED["linear_flux"]
-    conformal = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
-    assert patch.error(conformal.vertices) < 2e-3
-    assert patch.error(fair_patch(patch).vertices) < 2e-3
 
 
 def test_where_no_mesh_of_the_users_carries_the_equation_all_weights_have_one_surface() -> None:

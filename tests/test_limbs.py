@@ -1,7 +1,5 @@
 """Whole hands over a short outline: nothing near to where the vertices lie tells where they belong on the dome."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,7 +1,5 @@
 """Each constant of the engine says why it is as it is."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

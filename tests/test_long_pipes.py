@@ -3,8 +3,6 @@
 The coarse levels of such meshes may have none, or another one.
 """
 
-from __future__ import annotations
-
 import pytest
 
 import fairing

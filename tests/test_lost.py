@@ -1,7 +1,5 @@
 """What a surface loses: its girth, below the lines that run on across it, and the grain of its surroundings."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """`detail` with the triangles outside: both bases meet the outline that the surroundings have without their detail."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -45,11 +43,6 @@ def test_the_outline_keeps_its_bits(sphere: RoughSphere) -> None:
     assert np.array_equal(result.base[beyond], sphere.vertices[beyond])
 
 
-def test_without_detail_the_outline_is_the_one_given(sphere: RoughSphere) -> None:
-    plain, alone = (sphere.fair(**chosen) for chosen in ({}, {"outside": None}))
-    assert np.array_equal(plain.vertices, alone.vertices)
-
-
 def test_normals_that_were_chosen_stay(sphere: RoughSphere) -> None:
     """Leaning outwards by 25°: the base leans with them."""
     up = np.array([0.0, 0.0, 1.0])
@@ -79,9 +72,3 @@ def test_a_clean_mesh_has_no_detail() -> None:
     result = clean.fair(detail=1.0)
     assert np.abs(clean.heights(result.base, clean.free)).max() < 1e-5 * clean.diameter
     assert np.abs(result.base[clean.outline] - clean.vertices[clean.outline]).max() < 1e-7
-
-
-def test_windings_may_differ(sphere: RoughSphere) -> None:
-    """Outside faces wound the other way round, as on meshes whose normals were never made consistent."""
-    turned = sphere.fair(detail=1.0, fixed_normals=sphere.exact[sphere.outline], outside=sphere.outside[:, ::-1])
-    assert np.abs(sphere.heights(turned.base, sphere.free)).max() < 3e-3 * sphere.diameter

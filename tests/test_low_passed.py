@@ -1,7 +1,5 @@
 """Large patches whose outline is too jagged to be met: the surface follows the smoothed outline."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +8,6 @@ import pytest
 import fairing
 import measures
 import shapes
-from fine_rims import fine_rim
 
 ROWS = 3  # of free vertices that follow the outline
 
@@ -77,12 +74,3 @@ def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
         flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
         left += len(flipped) + len(fairing.self_intersections(result.vertices, cap.triangles))
     assert left <= 10
-
-
-@pytest.mark.parametrize("radians", [0.6, 1.0])
-def test_fine_rims_with_wild_normals_have_a_sphere(radians: float) -> None:
-    """Curvature varies by 1e10 and more along these outlines."""
-    rim = fine_rim(2048, 0.2, radians)
-    result = fairing.fair(rim.vertices, rim.triangles, fixed=rim.fixed, fixed_normals=rim.normals, threads=1)
-    assert result.converged
-    assert np.abs(np.linalg.norm(result.vertices[len(rim.fixed) :], axis=1) - 1).max() < 0.03

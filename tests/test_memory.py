@@ -1,7 +1,5 @@
 """The memory that a call takes at its peak."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

@@ -1,7 +1,5 @@
 """Each row of scripts/mutants.toml fits the tree: its text is there once, and so are its tests."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from pathlib import Path

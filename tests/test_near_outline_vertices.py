@@ -1,15 +1,12 @@
 """Outline vertices that nearly coincide, as voxel remeshing and booleans leave them: their edges tell nothing."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
 import fairing
 import shapes
-import voxels
-from voxels import Region
+from tubes import Tube as Region
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -77,13 +74,3 @@ def test_twins_on_the_outline_do_not_matter(region: Region, limit: float, curvat
     assert result.polished
     assert off_ball(region, result) < limit
     assert np.abs(result.mean_curvature + 1).max() < curvature
-
-
-@pytest.mark.parametrize(
-    "region", [voxels.post(0.05, 0.5, 0.2), voxels.post(0.04, 0.4, 0.13), voxels.post(0.05, 0.4, 0.15, 0.0003)]
-)
-def test_fillets_of_voxel_meshes_are_fair(region: Region) -> None:
-    """Outline vertices that nearly coincide leave the surface harmonic."""
-    result = faired(region)
-    assert result.equation == "harmonic"
-    assert result.polished

@@ -1,13 +1,11 @@
 """Large patches begin on coarser levels of their own connectivity: faster, and the same surface."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
 import fairing
 import shapes
-from cubes import CubeCap, cube_cap
+import solids
 from shapes import Patch, Style
 from solving import fair_patch
 
@@ -17,16 +15,6 @@ PATCHES = {
     "pipe": lambda: shapes.cylinder(4000, Style(seed=2)),
     "clothoid cylinder": lambda: shapes.clothoid(4000),
 }
-
-
-def from_border(cap: CubeCap, tolerance: float) -> fairing.FairResult:
-    """The sphere's cap from its border alone."""
-    free = np.ones(len(cap.vertices), dtype=bool)
-    free[cap.fixed] = False
-    start = np.where(free[:, None], 0.0, cap.vertices)
-    return fairing.fair(
-        start, cap.triangles, fixed=cap.fixed, fixed_normals=cap.vertices[cap.fixed], tolerance=tolerance
-    )
 
 
 def faired(patch: Patch) -> fairing.FairResult:
@@ -73,7 +61,10 @@ def test_the_split_operator_leads_to_the_same_sphere() -> None:
 @pytest.mark.parametrize("quads", [30, 44, 60])
 def test_extraordinary_vertices_are_passed(quads: int) -> None:
     """Next to a cube's corners vertices move over several edges from one level to the next, within the surface."""
-    result = from_border(cube_cap(quads), tolerance=1e-10)
+    vertices, triangles, fixed = solids.cube_cap(quads)
+    start = np.zeros_like(vertices)
+    start[fixed] = vertices[fixed]
+    result = fairing.fair(start, triangles, fixed=fixed, fixed_normals=vertices[fixed], tolerance=1e-10)
     assert result.converged
     assert len(result.levels) > 1
     assert result.iterations <= 16

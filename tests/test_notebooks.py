@@ -1,7 +1,5 @@
 """The notebooks of examples/notebooks, cell by cell, and what they claim; the libraries they need are the real ones."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Open borders that become fair: noisy windows in cylinders and spheres."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -69,11 +67,3 @@ def test_a_fair_border_keeps_its_place() -> None:
     result = fair(window, window.vertices, open_border="faired")
     edge = np.linalg.norm(window.vertices[window.border[1]] - window.vertices[window.border[0]])
     assert np.linalg.norm(result.vertices - window.vertices, axis=1)[window.border].max() < 0.01 * edge
-
-
-def test_something_has_to_hold() -> None:
-    window = windows.window("sphere", 24)
-    with pytest.raises(ValueError, match="open_border: 'faired' needs `fixed`"):
-        fairing.fair(window.vertices, window.triangles, open_border="faired")
-    with pytest.raises(ValueError, match="open_border: 'faired' is not accepted by method 'paper'"):
-        fair(window, window.vertices, open_border="faired", method="paper")

@@ -1,30 +1,17 @@
 """Options in groups: what they hold, fields of them by name, and what is refused."""
 
-from __future__ import annotations
-
 import dataclasses
-import inspect
 from typing import Any
 
-import numpy as np
 import pytest
 
 import fairing
 from shapes import FAMILIES, Style
 
-CALLS = (fairing.fair, fairing.fill, fairing.remesh, fairing.fillet)
-
 
 def patch() -> tuple[Any, Any, fairing.Boundary]:
     made = FAMILIES["hemisphere"](80, Style())
     return made.vertices, made.triangles, fairing.Boundary(made.fixed, made.fixed_normals)
-
-
-def without_a_vertex(triangles: Any, boundary: fairing.Boundary) -> Any:
-    """The triangles that leave a hole at the free vertex with the most of them."""
-    uses = np.bincount(triangles.ravel())
-    uses[boundary.vertices] = 0
-    return triangles[(triangles != uses.argmax()).all(axis=1)]
 
 
 def test_groups_and_keywords_give_the_same_bits() -> None:
@@ -50,43 +37,6 @@ def test_groups_and_keywords_give_the_same_bits() -> None:
     for name in ("surface", "layout", "solving"):
         without = dataclasses.replace(options, **{name: getattr(fairing.Options(), name)})
         assert fairing.fair(vertices, triangles, boundary, without).vertices.tobytes() != grouped.vertices.tobytes()
-
-
-def test_fixed_vertices_alone_are_a_boundary() -> None:
-    vertices, triangles, boundary = patch()
-    film = fairing.Options(fairing.Surface("soap_film"))
-    plain = fairing.fair(vertices, triangles, boundary.vertices, film)
-    named = fairing.fair(vertices, triangles, fairing.Boundary(boundary.vertices), film)
-    assert plain.vertices.tobytes() == named.vertices.tobytes()
-
-
-def test_calls_that_make_vertices_share_the_groups() -> None:
-    vertices, triangles, boundary = patch()
-    film = fairing.Options(fairing.Surface("minimal_energy"))
-    open_mesh = without_a_vertex(triangles, boundary)
-    new = fairing.remesh(vertices, triangles, boundary, film, spacing=0.3)
-    hole = fairing.fill(vertices, open_mesh, None, film)
-    again = fairing.remesh(vertices, triangles, boundary, spacing=0.3, equation="minimal_energy")
-    assert again.vertices.tobytes() == new.vertices.tobytes()
-    same = fairing.fill(vertices, open_mesh, equation="minimal_energy")
-    assert same.vertices.tobytes() == hole.vertices.tobytes()
-    assert new.equation == hole.equation == "minimal_energy"
-
-
-def test_a_fillet_takes_them_too() -> None:
-    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
-    sides = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
-    loose = fairing.Options(solving=fairing.Solving(tolerance=1e-3))
-    one = fairing.fillet(corners, sides, None, loose, width=0.1)
-    other = fairing.fillet(corners, sides, width=0.1, tolerance=1e-3)
-    assert one.vertices.tobytes() == other.vertices.tobytes()
-
-
-@pytest.mark.parametrize("call", CALLS)
-def test_signatures_are_short(call: Any) -> None:
-    parameters = inspect.signature(call).parameters
-    assert "options" in parameters
-    assert len(inspect.signature(fairing.fair).parameters) == 8
 
 
 def test_defaults_are_those_that_callers_rely_on() -> None:

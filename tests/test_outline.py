@@ -1,7 +1,5 @@
 """Noisy, bad and visible outlines: standard errors, mending, growing, and the measure of the join."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

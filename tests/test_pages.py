@@ -1,7 +1,5 @@
 """The pages of the project: links lead somewhere, files that are named exist, lines of prose are short."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

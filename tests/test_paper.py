@@ -5,8 +5,6 @@ slowly: a thousandth of D on these meshes, which is what the thresholds say. Met
 none of it by default.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import fields
 from functools import lru_cache, partial
@@ -20,6 +18,7 @@ import fairing
 import shapes
 import six_arms
 import tetrathing
+from fairing import _core
 from shapes import Patch, Style
 from test_fixed_curves import make_capsule
 
@@ -68,16 +67,6 @@ def test_surfaces_with_harmonic_curvature_are_reproduced(family: str, goal: floa
     patch, result = solved(family)
     assert result.converged
     assert patch.error(result.vertices) < goal
-
-
-@pytest.mark.parametrize("family", ["linear_flux", "clothoid"])
-def test_mean_curvature_has_its_extremes_on_the_boundary(family: str) -> None:
-    """The maximum principle of Δ_B H = 0; slack where cotangent weights are negative."""
-    patch, result = solved(family)
-    boundary, inside = result.mean_curvature[patch.fixed], result.mean_curvature[patch.free]
-    slack = 0.01 * (boundary.max() - boundary.min())
-    assert inside.max() <= boundary.max() + slack
-    assert inside.min() >= boundary.min() - slack
 
 
 # §7.5: the boundary and other equations
@@ -151,3 +140,47 @@ def test_inner_fairness_moves_vertices_within_the_surface_only(kind: str) -> Non
     result = fair(patch, inner_fairness=kind, reference=patch.vertices)
     assert result.converged
     assert patch.error(result.vertices) < 3e-3
+
+
+# §7: construction and options
+
+
+def test_the_interior_given_leaves_no_trace() -> None:
+    patch = shapes.cap(300)
+    noise = np.random.default_rng(1).normal(scale=0.05, size=patch.vertices.shape)
+    noise[patch.fixed] = 0
+    one, other = (fair(patch, vertices=patch.vertices + sign * noise, max_iterations=20) for sign in (1, -1))
+    assert np.array_equal(one.vertices, other.vertices)
+
+
+@pytest.mark.parametrize("kind", ["uniform", "conformal", "inverse_distance"])
+@pytest.mark.parametrize("n_free", [70, 824], ids=["coarse within a fine outline", "Fig. 1"])
+def test_both_methods_solve_the_same_discrete_equation(n_free: int, kind: str) -> None:
+    """Same normals, same virtual points, same λ: 1e-4 D is asked."""
+    patch = blend.cylinder_blend(n_free)
+    paper = fair(patch, inner_fairness=kind)
+    fast = fair(patch, inner_fairness=kind, method="global", max_iterations=200, normals="averaged")
+    assert paper.converged
+    assert fast.converged
+    assert np.abs(paper.vertices - fast.vertices).max() < 1e-5 * patch.diameter
+
+
+# Options
+
+
+def test_options_of_the_paper_are_refused_by_the_global_method() -> None:
+    for options in (fairing.PaperOptions(), fairing.PaperOptions(damping=0.5)):
+        with pytest.raises(ValueError, match="paper: holds options of method 'paper'"):
+            fair(shapes.cap(60), method="global", paper=options)
+    with pytest.raises(ValueError, match=r"paper: a fairing\.PaperOptions is needed"):
+        fair(shapes.cap(60), paper={"damping": 0.5})
+
+
+def test_defaults_of_the_paper_are_the_engines() -> None:
+    """One list: what the caller leaves out is what the C++ struct says, and no field is lost on the way."""
+    engine, python = _core.PaperOptions(), fairing.PaperOptions()
+    for name in PAPER_FIELDS:
+        assert getattr(engine, name) == (0.0 if name == "epsilon" else getattr(python, name)), name
+    assert (python.acceleration, python.vertex_sweeps) == ("anderson", 2)
+    assert fairing.PaperOptions(acceleration="none").vertex_sweeps == 1
+    assert fairing.PaperOptions(acceleration="none", vertex_sweeps=3).vertex_sweeps == 3

@@ -1,7 +1,5 @@
 """What the equation on the mesh given adds to the surface that a mesh of the engine's own found: method/polish."""
 
-from __future__ import annotations
-
 import pytest
 
 import fairing

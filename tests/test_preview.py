@@ -1,7 +1,5 @@
 """The surface that every run begins with: always there, finite, between its boundary, near the one that follows."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -36,17 +34,6 @@ def test_the_first_surface_is_near_the_fair_one(make, size: int) -> None:  # typ
     assert np.array_equal(result.vertices, without.vertices)  # to look changes nothing
 
 
-def test_a_solver_shows_it_too() -> None:
-    """The same surface, in the same units, however often it is asked for."""
-    patch = shapes.cap(400, style=Style(seed=5))
-    solver = fairing.Solver(patch.triangles, fixed=patch.fixed)
-    shown: list[np.ndarray] = []
-    for _ in range(2):
-        solver.solve(patch.vertices, patch.fixed_normals, preview=shown.append)
-    first, _ = shown_and_found(patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals)
-    assert all(np.array_equal(vertices, first) for vertices in shown)
-
-
 def test_a_limb_is_not_drawn_to_a_thread() -> None:
     """A rough pipe of eight radii: the fill between its ends has a waist, the old shape low-passed has not."""
     pipe = tubes.pipe(8.0)
@@ -72,14 +59,3 @@ def test_what_the_receiver_raises_comes_out() -> None:
     patch = shapes.cap(400, style=Style(seed=5))
     with pytest.raises(Enough):
         fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, preview=receive)
-
-
-@pytest.mark.parametrize("equation", ["soap_film", "constant", "least_variation"])
-def test_every_equation_has_one(equation: str) -> None:
-    """Finite, and between the boundary given."""
-    patch = shapes.cap(200, style=Style(seed=5))
-    first, _ = shown_and_found(
-        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, equation=equation
-    )
-    assert np.isfinite(first).all()
-    assert np.array_equal(first[patch.fixed], patch.vertices[patch.fixed])

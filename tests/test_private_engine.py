@@ -1,7 +1,5 @@
 """How the extension's engine gets a name of its own (scripts/shipping/private.py)."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import importlib.util

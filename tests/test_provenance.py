@@ -1,7 +1,5 @@
 """Where a surface comes from is reported, whatever else is asked for."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Callable
 from typing import Any

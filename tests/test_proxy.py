@@ -1,7 +1,5 @@
 """Connectivity that can't carry the equation: the surface is solved on the engine's own mesh."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -73,34 +71,3 @@ def test_hopeless_boundary_data_still_gives_a_finite_surface() -> None:
     span = np.linalg.norm(result.vertices - result.vertices[patch.fixed].mean(axis=0), axis=1).max()
     assert span < 3 * patch.diameter
     np.testing.assert_array_equal(result.vertices[patch.fixed], patch.vertices[patch.fixed])
-
-
-@pytest.mark.parametrize("seed", [0, 2, 4, 6, 8, 10, 12])
-def test_a_coarse_surface_far_from_the_fine_one_is_given_up_soon(seed: int) -> None:
-    """Forty steps more found none from there on these caps; 83 to 110 were taken in all."""
-    cap = shapes.cap(20, shapes.Style(valence3=0.3, flips=0.3, seed=seed))
-    stages: list[str] = []
-    result = fairing.fair(
-        shapes.start_from_nothing(cap), cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, threads=1,
-        progress=lambda _, stage: stages.append(stage) is None,
-    )  # fmt: skip
-    assert "own mesh" in [name for name, _ in result.way]
-    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 1e-3
-    assert stages.count("iteration") < 80
-
-
-def test_a_finest_interior_is_left_out_where_its_coarse_mesh_ends_nowhere() -> None:
-    """Rough rims of few edges: 26 and 16 steps of descents are taken otherwise, over two and three meshes."""
-    for seed, most in ((9, 13), (5, 8)):
-        cap = shapes.cap(24, shapes.Style(valence3=0.3, flips=0.3, seed=seed))
-        rng, count = np.random.default_rng(seed), len(cap.fixed)
-        vertices, normals = cap.vertices.copy(), cap.fixed_normals.copy()
-        vertices[cap.fixed] += 0.35 * 2 * np.pi / count * rng.normal(size=(count, 3))
-        normals += 0.35 * rng.normal(size=(count, 3))
-        normals /= np.linalg.norm(normals, axis=1)[:, None]
-        stages: list[str] = []
-        fairing.fair(
-            vertices, cap.triangles, fixed=cap.fixed, fixed_normals=normals, threads=1,
-            progress=lambda _, stage, seen=stages: seen.append(stage) is None,
-        )  # fmt: skip
-        assert stages.count("descent") <= most

@@ -1,7 +1,5 @@
 """Quads in rows: the patterns are sound for every boundary, closed forms come back, rows go on through."""
 
-from __future__ import annotations
-
 from collections import Counter
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What a release is refused for."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 import tomllib

@@ -1,7 +1,5 @@
 """fairing.remesh: another mesh for the same fair surface, with the way back to the old one."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -167,18 +165,3 @@ def test_kept_edges_must_be_edges(cap: shapes.Patch) -> None:
         fairing.remesh(
             cap.vertices, cap.triangles, fixed=cap.fixed, kept=[[int(cap.fixed[0]), int(cap.fixed[-1] // 2)]]
         )
-
-
-def test_interpolated_values_are_linear_on_a_plane_and_never_overshoot() -> None:
-    patch = shapes.cap(300, shapes.Style(jitter=0.3, seed=2), half_angle=60)
-    flat = patch.vertices * (1.0, 1.0, 0.0)
-    rim = patch.fixed
-    values = fairing.interpolate(flat, patch.triangles, rim, flat[rim, :2])
-    np.testing.assert_allclose(values, flat[:, :2], atol=0.02)
-    noise = np.random.default_rng(1).normal(size=(len(rim), 4))
-    carried = fairing.interpolate(patch.vertices, patch.triangles, rim, noise)
-    assert (carried >= noise.min(axis=0)).all()
-    assert (carried <= noise.max(axis=0)).all()
-    assert np.array_equal(carried[rim], noise)
-    with pytest.raises(ValueError, match="needs a value"):
-        fairing.interpolate(flat, patch.triangles, rim[1:], flat[rim[1:], :2])

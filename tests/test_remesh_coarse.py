@@ -1,7 +1,5 @@
 """New meshes for patches of few large faces, none of whose vertices is free."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

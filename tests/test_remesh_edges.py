@@ -1,17 +1,15 @@
 """A new mesh for a patch through which hard edges run: they are held, and each side finds its slope."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import pytest
 
-import dented
+import creased
 import fairing
 import measures
 
 
-def meshed(part: dented.Dented, factor: float) -> fairing.RemeshResult:
+def meshed(part: creased.Dented, factor: float) -> fairing.RemeshResult:
     return fairing.remesh(
         part.vertices, part.patch, fixed=part.fixed, fixed_normals=part.normals, creases=part.curve,
         spacing=factor * part.edge, equation="automatic",
@@ -22,10 +20,15 @@ def meshed(part: dented.Dented, factor: float) -> fairing.RemeshResult:
 @pytest.mark.parametrize(("n", "seed"), [(8, 1), (14, 2), (22, 3)])
 @pytest.mark.parametrize(
     ("make", "bound"),
-    [(dented.box_edge, 1e-9), (dented.box_corner, 1e-9), (dented.lid_rim, 1e-4), (dented.bent_sheet, 1e-3)],
+    [
+        (creased.dented_edge, 1e-9),
+        (creased.dented_corner, 1e-9),
+        (creased.dented_rim, 1e-4),
+        (creased.dented_sheet, 1e-3),
+    ],
 )
 def test_edges_are_held(
-    make: Callable[[int, int], dented.Dented], bound: float, n: int, seed: int, factor: float
+    make: Callable[[int, int], creased.Dented], bound: float, n: int, seed: int, factor: float
 ) -> None:
     """The sides come back, whether the mesh is solved or, where it is coarser, cut from the solved one."""
     part = make(n, seed)

@@ -1,7 +1,5 @@
 """Hard edges that a smoothed outline rounds are distinguished from noise."""
 
-from __future__ import annotations
-
 import numpy as np
 import numpy.typing as npt
 import pytest

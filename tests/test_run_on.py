@@ -1,17 +1,15 @@
 """Hard edges that end at a hole run on through it; edges that were drawn across it are used as they are."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
 import pytest
 
+import creased
 import fairing
-import hard_holes
+from creased import FloatArray, Hole, IntArray
 from fairing._edge_ends import EdgeEnd
 from fairing._matching import matched
-from hard_holes import FloatArray, Hole, IntArray
 
 PROFILES: dict[str, list[tuple[float, float]]] = {
     "two edges": [(-1.0, -1.0), (-0.15, 0.0), (0.15, 0.0), (1.0, -1.0)],
@@ -42,10 +40,10 @@ def least_angle(vertices: FloatArray, triangles: IntArray) -> float:
 @pytest.mark.parametrize(
     ("make", "curves", "bound"),
     [
-        (hard_holes.in_box_edge, 1, 1e-9),
-        (hard_holes.in_box_corner, 3, 1e-9),
-        (hard_holes.in_lid, 1, 1e-9),
-        (hard_holes.in_bent_sheet, 1, 1e-3),
+        (creased.in_box_edge, 1, 1e-9),
+        (creased.in_box_corner, 3, 1e-9),
+        (creased.in_lid, 1, 1e-9),
+        (creased.in_bent_sheet, 1, 1e-3),
     ],
 )
 @pytest.mark.parametrize(("n", "seed"), [(8, 1), (14, 2), (22, 3)])
@@ -63,7 +61,7 @@ def test_an_edge_runs_on(make: Callable[[int, int], Hole], curves: int, bound: f
 @pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES.keys())
 @pytest.mark.parametrize("n", [16, 24])
 def test_several_edges_run_through_one_hole(profile: list[tuple[float, float]], n: int) -> None:
-    hole = hard_holes.in_profile(profile, n)
+    hole = creased.in_profile(profile, n)
     result = filled(hole)
     assert len(result.curves) == len(profile) - 2
     assert hole.error(result.vertices) < 1e-9
@@ -72,7 +70,7 @@ def test_several_edges_run_through_one_hole(profile: list[tuple[float, float]], 
 
 
 def test_the_edge_is_rounded_where_that_is_asked_for() -> None:
-    hole = hard_holes.in_box_edge(14, 1)
+    hole = creased.in_box_edge(14, 1)
     result = filled(hole, edges="ignored")
     assert result.curves == ()
     assert hole.error(result.vertices) > 0.03
@@ -82,7 +80,7 @@ def test_the_edge_is_rounded_where_that_is_asked_for() -> None:
 
 def test_the_mesh_fits_and_keeps_the_spacing() -> None:
     """Every edge of the loop and of the curve has its two triangles, and finer wishes make finer curves."""
-    hole = hard_holes.in_box_edge(14, 1)
+    hole = creased.in_box_edge(14, 1)
     counts = []
     for spacing in (0.03, 0.06, 0.12):
         result = filled(hole, spacing=spacing)
@@ -101,7 +99,7 @@ def test_the_mesh_fits_and_keeps_the_spacing() -> None:
 
 def test_curves_move_turn_and_scale_with_the_mesh() -> None:
     """And so does the surface, as far as its distances to the exact one tell."""
-    hole = hard_holes.in_bent_sheet(10, 1)
+    hole = creased.in_bent_sheet(10, 1)
     turn = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
     turn *= np.sign(np.linalg.det(turn))
     shift = np.array([5.0, -3.0, 80.0])
@@ -116,7 +114,7 @@ def test_curves_move_turn_and_scale_with_the_mesh() -> None:
 def test_a_marked_edge_runs_on_however_flat() -> None:
     """Across an edge of 20°, which is no hard edge unless it is marked; the curve tells."""
     low = float(np.tan(np.radians(20.0)))
-    hole = hard_holes.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, -low)], 14)
+    hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, -low)], 14)
     x = hole.vertices[:, 0]
     sides = np.concatenate([hole.triangles[:, [0, 1]], hole.triangles[:, [1, 2]]])
     marked = np.unique(np.sort(sides[(np.abs(x[sides]) < 1e-9).all(axis=1)], axis=1), axis=0)
@@ -124,7 +122,7 @@ def test_a_marked_edge_runs_on_however_flat() -> None:
     result = filled(hole, marked=marked)
     assert result.marked == (True,)
     assert hole.error(result.vertices) < 1e-9 < hole.error(filled(hole).vertices)
-    assert filled(hard_holes.in_box_edge(8, 1)).marked == (False,)
+    assert filled(creased.in_box_edge(8, 1)).marked == (False,)
 
 
 def drawn_across(hole: Hole, places: FloatArray) -> tuple[FloatArray, IntArray]:
@@ -138,7 +136,7 @@ def drawn_across(hole: Hole, places: FloatArray) -> tuple[FloatArray, IntArray]:
 
 def test_a_drawn_edge_is_used_as_it_is() -> None:
     """A wire that bulges within the plane x = 0: it stays to the bit, that side stays flat, and the other meets it."""
-    hole = hard_holes.in_box_edge(14, 1)
+    hole = creased.in_box_edge(14, 1)
     y = np.linspace(0.3, 0.7, 8)
     places = np.column_stack([np.zeros(8), y, 0.04 * np.cos(np.pi * (y - 0.5) / 0.56)])
     vertices, wires = drawn_across(hole, places)
@@ -158,7 +156,7 @@ def test_a_drawn_edge_is_used_as_it_is() -> None:
 
 
 def test_drawn_edges_that_cross_are_refused_with_their_places() -> None:
-    hole = hard_holes.in_box_edge(14, 1)
+    hole = creased.in_box_edge(14, 1)
     vertices, wires = drawn_across(hole, np.array([[0.0, 0.5, 0.0]]))
     a, b = (int(hole.loop[np.argmin(hole.vertices[hole.loop] @ way)]) for way in ([1.0, 0, 0.2], [0.2, 0, 1.0]))
     with pytest.raises(fairing.MeshError, match="edges drawn across a hole cross each other") as caught:
@@ -175,7 +173,7 @@ def test_drawn_edges_that_cross_are_refused_with_their_places() -> None:
 
 
 def test_a_loose_end_of_a_wire_changes_nothing() -> None:
-    hole = hard_holes.in_box_edge(10, 1)
+    hole = creased.in_box_edge(10, 1)
     vertices, wires = drawn_across(hole, np.array([[0.0, 0.5, 0.0]]))
     result = fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires[:1])
     assert np.array_equal(result.vertices, filled(hole).vertices)
@@ -183,7 +181,7 @@ def test_a_loose_end_of_a_wire_changes_nothing() -> None:
 
 def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
     """Its outline runs along a box edge: flat to roundoff, where normals from beyond the edge make a bulge."""
-    box = hard_holes.creased.box_edge(12, 1)
+    box = creased.creased.box_edge(12, 1)
     flat = (np.abs(box.vertices[box.triangles][:, :, 0]) < 1e-12).all(axis=1)
     near = (np.linalg.norm(box.vertices - [0.0, 0.5, 0.0], axis=1) < 0.33)[box.triangles].all(axis=1)
     kept = box.triangles[~(flat & near)]
@@ -197,7 +195,7 @@ def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
 
 def test_where_no_surface_holds_the_edge_it_is_left_alone() -> None:
     """One step is too few along the curve: the smooth surface comes back, and the ends are named."""
-    hole = hard_holes.in_bent_sheet(14, 1)
+    hole = creased.in_bent_sheet(14, 1)
     one = fairing.Options(solving=fairing.Solving(max_iterations=1, tolerance=1e-14))
     result, smooth = (filled(hole, edges=how, options=one) for how in ("run_on", "ignored"))
     (warning,) = [reported for reported in result.warnings if reported.code == "EDGES_LEFT_ALONE"]
@@ -210,7 +208,7 @@ def test_where_no_surface_holds_the_edge_it_is_left_alone() -> None:
 
 def test_holes_with_and_without_edges_are_filled_in_one_call() -> None:
     """Each as by itself; triangles, fixed vertices and curves name the same places."""
-    hole = hard_holes.in_profile([(-1.0, 0.0), (0.0, 0.0), (0.0, -1.0)], 16, radius=0.25)
+    hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (0.0, -1.0)], 16, radius=0.25)
     away = np.linalg.norm(hole.vertices - [-0.6, 0.5, 0.0], axis=1) < 0.2
     kept = hole.triangles[~away[hole.triangles].all(axis=1)]
     loops = [loop for loop in fairing.boundary_loops(kept) if len(loop) < 40]
@@ -264,8 +262,8 @@ def test_ambiguous_ends_and_too_many_are_left_alone() -> None:
 
 def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:
     """A box edge that fades out within the hole's outline: only one end comes to it."""
-    fold = hard_holes.creased.fading_fold(16, 1, steep=1.2)
-    hole = hard_holes.cut_out(
+    fold = creased.creased.fading_fold(16, 1, steep=1.2)
+    hole = creased.cut_out(
         fold.vertices, fold.triangles, np.linalg.norm(fold.vertices[:, :2] - [0.0, 0.5], axis=1) < 0.33, ()
     )
     result = filled(hole)

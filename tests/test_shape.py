@@ -1,7 +1,5 @@
 """Figures of how a surface looks: where it is thin or thick, needles, seams that stay, shapes that are no texture."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Repeated solves: the first is fair's bit for bit, later ones start from the last answer and give the same surface."""
 
-from __future__ import annotations
-
 import threading
 from typing import Any
 
@@ -69,28 +67,6 @@ def test_first_solve_has_the_bits_of_fair(options: dict[str, Any]) -> None:
     assert [str(warning) for warning in first.warnings] == [str(warning) for warning in single.warnings]
 
 
-def test_an_outline_that_slides_on_a_sphere_leaves_the_sphere() -> None:
-    """The vertices of the rim go south by up to 3°, unevenly; the sphere is the one that was there."""
-    patch = shapes.cap(SIZE, half_angle=70)
-    solver = solver_of(patch)
-    solver.solve(shapes.start_from_nothing(patch), patch.fixed_normals)
-    for share in (0.3, 0.6, 1.0):
-        vertices = patch.vertices.copy()
-        rim = patch.vertices[patch.fixed]
-        longitude = np.arctan2(rim[:, 1], rim[:, 0])
-        latitude = np.radians(70 + 3 * share * (1 + np.sin(2 * longitude)) / 2)
-        outward = np.column_stack(
-            [np.sin(latitude) * np.cos(longitude), np.sin(latitude) * np.sin(longitude), np.cos(latitude)]
-        )
-        # The domain's sphere: centre at the origin, or wherever the exact positions lie one radius along the normals.
-        vertices[patch.fixed] = (patch.vertices - patch.normals).mean(axis=0) + outward
-        result, seen = stages(solver, vertices, outward)
-        assert seen == WITHOUT_FACTORISATION
-        assert result.converged
-        assert patch.error(result.vertices) <= 1e-8
-        assert np.abs(result.mean_curvature + 1).max() <= 1e-6
-
-
 @pytest.mark.parametrize("family", ["hemisphere", "unduloid", "linear_flux", "clothoid", "plane"])
 def test_answers_do_not_depend_on_what_was_solved_before(family: str) -> None:
     patch = shapes.FAMILIES[family](SIZE)
@@ -109,19 +85,6 @@ def test_answers_do_not_depend_on_what_was_solved_before(family: str) -> None:
     assert np.abs(back.vertices - fair(patch, shapes.start_from_nothing(patch), normals).vertices).max() <= (
         SAME * patch.diameter
     )
-
-
-def test_another_reference_changes_the_weights() -> None:
-    patch = shapes.cap(SIZE, half_angle=60)
-    stretched = patch.vertices * np.array([1.6, 1.0, 1.0])
-    solver = solver_of(patch, inner_fairness="conformal")
-    for reference in (patch.vertices, stretched, patch.vertices):
-        result = solver.solve(patch.vertices, patch.fixed_normals, reference=reference)
-        single = fair(patch, patch.vertices, patch.fixed_normals, inner_fairness="conformal", reference=reference)
-        assert np.abs(result.vertices - single.vertices).max() <= SAME * patch.diameter
-    first = solver.solve(patch.vertices, patch.fixed_normals, reference=patch.vertices)
-    other = solver.solve(patch.vertices, patch.fixed_normals, reference=stretched)
-    assert np.abs(first.vertices - other.vertices).max() > 1e-2 * patch.diameter
 
 
 def test_a_boundary_that_jumps_is_solved_from_scratch() -> None:
@@ -164,24 +127,6 @@ def test_what_is_refused_leaves_the_solver_as_it_was(vertices: Any, normals: Any
             solver.solve(vertices, normals)
         result = solver.solve(PATCH.vertices, PATCH.fixed_normals)
         assert np.array_equal(result.vertices, fair(PATCH, PATCH.vertices, PATCH.fixed_normals).vertices)
-
-
-def test_wrong_arguments_of_the_solver_are_named() -> None:
-    with pytest.raises(ValueError, match="triangles"):
-        fairing.Solver([[0.5, 1.5, 2.5]])
-    with pytest.raises(ValueError, match="equation"):
-        solver_of(PATCH, equation="wave")
-    with pytest.raises(ValueError, match="paper: holds options of method 'paper'"):
-        solver_of(PATCH, paper=fairing.PaperOptions(damping=0.5))
-    with pytest.raises(TypeError, match="damping"):
-        solver_of(PATCH, damping=0.5)
-    with pytest.raises(ValueError, match="progress"):
-        solver_of(PATCH).solve(PATCH.vertices, PATCH.fixed_normals, progress=3)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="needs `fixed`"):
-        fairing.Solver(PATCH.triangles).solve(PATCH.vertices, PATCH.fixed_normals)
-    outside = [[0, len(PATCH.vertices)]]
-    with pytest.raises(fairing.MeshError, match="neighbours"):
-        solver_of(PATCH, neighbours=outside).solve(PATCH.vertices, PATCH.fixed_normals)
 
 
 def in_a_drag(patch: Patch) -> fairing.Solver:
@@ -241,15 +186,6 @@ def test_one_call_at_a_time() -> None:
     assert len(refusals) == 2
     assert all("one call at a time" in text for text in refusals)
     assert np.array_equal(result.vertices, fair(PATCH, PATCH.vertices, PATCH.fixed_normals).vertices)
-
-
-def test_more_vertices_than_before_are_solved_anew() -> None:
-    solver = solver_of(PATCH)
-    first = solver.solve(PATCH.vertices, PATCH.fixed_normals)
-    longer = np.vstack([PATCH.vertices, [[9.0, 9.0, 9.0]]])
-    result = solver.solve(longer, PATCH.fixed_normals)
-    assert np.array_equal(result.vertices[:-1], first.vertices)
-    assert np.array_equal(result.vertices[-1], longer[-1])
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Pins that lift the surface over a radius: exactly at their place, with an H that no mesh changes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -119,18 +117,6 @@ def test_the_pin_acts_on_its_own_side_of_a_slit() -> None:
     assert np.abs(result.vertices[beyond, 2]).max() < 0.01 * 0.02
 
 
-def test_the_surface_of_least_variation_needs_no_radius() -> None:
-    """Its pins leave H bounded as they are; on the exact surface they change nothing."""
-    patch = shapes.cap(300)
-    pins = patch.free[[5, len(patch.free) // 2]]
-    result = fairing.fair(
-        patch.vertices, patch.triangles, fixed=np.concatenate([patch.fixed, pins]),
-        fixed_normals=np.vstack([patch.fixed_normals, np.zeros((len(pins), 3))]), equation="least_variation",
-    )  # fmt: skip
-    assert "PINS_NOT_SPREAD" not in {reported.code for reported in result.warnings}
-    assert patch.error(result.vertices) < 1e-9
-
-
 def pulled_sideways(n_free: int, pull: float, **options: object) -> tuple[fairing.FairResult, Patch, int]:
     """A hemisphere whose apex is pinned a share of D to one side of where it was, and that vertex."""
     patch = shapes.cap(n_free)
@@ -174,16 +160,6 @@ def test_a_folded_surface_has_no_spread_pins() -> None:
     assert result.converged
     assert not result.warnings
     assert len(fairing.flipped_triangles(result.vertices, patch.triangles)) == 0
-
-
-def test_pins_far_from_their_surface_are_led_there() -> None:
-    """Four pins, by turns 0.3 D above and below a flat disc: one iteration does not find the way, steps do."""
-    patch = shapes.plane(1000)
-    pins = near(patch, [(-0.2, -0.1), (0.2, -0.1), (0.2, 0.1), (-0.2, 0.1)])
-    result, _ = lifted(patch, pins, [0.3, -0.3, 0.3, -0.3], otherwise="stop")
-    assert result.converged
-    assert not result.warnings
-    assert np.abs(result.mean_curvature).max() * size(patch) < 12.0
 
 
 def test_a_far_pin_lifts_a_hill_not_a_needle() -> None:
@@ -236,23 +212,3 @@ def test_pins_that_are_too_much_say_so() -> None:
     result, _ = lifted(patch, pins, [1.0, -1.0], otherwise="stop")
     named = [set(reported.elements) for reported in result.warnings if reported.code == "PINS_NOT_SPREAD"]
     assert named == [set(pins), set(pins)]  # tips of needles, and in points
-
-
-def test_a_solver_spreads_pins_while_they_move() -> None:
-    patch = shapes.plane(500)
-    pin = near(patch, [(0.0, 0.0)])
-    fixed = np.concatenate([patch.fixed, pin])
-    normals = np.vstack([patch.fixed_normals, np.zeros((1, 3))])
-    solver = fairing.Solver(patch.triangles, fixed=fixed)
-    for lift in (0.05, 0.06):
-        start = patch.vertices.copy()
-        start[pin] += lift * size(patch) * patch.fixed_normals[0]
-        result = solver.solve(start, normals)
-        once, _ = lifted(patch, pin, [lift])
-        assert np.abs(result.vertices - once.vertices).max() < 1e-5 * size(patch)
-
-
-def test_the_radius_is_a_share() -> None:
-    patch = shapes.plane(100)
-    with pytest.raises(ValueError, match="pin_radius"):
-        fairing.fair(patch.vertices, patch.triangles, pin_radius=-0.1)

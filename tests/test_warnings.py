@@ -1,7 +1,5 @@
 """What a result says about itself: warnings that name their elements."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 
@@ -92,10 +90,6 @@ def test_a_reference_that_carries_no_texture_is_reported_and_left_out(kind: str)
         assert len(warning.elements) > len(CAP.triangles) / 10
         assert np.array_equal(result.vertices, uniform.vertices)
     assert "REFERENCE_UNUSABLE" not in codes(fair_patch(CAP, inner_fairness=kind, reference=CAP.vertices))
-
-
-def test_uniform_weights_need_no_reference() -> None:
-    assert not codes(fair_patch(CAP, reference=np.zeros_like(CAP.vertices)))
 
 
 def test_weights_that_turn_triangles_over_give_way_to_uniform_ones() -> None:

@@ -4,8 +4,6 @@ The base has 48 vertices and 104 triangles: four pairs of trousers, one at each 
 circle of four vertices round each edge.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 import measures

@@ -1,7 +1,5 @@
 """Tubes round plane curves with irregular meshes, as problems with an outline and normals only."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

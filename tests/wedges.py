@@ -1,7 +1,5 @@
 """Two planes that meet in an edge, as closed solids; and profiles of rounded edges."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

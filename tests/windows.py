@@ -1,7 +1,5 @@
 """Window openings in cylinders and spheres of radius 1, with a noisy border."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Literal
 
@@ -9,7 +7,7 @@ import numpy as np
 
 import measures
 from curves import FloatArray
-from meshing import IntArray
+from grids import IntArray, halves, numbered
 
 Kind = Literal["cylinder", "sphere"]
 
@@ -58,28 +56,6 @@ class Window:
         fine = np.concatenate([loop + s * (np.roll(loop, -1, axis=0) - loop) for s in np.linspace(0, 1, 9)[:-1]])
         return float(np.linalg.norm(vertices[self.border][:, None] - fine, axis=2).min(axis=1).max())
 
-    def least_squares(self, noisy: FloatArray) -> float:
-        """off_border of the best of the least-squares fits by 1 to 6 waves along each axis, put onto the exact surface.
-
-        Whoever picks the number of waves here knows the exact border. No choice from the noisy one alone can be relied
-        on to do better.
-        """
-        angle = 2 * np.pi * np.arange(len(self.border)) / len(self.border)
-        errors = []
-        for most in range(1, 7):
-            waves = np.column_stack([np.cos(k * angle) for k in range(most + 1)])
-            waves = np.hstack([waves, np.column_stack([np.sin(k * angle) for k in range(1, most + 1)])])
-            fit = waves @ np.linalg.lstsq(waves, noisy[self.border], rcond=None)[0]
-            points = self.vertices.copy()
-            points[self.border] = self.onto_surface(fit)
-            errors.append(self.off_border(points))
-        return min(errors)
-
-    def onto_surface(self, points: FloatArray) -> FloatArray:
-        """The nearest points of the exact surface."""
-        axes = points * ([1.0, 1.0, 0.0] if self.kind == "cylinder" else 1.0)
-        return np.asarray(points + axes * (1.0 / np.linalg.norm(axes, axis=1, keepdims=True) - 1.0))
-
 
 def window(kind: Kind, around: int, seed: int = 0, *, inner: float = 0.4, outer: float = 0.9) -> Window:
     """A round window in the chart (u, v); its border has `around` vertices."""
@@ -90,13 +66,8 @@ def window(kind: Kind, around: int, seed: int = 0, *, inner: float = 0.4, outer:
     angle = np.tile(2 * np.pi * np.arange(around) / around, rows + 1)
     between = np.repeat((np.arange(rows + 1) > 0) & (np.arange(rows + 1) < rows), around)
     angle = angle + between * 0.25 * 2 * np.pi / around * rng.uniform(-1, 1, len(angle))
-    number = np.arange(len(angle)).reshape(rows + 1, around)
-    a, b = number[:-1].ravel(), np.roll(number[:-1], -1, axis=1).ravel()
-    c, d = number[1:].ravel(), np.roll(number[1:], -1, axis=1).ravel()
-    one = rng.random(len(a)) < 0.5
-    triangles = np.concatenate([
-        np.column_stack([a, c, np.where(one, d, b)]), np.column_stack([np.where(one, a, c), d, b]),
-    ])  # fmt: skip
+    number = numbered(rows + 1, around)
+    triangles = halves(np.column_stack([number, number[:, 0]]), rng)
     vertices = _mapped(kind, radius * np.cos(angle), radius * np.sin(angle))
     normals = vertices[number[-1]] * ([1.0, 1.0, 0.0] if kind == "cylinder" else 1.0)
     return Window(kind, vertices, triangles, number[-1], normals, number[0])

@@ -1,7 +1,5 @@
 """Networks of wires: ellipsoids, bottles, hulls and saddles of given or random sizes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
@@ -91,24 +89,6 @@ def bottle(radius: float, neck: float, height: float, meridians: int = 4) -> Wir
     return revolved(profile, (0.27, 0.45, 0.66, 0.86, 1.0), meridians)
 
 
-def hull(length: float, beam: float, depth: float, sheer: float, ribs: int = 3, steps: int = 10) -> Wires:
-    """Gunwales, a keel and ribs of a boat that is pointed at both ends."""
-    drawing = Drawing()
-    shares = np.linspace(-1.0, 1.0, steps * (ribs + 1) + 1)
-
-    def at(s: float, across: float) -> list[float]:
-        angle, full = 0.5 * np.pi * across, 1.0 - s * s
-        return [
-            0.5 * length * s, beam * full * np.sin(angle), sheer * s * s - depth * (1.0 - s**4) * np.cos(angle),
-        ]  # fmt: skip
-
-    for across in (-1.0, 0.0, 1.0):
-        drawing.line([at(s, across) for s in shares])
-    for k in range(1, ribs + 1):
-        drawing.line([at(shares[k * steps], across) for across in np.linspace(-1.0, 1.0, 2 * steps + 1)])
-    return drawing.wires
-
-
 def net(surface: Callable[[float, float], Sequence[float]], across: int, along: int, steps: int = 8) -> Wires:
     """Lines of a surface over 0 … 1, 0 … 1."""
     drawing = Drawing()
@@ -127,18 +107,3 @@ def saddle(width: float, height: float, twist: float, across: int, along: int) -
         return [width * x, y, height * (x * x - y * y) + twist * x * y + 0.2 * height * np.sin(2.0 * x + y)]
 
     return net(at, across, along)
-
-
-def random(seed: int) -> tuple[str, Wires]:
-    """Its kind, by turns, and a network."""
-    draw = np.random.default_rng(seed)
-    kind = ("ellipsoid", "bottle", "hull", "saddle")[seed % 4]
-    between = draw.uniform
-    if kind == "ellipsoid":
-        return kind, circles([between(0.5, 2.0), between(0.5, 2.0), 1.0], int(draw.choice([24, 32, 48])))
-    if kind == "bottle":
-        return kind, bottle(1.0, between(0.25, 0.6), between(2.0, 4.0), int(draw.choice([4, 8])))
-    if kind == "hull":
-        return kind, hull(between(4.0, 8.0), 1.0, between(0.5, 1.2), between(0.0, 0.5), int(draw.integers(1, 5)))
-    size = int(draw.integers(2, 4)), int(draw.integers(2, 4))
-    return kind, saddle(between(0.7, 1.5), between(0.1, 1.0), between(-0.5, 0.5), *size)

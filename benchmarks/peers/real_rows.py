@@ -14,7 +14,7 @@ sys.path.append(str(Path(__file__).resolve().parents[1] / "common"))
 
 import fairing
 import shapes
-from cubes import cube_cap
+import solids
 from graded_disc import graded_disc
 from real_meshes import DATA
 from scan_regions import scan_region
@@ -49,8 +49,8 @@ def graded(size: int) -> Input:
 
 def quads(size: int) -> Input:
     """A grid of quads on a hemisphere, each cut in two."""
-    made = cube_cap(2 * round(0.5 * (size / 3.0) ** 0.5))  # 3 quads² vertices
-    return made.vertices, made.triangles, {"fixed": made.fixed, "fixed_normals": made.vertices[made.fixed]}
+    vertices, triangles, fixed = solids.cube_cap(2 * round(0.5 * (size / 3.0) ** 0.5))  # 3 quads² vertices
+    return vertices, triangles, {"fixed": fixed, "fixed_normals": vertices[fixed]}
 
 
 MESHES: dict[str, Callable[[int], Input]] = {

@@ -1,7 +1,6 @@
 // Small meshes for the unit tests.
 #pragma once
 
-#include <cmath>
 #include <functional>
 
 #include "geometry/face_geometry.h"

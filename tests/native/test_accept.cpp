@@ -47,13 +47,6 @@ struct Solved {
 
 }  // namespace
 
-TEST_CASE("a good solution has no flaw") {
-    const Solved solved;
-    Solution solution = solved.solution();
-    CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
-    CHECK(solution.bad_triangles.empty());
-}
-
 TEST_CASE("what did not converge is no solution, whatever it looks like") {
     const Solved solved;
     for (const Termination end : {Termination::stalled, Termination::iteration_limit}) {
@@ -177,36 +170,4 @@ TEST_CASE("two surfaces agree within their errors, or within the coarser one's e
     own.points = placed.solution.points;
     own.mean_curvature *= 1.3;
     CHECK(!placed.agrees(own, fine));
-}
-
-TEST_CASE("vertices that slid along the surface agree with it") {
-    const Solved solved;
-    const Placed placed{solved};
-    Solution own = placed.solution;
-    for (int v = 0; v < solved.patch().free_count; ++v) {
-        const int other = solved.patch().ring(v).vertices.front();
-        const Vector3 between = placed.solution.points.col(v) + placed.solution.points.col(other);
-        own.points.col(v) = between.normalized();
-    }
-    CHECK((own.points - placed.solution.points).colwise().norm().maxCoeff() > 0.4 * placed.mean);
-    CHECK(placed.agrees(own, 0.5 * placed.mean));
-}
-
-TEST_CASE("a graded mesh is not finer than another one for its mean edge") {
-    const Solved solved;
-    const Placed placed{solved};
-    Solution own = placed.solution;
-    own.points.col(0) *= 1.0 + 1e-3;
-    CHECK(placed.agrees(own, 2.0 * placed.mean));
-    const Points even = own.points;
-    for (auto point : own.points.colwise()) point *= std::exp(4.0 * point[0]) / std::exp(4.0 * even.row(0).maxCoeff());
-    const Points graded = own.points;
-    const TargetSurface target(solved.patch(), graded, placed.solution.points);
-    const auto agrees = [&](double lifted) {
-        own.points.col(0) = graded.col(0) + Vector3(0.0, 0.0, lifted);
-        return agree(solved.problem, own,
-                     {target, placed.solution.mean_curvature, 2.0 * mean_edge(solved.patch(), graded), placed.where});
-    };
-    CHECK(agrees(0.0));
-    CHECK(!agrees(1e-3));
 }

@@ -1,12 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <atomic>
 #include <random>
 #include <set>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "geometry/box_tree.h"
 #include "meshes.h"

@@ -6,12 +6,10 @@
 #include <cstdlib>
 #include <functional>
 #include <numbers>
-#include <string>
 
 #include "api/coarse_surface.h"
 #include "api/fair_solver.h"
 #include "api/remesh.h"
-#include "api/soft_base.h"
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "meshes.h"

@@ -1,8 +1,6 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 
@@ -16,64 +14,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-Points fixed_points(const test::Single& single) {
-    return single.points.rightCols(single.patch().vertex_count() - single.patch().free_count);
-}
-
-VectorX waves(Eigen::Index count, double frequency) {
-    return (frequency * VectorX::LinSpaced(count, 0.0, 1.0).array()).sin();
-}
-
 }  // namespace
-
-TEST_CASE("a step of the join solves the dense equations") {
-    const test::Single single = test::single_patch(test::grid(24, 0.2, test::sphere));
-    const Patch& patch = single.patch();
-    const int free = patch.free_count;
-    const Points outline = fixed_points(single);
-    const Eigen::Index fixed = outline.cols();
-    const KnownCurvature known = known_curvature(patch, single.points, VectorX::Zero(fixed));
-    const OutlineModes modes(known.curves, outline);
-    JoinOperator join(patch, outline, modes, single.points.leftCols(free));
-    const Stiffness stiffness = test::stiffness_of(single);
-    REQUIRE(join.update(stiffness, Progress()));
-
-    const Eigen::MatrixXd S = test::dense(patch, stiffness);
-    const VectorX residual = stiffness.mass.head(free).cwiseProduct(waves(free, 3.0));
-    const VectorX missing = waves(fixed, 2.0);
-    const JoinOperator::Step step = join.solve(residual, missing);
-    // H changes by J u at all vertices, and S H at the free ones has to become M κ.
-    const VectorX change = -(S.leftCols(free) * step.heights).cwiseQuotient(4.0 * stiffness.mass);
-    const VectorX kappa = join.harmonic(step.coefficients);
-    const VectorX left = residual + S.topRows(free) * change - stiffness.mass.head(free).cwiseProduct(kappa);
-    CHECK(left.norm() < 0.02 * (S.topRightCorner(free, fixed) * change.tail(fixed)).norm());
-    const VectorX wanted = modes.projected(missing);
-    CHECK((modes.projected(change.tail(fixed)) - wanted).norm() < 0.02 * wanted.norm());
-    // κ is harmonic, with the multipliers on the outline.
-    VectorX all(free + fixed);
-    all << kappa, modes.multipliers(step.coefficients);
-    CHECK((S.topRows(free) * all).norm() < 1e-9 * all.norm());
-}
-
-TEST_CASE("waves along an outline are nearly orthonormal, whatever its spacing") {
-    for (const double stretch : {1.0, 8.0}) {
-        constexpr int count = 96;
-        OutlineCurve curve{{}, true};
-        Points points(3, count);
-        for (int k = 0; k < count; ++k) {
-            curve.places.push_back(k);
-            const double t = 2.0 * std::numbers::pi * k / count;
-            const double angle = t + (1.0 - 1.0 / stretch) * std::sin(t);  // `stretch` times as dense at π
-            points.col(k) << std::cos(angle), std::sin(angle), 0.0;
-        }
-        const OutlineModes modes({curve}, points);
-        CHECK(modes.count() == 1 + 2 * (count / 6));
-        for (Eigen::Index m = 0; m < modes.count(); ++m) {
-            const VectorX wave = modes.combined(VectorX::Unit(modes.count(), m));
-            CHECK((modes.projected(wave) - VectorX::Unit(modes.count(), m)).norm() < 0.1);
-        }
-    }
-}
 
 TEST_CASE("where the curvature of an outline is known") {
     const test::Single single = test::single_patch(test::grid(12, 0.0, test::flat));

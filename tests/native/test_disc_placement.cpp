@@ -1,9 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-#include <numbers>
-#include <optional>
-
 #include "geometry/self_intersection.h"
 #include "meshes.h"
 #include "placement/disc_placement.h"

@@ -93,26 +93,6 @@ TEST_CASE("no triangulation of a small polygon is cheaper than the one found") {
     }
 }
 
-TEST_CASE("a flat polygon that is not convex is covered once") {
-    constexpr int n = 40;
-    Points points(3, n);
-    double area = 0.0;
-    for (int k = 0; k < n; ++k) {
-        const double turn = 2.0 * std::numbers::pi * k / n;
-        const double radius = k % 2 == 0 ? 1.0 : 0.5;
-        points.col(k) << radius * std::cos(turn), radius * std::sin(turn), 0.0;
-    }
-    for (int k = 0; k < n; ++k)
-        area += 0.5 * (points(0, k) * points(1, (k + 1) % n) - points(1, k) * points(0, (k + 1) % n));
-    double covered = 0.0;
-    for (const Eigen::Vector3i& t : cheapest_triangulation(first_numbers(n), TriangleCost(points))) {
-        const Vector3 across = (points.col(t[1]) - points.col(t[0])).cross(points.col(t[2]) - points.col(t[0]));
-        CHECK(across.z() > 0.0);
-        covered += 0.5 * across.z();
-    }
-    CHECK(covered == doctest::Approx(area));
-}
-
 TEST_CASE("two rings become a tube without caps, however far apart") {
     for (const double gap : {0.2, 2.0, 8.0}) {
         Points points(3, 36);
@@ -130,22 +110,6 @@ TEST_CASE("two rings become a tube without caps, however far apart") {
             CHECK(across.dot(points.col(t[0]) - Vector3(0.0, 0.0, points(2, t[0]))) > 0.0);  // outwards
         }
     }
-}
-
-TEST_CASE("four rings become a sphere with four holes") {
-    constexpr int n = 12;
-    Points points(3, 4 * n);
-    std::vector<Indices> loops;
-    for (int l = 0; l < 4; ++l) {
-        const Eigen::AngleAxisd turn(2.0 * std::numbers::pi * l / 4.0, Vector3::UnitX());
-        points.middleCols(l * n, n) = turn.toRotationMatrix() * ring(n, 2.5);
-        Indices loop = first_numbers(n, l * n);
-        std::reverse(loop.begin(), loop.end());
-        loops.push_back(loop);
-    }
-    const Triangles triangles = joined_loops(points, loops);
-    CHECK(triangles.cols() == 4 * n + 2 * 2);  // n − 2 + 2 (holes − 1) triangles for holes of n edges in all
-    CHECK(open_sides(triangles).size() == 4 * n);
 }
 
 namespace {

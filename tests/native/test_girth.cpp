@@ -6,7 +6,6 @@
 
 #include "pipes.h"
 #include "shape/girth.h"
-#include "start/automatic_equation.h"
 #include "start/swept_tube.h"
 
 using namespace fairing;
@@ -37,10 +36,6 @@ std::vector<Indices> loops_of(const Pipe& pipe) {
     return loops;
 }
 
-Equation chosen(const Pipe& pipe) {
-    return automatic_equation(loops_of(pipe), pipe.problem.fixed_points, pipe.problem.fixed_normals);
-}
-
 // A quarter of a torus: two rims of radius 1 around circles of that radius.
 struct Bend {
     std::vector<Indices> loops{{}, {}};
@@ -67,42 +62,6 @@ private:
 };
 
 }  // namespace
-
-TEST_CASE("the girth of a waisted pipe is that of its waist, of a barrel that of its middle") {
-    for (const int rows : {40, 90}) {  // 1,872 vertices, and 4,272: cells of three
-        const Pipe pipe(rows);
-        for (const double height : {-0.3, 0.0, 0.25}) {
-            const auto wave = [&](double t) { return 1.0 + height * std::sin(std::numbers::pi * t); };
-            const GirthRange range = girth(pipe, shaped(pipe, wave));
-            CAPTURE(rows);
-            CAPTURE(height);
-            CHECK(range.least == doctest::Approx(std::min(1.0, 1.0 + height)).epsilon(0.01));
-            CHECK(range.largest == doctest::Approx(std::max(1.0, 1.0 + height)).epsilon(0.01));
-        }
-    }
-}
-
-TEST_CASE("a cone's girth lies between its ends") {
-    const Pipe pipe(60);
-    const GirthRange range = girth(pipe, shaped(pipe, [](double t) { return 1.0 + t; }));
-    CHECK(range.least == doctest::Approx(1.0));
-    CHECK(range.largest == doctest::Approx(1.0));
-}
-
-TEST_CASE("noise hardly changes a girth, nor do motion and scale") {
-    const Pipe pipe(60);
-    const Points waist = shaped(pipe, [](double t) { return 1.0 - 0.4 * std::sin(std::numbers::pi * t); });
-    const double clean = girth(pipe, waist).least;
-    Points rough = waist;
-    for (Eigen::Index v = 0; v < rough.cols(); ++v)
-        rough.col(v) *= 1.0 + 0.02 * std::sin(12.9898 * static_cast<double>(v * v % 1009));
-    CHECK(girth(pipe, rough).least == doctest::Approx(clean).epsilon(0.02));
-    const Eigen::AngleAxisd turn(1.1, Vector3(1.0, 2.0, 3.0).normalized());
-    const Points moved = (3.0 * (turn.toRotationMatrix() * waist)).colwise() + Vector3(5.0, -7.0, 2.0);
-    const auto range = girth_range(pipe.single.patch(), moved);
-    REQUIRE(range);
-    CHECK(range->least == doctest::Approx(clean).epsilon(1e-9));
-}
 
 TEST_CASE("cross-sections of a pipe have the radii of its circles") {
     const Pipe pipe(40);
@@ -134,12 +93,4 @@ TEST_CASE("a tube is as long as its axis, in radii") {
         REQUIRE(along);
         CHECK(*along == doctest::Approx(3.0 * degrees * std::numbers::pi / 180.0).epsilon(0.01));
     }
-}
-
-TEST_CASE("long tubes get least variation, short ones and rings the harmonic surface") {
-    const double row = length_of(Pipe(10)) / 10.0;
-    const auto rows = [&](double radii) { return static_cast<int>(std::lround(radii / row)); };
-    CHECK(chosen(Pipe(rows(0.9 * longest_harmonic_tube))) == Equation::harmonic);
-    CHECK(chosen(Pipe(rows(1.1 * longest_harmonic_tube))) == Equation::least_variation);
-    CHECK(chosen(Pipe(rows(1.1 * longest_harmonic_tube), 1.2)) == Equation::harmonic);
 }

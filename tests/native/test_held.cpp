@@ -1,7 +1,6 @@
 // Pieces of what holds inside a patch: faired borders, released pins, surroundings broken along creases.
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include <doctest/doctest.h>
 
@@ -23,12 +22,6 @@ Points ellipse(int count) {
         points.col(k) << 2.0 * std::cos(angle), std::sin(angle), 0.5 * std::cos(angle);
     }
     return points;
-}
-
-Points noise(int count, double amount) {
-    std::mt19937 random(5);
-    std::normal_distribution<double> normal(0.0, amount);
-    return Points::NullaryExpr(3, count, [&] { return normal(random); });
 }
 
 Indices everything(int count) {
@@ -69,37 +62,6 @@ TEST_CASE("an ellipse of even spacing is a fair border") {
     Points points = exact;
     fair_border(everything(count), std::vector<char>(count, 1), points);
     CHECK((points - exact).cwiseAbs().maxCoeff() < 1e-12);
-}
-
-TEST_CASE("noise leaves a closed border, and most of an open one") {
-    const int count = 96;
-    const Points exact = ellipse(count);
-    Points given = exact + noise(count, 0.03);
-    for (const bool closed : {true, false}) {
-        std::vector<char> marked(count, 1);
-        if (!closed) std::fill_n(marked.begin(), 20, 0);
-        Points points = given;
-        fair_border(everything(count), marked, points);
-        const double before = (given - exact).norm();
-        CHECK((points - exact).norm() < (closed ? 0.35 : 0.65) * before);
-        for (int k = 0; k < count; ++k) {
-            if (!marked[k]) CHECK(points.col(k) == given.col(k));
-        }
-    }
-}
-
-TEST_CASE("released pins come behind the free vertices, and the way back is known") {
-    const test::Single single = test::single_patch(test::grid(8, 0.0, test::flat));
-    const Patch pinned = with_pins(single, {10, 30});
-    const Indices pins = isolated_pins(pinned);
-    REQUIRE(pins == Indices{0, 1});
-    const Released free = released(pinned, pins);
-    CHECK(free.patch.free_count == pinned.free_count + 2);
-    for (int v = 0; v < pinned.vertex_count(); ++v) {
-        CHECK(free.to[free.from[v]] == v);
-        CHECK(free.patch.to_input[v] == pinned.to_input[free.from[v]]);
-    }
-    CHECK(isolated_pins(free.patch).empty());
 }
 
 TEST_CASE("pins side by side are a curve, and change the equation") {

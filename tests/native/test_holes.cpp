@@ -37,32 +37,7 @@ HoleLoops loops_of(const test::Mesh& mesh) {
     return hole_loops(mesh.points, mesh.triangles, border_sides(mesh.triangles, static_cast<int>(mesh.points.cols())));
 }
 
-std::vector<FilledHole> filled(const test::Mesh& mesh, const std::vector<Indices>& loops, int threads = 1) {
-    const HoledMesh holed({mesh.points, mesh.triangles});
-    NamedLoops named;
-    named.loops = loops;
-    FillOptions options;
-    options.fair.threads = threads;
-    return fill(holed, find_holes(holed, named, false).holes, {}, options, {});
-}
-
 }  // namespace
-
-TEST_CASE("hole loops: a hole beside the outer border, each with the hole on its left") {
-    const HoleLoops found = loops_of(grid_without(8, {{4, 4}}, test::flat));
-    REQUIRE(found.loops.size() == 2);
-    CHECK(found.torn.empty());
-    CHECK(found.loops[0].size() == 32);
-    CHECK(std::min_element(found.loops[1].begin(), found.loops[1].end()) == found.loops[1].begin());
-}
-
-TEST_CASE("hole loops: holes that meet in a vertex are two, triangles wound against each other tear a border") {
-    test::Mesh mesh = grid_without(10, {{3, 3}, {5, 5}}, test::flat);
-    const HoleLoops found = loops_of(mesh);
-    CHECK(found.loops.size() == 3);
-    mesh.triangles.col(0).reverseInPlace();
-    CHECK(!loops_of(mesh).torn.empty());
-}
 
 TEST_CASE("segments: edges that cross, vertices on edges and on each other") {
     Points points(3, 6);
@@ -108,39 +83,6 @@ TEST_CASE("proportion: a search in vain gets no large mesh") {
     CHECK_THROWS_AS(limit.check(20'000.0, {1, 2}, false), MeshError);
     CHECK_THROWS_AS(limit.check(60'000.0, {1, 2}), MeshError);
     Limit::of(210.0, 100'000).check(60'000.0, {}, false);
-}
-
-TEST_CASE("fill: what comes out does not depend on which other holes are filled, nor on threads") {
-    const test::Mesh mesh = grid_without(24, {{4, 4}, {12, 4}, {13, 5}, {18, 18}, {5, 17}, {5, 18}, {6, 18}});
-    std::vector<Indices> loops = loops_of(mesh).loops;
-    std::erase_if(loops, [](const Indices& loop) { return loop.size() > 60; });
-    REQUIRE(loops.size() == 4);
-    const std::vector<FilledHole> together = filled(mesh, loops);
-    const std::vector<FilledHole> on_two = filled(mesh, loops, 2);
-    for (std::size_t k = 0; k < loops.size(); ++k) {
-        const FilledHole alone = filled(mesh, {loops[k]})[0];
-        CHECK(alone.vertices == together[k].vertices);
-        CHECK(alone.triangles == together[k].triangles);
-        CHECK(alone.vertices == on_two[k].vertices);
-        CHECK(alone.report.join == on_two[k].report.join);
-        for (const auto place : alone.vertices.colwise()) CHECK(std::abs(place.norm() - 1.0) < 2e-3);
-    }
-}
-
-TEST_CASE("fill: what can't be filled is left open with its reason, the others are filled") {
-    test::Mesh mesh = grid_without(16, {{4, 4}, {11, 11}});
-    std::vector<Indices> loops = loops_of(mesh).loops;
-    std::erase_if(loops, [](const Indices& loop) { return loop.size() > 40; });
-    REQUIRE(loops.size() == 2);
-    mesh.points.col(loops[0][1]) = mesh.points.col(loops[0][0]);
-    const HoledMesh holed({mesh.points, mesh.triangles});
-    NamedLoops named;
-    named.loops = loops;
-    const Holes found = find_holes(holed, named, false);
-    REQUIRE(found.holes.size() == 1);
-    REQUIRE(found.left.size() == 1);
-    CHECK(found.left[0].reason.code == Code::not_a_loop);
-    CHECK(!fill(holed, found.holes, {}, {}, {})[0].left_because);
 }
 
 TEST_CASE("fill: triangles that stand up from the border leave a hole a hole") {

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 #include "iteration/accelerated_iteration.h"
 #include "iteration/reaction.h"
 #include "meshes.h"
@@ -45,8 +43,6 @@ struct Ball {
     }
 };
 
-double off_the_sphere(const Points& points) { return (points.colwise().norm().array() - 1.0).abs().maxCoeff(); }
-
 double distance(const Points& a, const Points& b) { return (a - b).colwise().norm().maxCoeff(); }
 
 // Starts far off: four tenths of the radius in the middle.
@@ -60,13 +56,6 @@ void blow_up(Ball& ball) {
 }
 
 }  // namespace
-
-TEST_CASE("the iteration finds the sphere that its border belongs to") {
-    const Ball ball;
-    const Solution solution = ball.solve();
-    CHECK(solution.termination == Termination::converged);
-    CHECK(off_the_sphere(solution.points) < 1e-6);
-}
 
 TEST_CASE("however far off the surface is, no step is longer than a tenth of the diameter") {
     Ball far;

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <random>
 
@@ -57,20 +56,6 @@ SparseMatrix random_rows(int n, int blocks, unsigned seed) {
     return matrix;
 }
 
-// Weights of a grid's vertices, each towards two of its neighbours: a tree of many fronts.
-SparseMatrix grid_rows(int side) {
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int k = 0; k < side * side; ++k) {
-        entries.emplace_back(k, k, 1.0);
-        if (k % side > 0) entries.emplace_back(k, k - 1, -0.6);
-        if (k / side > 0) entries.emplace_back(k, k - side, -0.3);
-        if (k % side < side - 1) entries.emplace_back(k, k + 1, -0.1);
-    }
-    SparseMatrix matrix(side * side, side * side);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-}
-
 }  // namespace
 
 TEST_CASE("the factor solves random systems, connected or not, and keeps its ordering for new values") {
@@ -85,19 +70,6 @@ TEST_CASE("the factor solves random systems, connected or not, and keeps its ord
                 CHECK((full * factor.solve(rhs) - rhs).norm() < 1e-11 * rhs.norm());
                 for (int j = 0; j < n; ++j) lower.coeffRef(j, j) *= 1.5;
             }
-        }
-    }
-}
-
-TEST_CASE("points are solved for side by side as they are one coordinate after the other") {
-    for (const Kept kept : {Kept::doubles, Kept::singles}) {
-        for (const int n : {1, 3, 700}) {
-            SparseCholesky factor(Points(3, 0), kept);
-            REQUIRE(factor.factorise(random_matrix(n, 1, 9), "test", {}));
-            const Points rhs = Points::Random(3, n);
-            const Points apart = factor.solve(rhs.transpose()).transpose();
-            const double rounding = kept == Kept::doubles ? 1e-12 : 1e-4;
-            CHECK((factor.solve_points(rhs) - apart).norm() < rounding * apart.norm());
         }
     }
 }
@@ -157,24 +129,6 @@ TEST_CASE("the LU factor refuses a singular matrix") {
     matrix.prune([](Eigen::Index row, Eigen::Index, double) { return row != 20; });
     SparseLu factor;
     CHECK_FALSE(factor.factorise(matrix, "the weights", Progress()));
-}
-
-TEST_CASE("an LU factorisation can be cancelled between its fronts and done again") {
-    SparseLu factor;
-    const SparseMatrix matrix = grid_rows(60);
-    constexpr int most_calls = 30;  // those before the fronts are fewer
-    int calls = 0;
-    const Progress progress(
-        ProgressCallback([&](double, std::string_view) { return ++calls < most_calls; }, std::chrono::milliseconds(0)));
-    const auto factorise = [&] {
-        const Checkpoints checkpoints(progress);
-        static_cast<void>(factor.factorise(matrix, "x", progress));
-    };
-    CHECK_THROWS_AS(factorise(), Cancelled);
-    CHECK(calls == most_calls);
-    REQUIRE(factor.factorise(matrix, "x", Progress()));
-    const VectorX rhs = VectorX::Ones(matrix.rows());
-    CHECK((matrix * factor.solve(rhs) - rhs).norm() < 1e-10);
 }
 
 TEST_CASE("solves that end at the limit of their cycles, or on a matrix that is not positive, are counted") {

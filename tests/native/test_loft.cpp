@@ -95,20 +95,6 @@ TEST_CASE("the least bent of the lofts is taken") {
     }
 }
 
-TEST_CASE("two outlines joined by an edge have a loft") {
-    const test::Mesh mesh = pipe(20);
-    std::vector<char> given(static_cast<std::size_t>(mesh.points.cols()), 0);
-    for (std::size_t r = 0; r <= 20; ++r) given[r * around] = 1;
-    const test::Single cut = test::single_patch(mesh, given);
-    REQUIRE(cut.patch().loop_count() == 1);
-    const Points fixed = cut.points.rightCols(cut.points.cols() - cut.patch().free_count);
-    Points normals = fixed;
-    normals.row(2).setZero();
-    const auto fill = loft({cut.patch(), fixed, normals, uniform_weights(cut.patch()), {}}, 0.6);
-    REQUIRE(fill);
-    CHECK(least_radius(fill->flat + fill->bulge) > 0.9);
-}
-
 TEST_CASE("few folds of a loft are turned back") {
     const double edge = 2.0 * std::numbers::pi / around;
     for (const unsigned seed : {2U, 3U, 4U, 5U, 6U, 7U, 10U}) {

@@ -55,18 +55,8 @@ struct Edge {
 };
 
 Vector3 saddle(double u, double v) { return {u, v, 0.5 * (u - 0.5) * (u - 0.5) - 0.3 * v * v}; }
-Vector3 waves(double u, double v) { return {u, v, 0.05 * std::sin(7.0 * u + 1.0) * std::cos(5.0 * v + 0.5)}; }
 
 }  // namespace
-
-TEST_CASE("a sphere keeps its places and normals, at whatever reach") {
-    for (const double wavelength : {0.1, 0.2, 0.4}) {
-        const Edge edge(test::sphere, 0.0);
-        const Edge::Errors errors = edge.errors(wavelength);
-        CHECK(errors.normal < 1e-6);
-        CHECK(errors.place < 1e-8);
-    }
-}
 
 TEST_CASE("noise of a quarter edge is taken away: what is left falls with the wavelength") {
     const Edge edge(test::sphere, 0.25, 3);
@@ -81,17 +71,6 @@ TEST_CASE("a saddle is followed through noise, though no sphere fits it") {
     const Edge::Errors errors = Edge(saddle, 0.25, 5).errors(0.25);
     CHECK(errors.normal < 2.0);
     CHECK(errors.place < 0.12);
-}
-
-TEST_CASE("size, place and turn don't matter") {
-    const Edge edge(waves, 0.25, 7);
-    const LowPass here = low_pass(edge.mesh.points, edge.mesh.triangles, edge.vertices, 0.2);
-    Eigen::Matrix3d turn;
-    turn << 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0;
-    const Points moved = (30.0 * turn * edge.mesh.points).colwise() + Vector3(5.0, -3.0, 8.0);
-    const LowPass there = low_pass(moved, edge.mesh.triangles, edge.vertices, 6.0);
-    CHECK(there.normals.isApprox(turn * here.normals, 1e-6));
-    CHECK(there.points.isApprox((30.0 * turn * here.points).colwise() + Vector3(5.0, -3.0, 8.0), 1e-6));
 }
 
 TEST_CASE("where there is no surface nothing is found, and the vertex stays") {

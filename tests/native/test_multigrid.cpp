@@ -1,9 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <limits>
 #include <numeric>
 
 #include <Eigen/QR>
@@ -23,8 +21,6 @@
 using namespace fairing;
 
 namespace {
-
-int euler_number(const Patch& patch) { return patch.vertex_count() - patch.edge_count() + patch.triangle_count(); }
 
 // A part of the unit sphere, where points are their own normals, with its levels.
 struct Ball {
@@ -51,28 +47,6 @@ Points of_level(const CoarseLevel& level, const Points& finest) {
 }
 
 }  // namespace
-
-TEST_CASE("levels shrink evenly and keep the topology, the outline and which vertices are fixed") {
-    for (const int n : {60, 120}) {  // one domain, and several
-        const Ball ball(n);
-        REQUIRE(ball.levels.size() >= 3);
-        int finer = ball.patch().free_count;
-        for (const CoarseLevel& level : ball.levels) {
-            const double factor = static_cast<double>(finer) / level.patch.free_count;
-            CHECK(factor > 3.0);
-            CHECK(factor < 6.0);
-            finer = level.patch.free_count;
-            CHECK(euler_number(level.patch) == 1);
-            CHECK(level.patch.loop_count() == 1);
-            CHECK(level.patch.vertex_count() - level.patch.free_count >= 8);
-            for (int v = 0; v < level.patch.vertex_count(); ++v) {
-                CHECK(level.patch.is_free(v) == ball.patch().is_free(level.patch.to_input[v]));
-                CHECK(level.patch.ring(v).closed() == level.patch.is_free(v));
-            }
-            for (const WeightedEdge& edge : level.weights) CHECK(edge.weight > 0.0);
-        }
-    }
-}
 
 TEST_CASE("levels are the same for any number of threads") {
     const Ball alone(160);
@@ -134,21 +108,6 @@ TEST_CASE("no vertex that a pass removes hangs on another one of it, and values 
     CHECK((fine.colwise() - Vector3(1.0, 2.0, 3.0)).cwiseAbs().maxCoeff() < 1e-5);
 }
 
-TEST_CASE("an ordering that is found ahead of the surface changes nothing") {
-    const Ball ball(30);
-    const Stiffness stiffness = test::stiffness_of(ball.single);
-    const Problem problem{ball.patch(), ball.fixed_points(), ball.fixed_points(), Lambda(ball.weights), {}};
-    const VectorX rhs = VectorX::Random(ball.patch().free_count);
-    std::vector<VectorX> solved;
-    for (const bool ahead : {false, true}) {
-        const auto made = make_normal_operator(problem, {}, Solves::few);
-        if (ahead) made->prepare();
-        REQUIRE(made->update(stiffness, Progress()));
-        solved.emplace_back(made->solve(rhs));
-    }
-    CHECK(solved[0] == solved[1]);
-}
-
 TEST_CASE("an interpolated sphere is one to the fourth order in the spacing") {
     // Means of points lie h²/2 below the sphere; what the lift leaves falls by 16 where h halves (8 to be safe).
     std::vector<double> errors;
@@ -191,18 +150,6 @@ TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     CHECK((step - other).norm() < 0.15 * step.norm());
     CHECK(multigrid.merit(ball.single.points, ball.single.points) >
           0.0);  // and both measure the energy that steps lower
-}
-
-TEST_CASE("harmonic positions are balanced to double precision, whatever the factor is kept in") {
-    const Ball ball(30);
-    const int free = ball.patch().free_count;
-    const SymmetricStep step(ball.patch(), ball.weights, ball.fixed_points(), Progress());
-    Points points = ball.single.points;
-    points.leftCols(free) = step.harmonic_positions();
-    const RingMatrix laplacian(ball.patch().vertex_count(), ball.weights);
-    Points pull(3, free);
-    laplacian.apply(points, free, [&](int i, const Vector3& product) { pull.col(i) = product; });
-    CHECK(pull.cwiseAbs().maxCoeff() < 1e-11);
 }
 
 TEST_CASE("nested dissection is an order of elimination with less fill than the natural one") {

@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <numbers>
-
 #include "geometry/mean_curvature.h"
 #include "geometry/normal_equations.h"
 #include "geometry/one_ring_buffer.h"
@@ -26,36 +24,7 @@ std::vector<Vector3> ring(double size, const std::function<double(double, double
     return points;
 }
 
-double sphere_below(double x, double y) { return std::sqrt(1.0 - x * x - y * y) - 1.0; }
-
 }  // namespace
-
-TEST_CASE("all normals agree on a plane, whatever the ring") {
-    const auto points = ring(1.0, [](double, double) { return 0.0; });
-    const OneRing one_ring{Vector3::Zero(), points, true};
-    CHECK((averaged_normal(one_ring) - Vector3::UnitZ()).norm() < 1e-15);
-    CHECK((max_normal(one_ring) - Vector3::UnitZ()).norm() < 1e-15);
-    CHECK((fitted_normal(Vector3::Zero(), points, Vector3::UnitZ()) - Vector3::UnitZ()).norm() < 1e-15);
-}
-
-TEST_CASE("Max's normal and H are exact on spheres, the averaged normal is not") {
-    const auto points = ring(0.3, sphere_below);
-    const OneRing one_ring{Vector3::Zero(), points, true};
-    CHECK((max_normal(one_ring) - Vector3::UnitZ()).norm() < 1e-14);
-    CHECK((averaged_normal(one_ring) - Vector3::UnitZ()).norm() > 1e-3);
-    // The regularisation of the fit is 1e-9 of the trace.
-    CHECK(fit_curvature(Vector3::Zero(), points, Vector3::UnitZ()).mean() == doctest::Approx(-1.0).epsilon(1e-8));
-    CHECK(fit_curvature(Vector3::Zero(), points, Vector3::UnitZ()).gaussian() == doctest::Approx(1.0).epsilon(1e-8));
-}
-
-TEST_CASE("the fitted normal is two orders more accurate than Max's on a cylinder") {
-    const auto points = ring(0.2, [](double x, double) { return std::sqrt(1.0 - x * x) - 1.0; });
-    const Vector3 start = max_normal({Vector3::Zero(), points, true});
-    const double error_max = (start - Vector3::UnitZ()).norm();
-    const double error_fitted = (fitted_normal(Vector3::Zero(), points, start) - Vector3::UnitZ()).norm();
-    CHECK(error_max > 1e-3);
-    CHECK(error_fitted < 0.02 * error_max);
-}
 
 TEST_CASE("normals along the two sides of a corner determine the curvature") {
     // Sides along 20° and 75° of the paraboloid, no point between them; −n turns by II along each side.
@@ -72,30 +41,6 @@ TEST_CASE("normals along the two sides of a corner determine the curvature") {
     }
     CHECK(CurvatureFit::of(fit.solve()).mean() == doctest::Approx(0.5 * (a + c)).epsilon(1e-5));
     CHECK(CurvatureFit::of(fit.solve()).gaussian() == doctest::Approx(a * c - b * b).epsilon(1e-5));
-}
-
-TEST_CASE("the turn of the normals leaves H exact on spheres") {
-    const auto points = ring(0.3, sphere_below);
-    CurvatureLeastSquares fit(Vector3::UnitZ());
-    for (const Vector3& p : points) fit.add_point(p);
-    for (const Vector3& p : points) fit.add_twist(p, p + Vector3::UnitZ(), 1.0);  // the sphere's centre is at −z
-    CHECK(CurvatureFit::of(fit.solve()).mean() == doctest::Approx(-1.0).epsilon(1e-8));
-}
-
-TEST_CASE("normal equations have the weighted least squares' solution") {
-    const Eigen::Matrix<double, 5, Eigen::Dynamic> rows = Eigen::Matrix<double, 5, Eigen::Dynamic>::Random(5, 12);
-    const VectorX values = VectorX::Random(12);
-    const VectorX weights = VectorX::LinSpaced(12, 0.1, 2.0);
-    NormalEquations<5> equations;
-    for (int k = 0; k < 12; ++k) equations.add(rows.col(k), values[k], weights[k]);
-    CHECK(equations.trace() == doctest::Approx((rows.colwise().squaredNorm() * weights).value()));
-    equations.add_to_diagonal(0.25);
-    equations.add_to_diagonal(3, 0.5);
-    Eigen::MatrixXd A = rows * weights.asDiagonal() * rows.transpose();
-    A.diagonal().array() += 0.25;
-    A(3, 3) += 0.5;
-    const VectorX rhs = rows * weights.cwiseProduct(values);
-    CHECK((A * equations.solve() - rhs).norm() < 1e-12 * rhs.norm());
 }
 
 TEST_CASE("the curvature fit is finite whatever it is given") {

@@ -2,10 +2,8 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "boundary/bad_boundary.h"
-#include "boundary/fitted_boundary.h"
 #include "boundary/low_passed_boundary.h"
 #include "boundary/normal_filter.h"
 #include "meshes.h"
@@ -14,8 +12,6 @@
 using namespace fairing;
 
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 Vector3 leaning(double angle) { return {std::sin(angle), 0.0, std::cos(angle)}; }
 
@@ -36,56 +32,6 @@ SurroundingFit row_of_planes(const std::vector<double>& angles, const std::vecto
 }
 
 double lean(const Vector3& normal) { return std::atan2(normal.x(), normal.z()); }
-
-// Quads of unit size, cut in two, with corners at (i, j) on z = height(i, j).
-template <typename Height>
-Points grid_points(int columns, int rows, const Height& height) {
-    Points points(3, columns * rows);
-    for (int k = 0; k < points.cols(); ++k) {
-        const int i = k % columns;
-        const int j = k / columns;
-        points.col(k) = Vector3(i, j, height(i, j));
-    }
-    return points;
-}
-
-// Of the quads whose column lies in [first, last).
-Triangles grid_triangles(int columns, int rows, int first, int last) {
-    Triangles triangles(3, 2 * (last - first) * (rows - 1));
-    int t = 0;
-    for (int j = 0; j + 1 < rows; ++j) {
-        for (int i = first; i < last; ++i) {
-            const int a = j * columns + i;
-            triangles.col(t++) << a, a + 1, a + columns + 1;
-            triangles.col(t++) << a, a + columns + 1, a + columns;
-        }
-    }
-    return triangles;
-}
-
-constexpr int columns = 9;
-constexpr int rows = 9;
-constexpr int seam = 4;
-
-Indices seam_vertices() {
-    Indices outline;
-    for (int j = 0; j < rows; ++j) outline.push_back(j * columns + seam);
-    return outline;
-}
-
-// Heights of this standard deviation.
-Points rough_plane(unsigned seed, double noise) {
-    std::mt19937 random(seed);
-    std::normal_distribution<double> normal(0.0, noise);
-    return grid_points(columns, rows, [&](int, int) { return normal(random); });
-}
-
-template <typename Height>
-VectorX joined(const Height& height, const std::optional<Points>& before = std::nullopt) {
-    const JoinedMesh mesh{grid_points(columns, rows, height), grid_triangles(columns, rows, 0, seam),
-                          grid_triangles(columns, rows, seam, columns - 1), before};
-    return visible_join(mesh, seam_vertices()).degrees;
-}
 
 }  // namespace
 
@@ -130,67 +76,6 @@ TEST_CASE("a vertex far off its fit, or without one, is bad; one without triangl
     CHECK(bad_vertices(fit) == Indices{5});
     fit.lengths[5] = 0.0;
     CHECK(bad_vertices(fit).empty());
-}
-
-TEST_CASE("a kink between planes is as visible as its angle") {
-    const double slope = 0.2;
-    const auto ridge = [&](int i, int) { return i > seam ? -slope * (i - seam) : 0.0; };
-    const VectorX join = joined(ridge);
-    for (double value : join) CHECK(value == doctest::Approx(std::atan(slope) * degrees).epsilon(1e-9));
-    CHECK(joined(ridge, grid_points(columns, rows, ridge)).maxCoeff() < 1e-9);  // it was there before
-    const auto valley = [&](int i, int j) { return -ridge(i, j); };
-    CHECK(joined(valley, grid_points(columns, rows, ridge)).minCoeff() ==
-          doctest::Approx(std::atan(slope) * degrees).epsilon(1e-9));
-}
-
-TEST_CASE("mended: noise is moved out of the outline and two rings, by a quarter of an edge at most") {
-    const Points noisy = rough_plane(3, 0.15);
-    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
-    const FittedBoundary fitted = fitted_boundary(noisy, outside, seam_vertices());
-    CHECK(fitted.noise == doctest::Approx(0.13).epsilon(0.3));
-    const Points move = fitted.vertices - noisy;
-    for (int v = 0; v < noisy.cols(); ++v) {
-        const int ring = v % columns - seam;
-        const bool moves = ring >= 0 && ring <= 2;
-        CHECK(move.col(v).isZero(0.0) != moves);
-        if (moves) CHECK(move.col(v).norm() <= (3 - ring) / 3.0 * 0.25 * 1.35);  // diagonals are edges, too
-    }
-    CHECK(fitted.moved.size() == 3 * rows);
-    const auto spread = [&](const Points& points) {
-        double sum = 0.0;
-        for (int v : seam_vertices()) sum += points(2, v) * points(2, v);
-        return std::sqrt(sum / rows);
-    };
-    CHECK(spread(fitted.vertices) < 0.7 * spread(noisy));
-}
-
-TEST_CASE("mended: what is not noisy stays") {
-    const auto bowl = [](int i, int j) { return 0.01 * (i * i + j * j); };
-    const Points clean = grid_points(columns, rows, bowl);
-    const FittedBoundary fitted =
-        fitted_boundary(clean, grid_triangles(columns, rows, seam, columns - 1), seam_vertices());
-    CHECK(fitted.moved.empty());
-    CHECK(fitted.vertices == clean);
-}
-
-TEST_CASE("mended: no triangle turns over, vertices that would turn one are held") {
-    const Triangles outside = grid_triangles(columns, rows, seam, columns - 1);
-    const auto normal_of = [](const Points& points, const Eigen::Vector3i& t) -> Vector3 {
-        const Vector3 a = points.col(t[0]);
-        return (points.col(t[1]) - a).cross(Vector3(points.col(t[2]) - a));
-    };
-    std::size_t held = 0;
-    for (unsigned seed = 0; seed < 20; ++seed) {
-        std::mt19937 random(seed);
-        std::normal_distribution<double> normal(0.0, 0.3);
-        Points noisy = grid_points(columns, rows, [](int, int) { return 0.0; });
-        for (double& coordinate : noisy.reshaped()) coordinate += normal(random);
-        const FittedBoundary fitted = fitted_boundary(noisy, outside, seam_vertices());
-        for (const auto t : outside.colwise()) CHECK(normal_of(noisy, t).dot(normal_of(fitted.vertices, t)) >= 0.0);
-        for (int v : fitted.held) CHECK(fitted.vertices.col(v) == noisy.col(v));
-        held += fitted.held.size();
-    }
-    CHECK(held > 0);
 }
 
 namespace {

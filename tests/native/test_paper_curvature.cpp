@@ -103,20 +103,6 @@ std::vector<double> weights_of(const Wheel& wheel) {
 
 }  // namespace
 
-TEST_CASE("the curvature line's slope is the derivative of H along the normal") {
-    Wheel wheel(uneven_pentagon);
-    const auto H = [&](double t) {
-        wheel.points.col(0) = t * Vector3::UnitZ();
-        return wheel.mean_curvature(false);
-    };
-    const auto weights = weights_of(wheel);
-    const CurvatureLine line =
-        curvature_line(wheel.disk(false), wheel.field(), weights, Vector3::Zero(), Vector3::UnitZ());
-    CHECK(line.mean == doctest::Approx(0.0));
-    CHECK(line.slope < 0.0);
-    CHECK(line.slope == doctest::Approx((H(1e-4) - H(-1e-4)) / 2e-4).epsilon(1e-6));
-}
-
 TEST_CASE("an undamped update gives a vertex the curvature wanted") {
     Wheel wheel(uneven_pentagon);
     const auto weights = weights_of(wheel);
@@ -125,15 +111,4 @@ TEST_CASE("an undamped update gives a vertex the curvature wanted") {
     wheel.points.col(0) = updated_position(wheel.disk(false), wheel.field(), target);
     CHECK(wheel.points.col(0).head(2).norm() < 1e-15);
     CHECK(wheel.mean_curvature(false) == doctest::Approx(wanted).epsilon(1e-3));
-}
-
-TEST_CASE("an update puts a vertex above its inner-fairness position, whatever the curvature wanted") {
-    const Wheel wheel(uneven_pentagon);
-    const auto weights = weights_of(wheel);
-    for (const double wanted : {-0.2, 0.0, 0.1}) {
-        const VertexTarget target{Vector3::UnitZ(), weights, {0.05, 0.02, 0.3}, wanted, 0.9};
-        const Vector3 moved = updated_position(wheel.disk(false), wheel.field(), target);
-        CHECK(moved.x() == doctest::Approx(0.05));
-        CHECK(moved.y() == doctest::Approx(0.02));
-    }
 }

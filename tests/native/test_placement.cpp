@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <numbers>
-
 #include "geometry/flips.h"
 #include "meshes.h"
 #include "placement/first_placement.h"
@@ -85,19 +83,6 @@ TEST_CASE("a sheet that lies on the other one is folded, although no triangle di
     }
     CHECK(inner > 100);
     CHECK(seen_by_neighbours == 0);
-}
-
-TEST_CASE("vertices that follow a surface of their own mesh land where they are on it") {
-    const Square square;
-    const Placement found =
-        placed_at(square.problem, square.target,
-                  by_surface(square.problem, square.single.points, square.patch(), square.target).where);
-    CHECK((found.points - square.single.points).cwiseAbs().maxCoeff() < 1e-14);
-    // However far above it: over every place of the square there is but one.
-    Points lifted = square.single.points;
-    for (int v = 0; v < square.patch().free_count; ++v) lifted(2, v) = 0.3 * std::sin(9.0 * lifted(0, v));
-    const Placement again = by_surface(square.problem, lifted, square.patch(), square.target);
-    CHECK((again.points - square.single.points).cwiseAbs().maxCoeff() < 1e-12);
 }
 
 TEST_CASE("a refill restores a plane around a vertex pulled out of it, and nothing else moves") {

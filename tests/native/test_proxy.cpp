@@ -72,13 +72,6 @@ TEST_CASE("a crumpled start becomes a mesh of even edges") {
     }
 }
 
-TEST_CASE("splits stop at the limit") {
-    const test::Single single = test::single_patch(test::grid(4, 0.0, test::flat));
-    ProxyMesh mesh(single.patch(), single.points);
-    mesh.adapt({0.0, 0.02, 50});
-    CHECK(mesh.free_count() <= 50);
-}
-
 TEST_CASE("a walk across the surface ends at the nearest point") {
     const Ball ball;
     const Vector3 wanted = test::sphere(0.83, 0.21);

@@ -23,8 +23,6 @@ Eigen::Matrix2Xd circle(int count) {
     return places;
 }
 
-QuadFront round_front(int count) { return {Indices(static_cast<std::size_t>(count), 2), circle(count), {}}; }
-
 // Faces around each vertex, of a disc whose border is the pattern's boundary in its direction; empty: it is none.
 Indices faces_around(const QuadPattern& pattern) {
     Indices around(static_cast<std::size_t>(pattern.vertex_count));
@@ -139,43 +137,6 @@ TEST_CASE("a shape of the grid comes back as the grid, whatever its corners are"
     CHECK(found[0].pattern.triangles.empty());
     CHECK(found[0].poles == 0);
     CHECK(found[0].least_poles == 0);
-}
-
-TEST_CASE("a ring around a smooth hole leaves one like it") {
-    QuadFront front = round_front(12);
-    CHECK(front.quarters() == 0);
-    REQUIRE(front.add_ring());
-    CHECK(front.size() == 12);
-    CHECK(front.quad_count() == 12);
-    CHECK(front.faces() == Indices(12, 2));
-    CHECK(front.is_new(0));
-    CHECK_FALSE(front.filled().has_value());  // a straight walk leads nowhere
-}
-
-TEST_CASE("four poles close a smooth hole, best where they lie evenly") {
-    QuadFront front = round_front(12);
-    REQUIRE(front.add_ring());
-    const std::vector<Closing> found = closings(front, std::vector<PoleKind>(4, PoleKind::three), 3);
-    REQUIRE_FALSE(found.empty());
-    CHECK(found.front().cell_count == 9);
-    CHECK(found.front().misfit < 0.1);
-    REQUIRE(front.place(found.front().poles));
-    CHECK(front.quarters() == 4);
-    const auto pattern = front.filled();
-    REQUIRE(pattern.has_value());
-    CHECK(pattern->quads.size() == 21);
-    CHECK(pattern->vertex_count == 12 + 12 + 4);
-}
-
-TEST_CASE("a row along a side takes its corners on") {
-    Eigen::Matrix2Xd places(2, 10);  // a rectangle of 3 × 2
-    places << 0, 1, 2, 3, 3, 3, 2, 1, 0, 0, 0, 0, 0, 0, 1, 2, 2, 2, 2, 1;
-    QuadFront front({1, 2, 2, 1, 2, 1, 2, 2, 1, 2}, places, {});
-    CHECK_FALSE(front.add_row(1));
-    REQUIRE(front.add_row(0));
-    CHECK(front.quad_count() == 3);
-    CHECK(front.size() == 8);
-    CHECK(front.filled()->quads.size() == 6);
 }
 
 TEST_CASE("rings that would meet themselves are refused") {

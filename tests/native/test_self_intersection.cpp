@@ -1,10 +1,8 @@
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <random>
 #include <set>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "geometry/self_intersection.h"
@@ -73,16 +71,6 @@ test::Mesh triangle_soup(std::mt19937& random) {
 }
 
 }  // namespace
-
-TEST_CASE("surfaces without crossings have none, whether they touch or lie close") {
-    const test::Mesh sphere = test::grid(12, 0.3, test::sphere);
-    CHECK(crossing_triangles(sphere.triangles, sphere.points).empty());
-    const test::Mesh close = join(sphere, sphere, {0.0, 0.0, 1e-9});
-    CHECK(crossing_triangles(close.triangles, close.points).empty());
-    const test::Mesh same = join(sphere, sphere, Vector3::Zero());
-    CHECK(crossing_triangles(same.triangles, same.points).empty());
-    CHECK(crossing_triangles(Triangles(3, 0), Points(3, 0)).empty());
-}
 
 TEST_CASE("triangles that share a vertex may cross, those that share an edge fold") {
     Points points(3, 5);

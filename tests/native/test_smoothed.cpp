@@ -94,15 +94,6 @@ TEST_CASE("a pipe that is smoothed as a whole has the waist of the closed form")
     }
 }
 
-TEST_CASE("waves longer than a wavelength stay") {
-    const Known pipe(120);
-    for (const double wavelength : {2.0, std::numbers::pi}) {
-        const double factor = std::pow(2.0 * std::numbers::pi / wavelength, 4);  // far from the ends: (1 + μ) r = μ
-        const double radius = pipe.middle_radius(smoothed_by(pipe, wavelength));
-        CHECK(radius == doctest::Approx(factor / (1.0 + factor)).epsilon(5e-3));
-    }
-}
-
 TEST_CASE("the shape before goes with its outline") {
     Known pipe(20);
     const Vector3 move(0.3, -0.2, 0.1);
@@ -179,18 +170,6 @@ TEST_CASE("an accepted surface is the answer, whatever its girth") {
     CHECK(solve(Known(10).problem, 0.0, Progress()).provenance == Provenance::equation);
 }
 
-TEST_CASE("a long pipe is smoothed as far as it keeps its girth") {
-    const Known pipe(90);
-    REQUIRE(pipe.middle_radius(smoothed_by(pipe, endless)) < 0.1);
-    const auto solution = smoothed(pipe.problem, Progress());
-    REQUIRE(solution);
-    CHECK(solution->provenance == Provenance::old_shape);
-    CHECK(end_of(*solution) == Termination::converged);
-    CHECK(finder(pipe).in(solution->points).absent());
-    const double kept = std::pow(2.0 * std::numbers::pi, 4);  // μ of a wavelength of 1, the first that is tried
-    CHECK(pipe.middle_radius(solution->points) == doctest::Approx(kept / (1.0 + kept)).epsilon(1e-5));
-}
-
 TEST_CASE("a smoothed shape may keep the crossings that were there, and no others") {
     Known pipe(40);
     const Points crossing = pierced(pipe, 0.5);
@@ -204,28 +183,6 @@ TEST_CASE("a smoothed shape may keep the crossings that were there, and no other
     CHECK(flaw_at(crossing, Provenance::old_shape) == Flaw::absent);
     CHECK(flaw_at(crossing, Provenance::loft) == Flaw::crossing);
     CHECK(flaw_at(pierced(pipe, 0.25), Provenance::old_shape) == Flaw::crossing);
-}
-
-TEST_CASE("the shape before stands in where it is known, a loft where it is not") {
-    Known pipe(30);
-    const Patch& patch = pipe.single.patch();
-    Points twisted = pipe.single.points;
-    for (int v = 0; v < patch.vertex_count(); ++v) {
-        const double twist = 2.6 * pipe.single.points(2, v) / pipe.length();  // of the lines: their waist is cos 1.3
-        twisted.col(v) = Eigen::AngleAxisd(twist, Vector3::UnitZ()) * Vector3(pipe.single.points.col(v));
-    }
-    pipe.problem.before = twisted;
-    Points& outline = pipe.problem.fixed_points;
-    outline = pipe.problem.before->rightCols(outline.cols());
-    for (Eigen::Index k = 0; k < outline.cols(); ++k) {
-        const double up = k % 2 == 0 ? std::sin(1.3) : -std::sin(1.3);
-        pipe.problem.fixed_normals.col(k) << std::cos(1.3) * outline(0, k), std::cos(1.3) * outline(1, k), up;
-    }
-    const Solution solution = solve(pipe.problem, 0.0, Progress());
-    CHECK(solution.provenance == Provenance::old_shape);
-    CHECK(finder(pipe).in(solution.points).narrow.empty());
-    pipe.problem.before = Points(3, 0);
-    CHECK(is_loft(solve(pipe.problem, 0.0, Progress()).provenance));
 }
 
 TEST_CASE("a surface beside its boundary may cross itself there, and nowhere else") {

@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>

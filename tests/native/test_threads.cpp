@@ -3,7 +3,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
@@ -12,7 +11,6 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "geometry/self_intersection.h"
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
 #include "method/nested.h"
@@ -148,23 +146,6 @@ TEST_CASE("threads: a large factor has the same bits for any number of them") {
         CHECK_FALSE(factor.factorise(lower, "a test matrix", Progress()));
         lower.coeffRef(n - 1, n - 1) = 8.5;
     }
-}
-
-TEST_CASE("threads: crossing triangles are found by any number of them") {
-    const test::Mesh mesh = test::grid(40, 0.2, test::sphere);
-    // The same sheet again, turned and moved: the two cross along a curve.
-    const int count = static_cast<int>(mesh.points.cols());
-    Points points(3, 2 * count);
-    points.leftCols(count) = mesh.points;
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1.0, 2.0, 0.3).normalized()).toRotationMatrix();
-    points.rightCols(count) = turn * mesh.points;
-    Triangles triangles(3, 2 * mesh.triangles.cols());
-    triangles.leftCols(mesh.triangles.cols()) = mesh.triangles;
-    triangles.rightCols(mesh.triangles.cols()) = mesh.triangles.array() + count;
-    const Indices alone = crossing_triangles(triangles, points);
-    CHECK(alone.size() > 20);
-    const Threads team(3);
-    CHECK(crossing_triangles(triangles, points) == alone);
 }
 
 TEST_CASE("threads: a nested solve has the same bits for any number of them") {

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "api/input.h"
 #include "base/errors.h"
@@ -39,67 +38,11 @@ TEST_CASE("a fixed equator splits an octahedron into two pieces with vertices of
     CHECK(warnings.empty());
 }
 
-TEST_CASE("a lone fixed edge and a pin cut nothing") {
-    Diagnostics warnings;
-    CHECK(cut(octahedron(), {1, 1, 0, 0, 0, 0}, warnings).input_vertex.size() == 6);
-    CHECK(cut(octahedron(), {0, 0, 0, 0, 1, 0}, warnings).piece_count == 1);
-}
-
 TEST_CASE("an open curve of two edges is slit: its middle is doubled, its ends are not") {
     Diagnostics warnings;
     const CutMesh mesh = cut(octahedron(), {1, 1, 1, 0, 0, 0}, warnings);
     CHECK(mesh.piece_count == 1);
     CHECK(mesh.input_vertex.size() == 7);
-}
-
-TEST_CASE("the triangle in a corner of the border stays with its patch") {
-    // All diagonals point one way: at two corners of the square they are chords between vertices of the border.
-    const test::Single single = test::single_patch(test::grid(4, 0.0, test::flat, false));
-    CHECK(single.patches.size() == 1);
-    CHECK(single.patch().triangle_count() == 32);
-}
-
-TEST_CASE("a single triangle wound the other way is found and turned round") {
-    Triangles triangles = octahedron();
-    triangles.col(3).reverseInPlace();
-    Diagnostics warnings;
-    const CutMesh mesh = cut(triangles, {1, 1, 1, 1, 0, 0}, warnings);
-    REQUIRE(warnings.size() == 1);
-    CHECK(warnings[0].code == Code::inconsistent_winding);
-    CHECK(warnings[0].elements == Indices{3});
-    const EdgeTable edges = make_edges(mesh.triangles, static_cast<int>(mesh.input_vertex.size()));
-    for (int e = 0; e < edges.size(); ++e) {
-        if (edges.side_count(e) != 2) continue;
-        CHECK(side_tail(mesh.triangles, edges.side(e, 0)) == side_head(mesh.triangles, edges.side(e, 1)));
-    }
-}
-
-TEST_CASE("a Möbius strip with free vertices is refused") {
-    // Two rows of quads around a strip whose last column meets the first upside down.
-    constexpr int columns = 8;
-    const auto vertex = [](int column, int row) { return column < columns ? 3 * column + row : 2 - row; };
-    Triangles triangles(3, 4 * columns);
-    int t = 0;
-    for (int c = 0; c < columns; ++c) {
-        for (int r = 0; r < 2; ++r) {
-            triangles.col(t++) << vertex(c, r), vertex(c + 1, r), vertex(c + 1, r + 1);
-            triangles.col(t++) << vertex(c, r), vertex(c + 1, r + 1), vertex(c, r + 1);
-        }
-    }
-    Diagnostics warnings;
-    try {
-        cut(triangles, std::vector<char>(3 * columns, 0), warnings);
-        FAIL("not refused");
-    } catch (const MeshError& error) {
-        CHECK(error.diagnostic().code == Code::not_orientable);
-        CHECK(error.diagnostic().kind == ElementKind::triangle);
-    }
-}
-
-TEST_CASE("boundary loops keep the mesh on their left") {
-    const std::vector<Indices> loops = boundary_loops(test::grid(2, 0.0, test::flat).triangles, 9);
-    REQUIRE(loops.size() == 1);
-    CHECK(loops[0] == Indices{0, 1, 2, 5, 8, 7, 6, 3});
 }
 
 namespace {

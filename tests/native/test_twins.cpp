@@ -2,7 +2,6 @@
 
 #include "base/errors.h"
 #include "mesh/pieces.h"
-#include "mesh/strip.h"
 #include "meshes.h"
 
 using namespace fairing;
@@ -70,24 +69,6 @@ TEST_CASE("a patch is the same with the twins of the mesh that it was cut from, 
     }
 }
 
-TEST_CASE("each piece of a cut mesh has its own twins") {
-    Triangles octahedron(3, 8);
-    octahedron << 0, 1, 2, 3, 1, 2, 3, 0,  //
-        1, 2, 3, 0, 0, 1, 2, 3,            //
-        4, 4, 4, 4, 5, 5, 5, 5;
-    const EdgeTable edges = make_edges(octahedron, 6);
-    const VertexRoles roles = classify_vertices(edges, {{1, 1, 1, 1, 0, 0}, {}, {}});
-    Diagnostics warnings;
-    const CutMesh cut = cut_mesh(octahedron, edges, {0, 1, 2, 3, 4, 5, 6, 7}, roles, warnings);
-    const std::vector<Patch> patches = make_patches(cut, roles);
-    REQUIRE(patches.size() == 2);
-    for (const Patch& patch : patches) {
-        CHECK(patch.edge_count() == 8);
-        CHECK(patch.loop_count() == 1);
-        CHECK(patch.ring(0).closed());
-    }
-}
-
 TEST_CASE("sides that run to and fro between two vertices are joined, more than two or alike are misfits") {
     Triangles pair(3, 2);
     pair << 0, 1,  //
@@ -128,25 +109,4 @@ TEST_CASE("a patch refuses twins that leave an edge twice, or a vertex between t
         1, 3,      //
         2, 4;
     CHECK_THROWS_AS(Patch(members_of(fans, 5), Twins(6, none)), MeshError);
-}
-
-TEST_CASE("a strip has the triangles within some edges of its seeds, in the patch's order") {
-    const test::Single single = test::single_patch(test::grid(8, 0.0, test::flat));
-    const Patch& patch = single.patch();
-    Indices border;
-    for (int v = patch.free_count; v < patch.vertex_count(); ++v) border.push_back(v);
-    const Strip strip = strip_around(patch, border, 1);
-    CHECK(strip.triangles.cols() == 128 - 32);  // all but four by four squares
-    CHECK(std::ranges::is_sorted(strip.vertices));
-    CHECK(strip.vertices.size() == 81 - 9);
-    Eigen::Index next = 0;
-    for (int t = 0; t < patch.triangle_count() && next < strip.triangles.cols(); ++t) {
-        Eigen::Vector3i named;
-        for (int k = 0; k < 3; ++k) named[k] = strip.vertices[strip.triangles(k, next)];
-        if (named == patch.triangles.col(t)) ++next;
-    }
-    CHECK(next == strip.triangles.cols());
-    for (std::size_t k = 0; k < strip.vertices.size(); ++k)
-        CHECK(strip.local[strip.vertices[k]] == static_cast<int>(k));
-    CHECK(strip.gather(single.points).isApprox(single.points(Eigen::all, strip.vertices)));
 }

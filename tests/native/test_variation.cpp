@@ -1,7 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
-
 #include "geometry/face_geometry.h"
 #include "geometry/target_surface.h"
 #include "meshes.h"
@@ -47,9 +45,6 @@ Vector3 torus_normal(const Vector3& p) {
     return (p - axis).normalized();
 }
 
-Vector3 cylinder(double u, double v) { return {std::cos(u), std::sin(u), v}; }
-Vector3 cylinder_normal(const Vector3& p) { return Vector3(p.x(), p.y(), 0.0).normalized(); }
-
 Exact torus_patch(int n) { return {test::grid(n, 0.25, torus), torus_normal}; }
 
 // ∫ (9/16) b² dA over the unit square of angles, b the derivative of the curvature around along the tube.
@@ -66,14 +61,6 @@ double variation_of_torus() {
 }
 
 }  // namespace
-
-TEST_CASE("planes, spheres and cylinders have no variation on any mesh, a torus has") {
-    const auto up = [](const Vector3&) { return Vector3(Vector3::UnitZ()); };
-    CHECK(Exact(test::grid(9, 0.35, test::flat), up).merit(Measure::plain) < 1e-20);
-    CHECK(Exact(test::grid(9, 0.35, test::sphere), [](const Vector3& p) { return p; }).merit(Measure::plain) < 1e-20);
-    CHECK(Exact(test::grid(9, 0.35, cylinder), cylinder_normal).merit(Measure::plain) < 1e-20);
-    CHECK(torus_patch(9).merit(Measure::plain) > 1e-3);
-}
 
 TEST_CASE("on irregular meshes the sum converges to the integral over the torus") {
     const double exact = variation_of_torus();
@@ -103,49 +90,6 @@ TEST_CASE("derivatives are those of differences") {
             const double slope = (merit(motion, step) - merit(motion, -step)) / (2.0 * step);
             CHECK(model.gradient[k] ==
                   doctest::Approx(slope).epsilon(1e-5).scale(model.gradient.cwiseAbs().maxCoeff()));
-        }
-    }
-}
-
-TEST_CASE("the product of variation and area has no unit, the variation that of length to the power of minus two") {
-    Exact exact = torus_patch(6);
-    const double product = exact.merit(Measure::scale_free);
-    const double plain = exact.merit(Measure::plain);
-    exact.sheet.points *= 3.0;
-    CHECK(exact.merit(Measure::scale_free) == doctest::Approx(product).epsilon(1e-12));
-    CHECK(exact.merit(Measure::plain) == doctest::Approx(plain / 9.0).epsilon(1e-12));
-}
-
-TEST_CASE("a sphere comes back from its outline's points alone where the slope is free") {
-    Exact exact(test::grid(8, 0.3, test::sphere), [](const Vector3& p) { return p; });
-    exact.problem.normal_weights = VectorX::Zero(exact.problem.fixed_points.cols());
-    const VariationEnergy energy(exact.problem, Moving::points_and_normals, Measure::plain);
-    const VectorX bump = 2e-2 * (0.3 * VectorX::LinSpaced(energy.unknowns().count(), 0.0, 99.0)).array().sin();
-    Sheet sheet = energy.moved(exact.sheet, bump, 1.0);
-    const NewtonResult result = minimise(energy, sheet, {1e-10, 30}, Progress());
-    CHECK(result.converged);
-    CHECK(result.steps < 15);
-    CHECK((sheet.points.colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-8);
-    CHECK((sheet.normals - sheet.points).cwiseAbs().maxCoeff() < 1e-7);
-}
-
-TEST_CASE("fitted normals are exact on spheres") {
-    const Exact exact(test::grid(10, 0.3, test::sphere), [](const Vector3& p) { return p; });
-    CHECK((fitted_normals(exact.problem, exact.sheet.points, Measure::plain, Progress()) - exact.sheet.points)
-              .cwiseAbs()
-              .maxCoeff() < 1e-6);
-}
-
-TEST_CASE("points between the vertices lie on spheres and cylinders exactly") {
-    for (const bool round : {true, false}) {
-        const Exact exact(test::grid(5, 0.3, round ? test::sphere : cylinder),
-                          [&](const Vector3& p) { return round ? p : cylinder_normal(p); });
-        const TargetSurface target(exact.single.patch(), exact.sheet.points, exact.sheet.normals);
-        const Lift lift(exact.single.patch(), exact.sheet);
-        for (int t = 0; t < exact.single.patch().triangle_count(); ++t) {
-            const SurfaceSample sample = lift.sample(target, {t, Vector3(0.5, 0.3, 0.2)});
-            const double radius = round ? sample.point.norm() : sample.point.head<2>().norm();
-            CHECK(std::abs(radius - 1.0) < 1e-9);
         }
     }
 }
