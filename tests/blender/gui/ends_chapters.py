@@ -12,8 +12,8 @@ import addon_utils
 import bmesh
 import bpy
 
-import change_scenes
 import scenes
+import spoilt_scenes
 from driver import OUT, Story, in_view, leave_popup, middle, press, tell
 from panel import ID, change_with, module, run_operator, set_options, solve_to, wait_until
 
@@ -102,7 +102,7 @@ def _begin_change() -> Story:
 
 def _begin_fill() -> Story:
     """The same of a run that makes faces."""
-    change_scenes.hole(7)
+    spoilt_scenes.large_hole()
     yield 1.0
     with in_view():
         assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True) == {"FINISHED"}

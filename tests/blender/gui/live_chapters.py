@@ -34,13 +34,6 @@ def live_follows_a_pin() -> Story:
     yield from _follow("live_pin", (0, 58), "Z")
 
 
-def live_moves_a_neck() -> Story:
-    """The bottle's neck is selected and dragged."""
-    yield from _make_live("live_neck", scenes.bottle)
-    scenes.select_vertices(scenes.positions()[:, 2] > 0.59 - 1e-6)
-    yield from _follow("live_neck", (90, 60))
-
-
 def live_begins_in_the_background() -> Story:
     """The first surface of a large region takes a while: Blender goes on, Esc stops it, the second click brings it."""
     faces = scenes.large()

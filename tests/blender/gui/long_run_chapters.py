@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 
 import scenes
 from driver import Story, in_view, middle, press, screenshot, tell
 from panel import (
-    module,
-    open_redo_panel,
     open_tab,
-    redo_with,
     report,
     run_operator,
     set_options,
@@ -93,22 +89,3 @@ def finish_a_long_run() -> Story:
     assert ticks > 2, "Blender did not stay responsive"
     assert report().converged
     yield 0.5
-
-
-def redo_after_a_long_run() -> Story:
-    """Another way to spread the vertices, chosen in the redo panel: answered by the solver that the run left."""
-    solvers = module("run.job").solvers
-    *_, solver = solvers._values.values()
-    assert solver is not None
-    first, before = report().seconds, scenes.positions()
-    yield from open_redo_panel()
-    screenshot("redo_long_open")
-    yield from redo_with(inner_fairness="INVERSE_DISTANCE")
-    yield 0.5
-    operator = bpy.context.window_manager.operators[-1]
-    assert operator.inner_fairness == "INVERSE_DISTANCE"
-    assert report().converged
-    assert np.abs(scenes.positions() - before).max() > 1e-4
-    assert list(solvers._values.values())[-1] is solver
-    tell(f"redo: {operator.inner_fairness} answered in {report().seconds:.2f} s, the run took {first:.2f} s")
-    screenshot("redo_long")

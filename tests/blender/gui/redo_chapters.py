@@ -5,10 +5,9 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-import change_scenes
 import scenes
 import spoilt_scenes
-from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, tell, view
+from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, view
 from panel import (
     change_with,
     open_redo_panel,
@@ -23,19 +22,6 @@ from panel import (
 )
 
 FACTOR = 73  # pixels from the panel's top to the field Factor
-# A scene, the operator, and options of its run and of two changes.
-OTHERS = (
-    (lambda: change_scenes.hole(5), "fair_fill", {}, {"spacing": 0.9}, {"spacing": 0.8}),
-    (lambda: change_scenes.hole(6), "fair_fill", {}, {"spacing": 1.1}, {"spacing": 0.9}),
-    (lambda: change_scenes.hole(7), "fair_fill", {}, {"spacing": 1.1}, {"spacing": 0.9}),
-    (change_scenes.block, "fair_fillet", {"width": 0.3, "spacing": 0.12}, {"width": 0.35}, {"profile": 0.3}),
-    (change_scenes.block, "fair_fillet", {"width": 0.3, "spacing": 0.08}, {"width": 0.35}, {"profile": 0.3}),
-    (change_scenes.block, "fair_fillet", {"width": 0.3, "spacing": 0.04}, {"width": 0.35}, {"profile": 0.3}),
-    (lambda: change_scenes.rings(32), "fair_from_curves", {}, {"spacing": 1.2}, {"spacing": 0.9}),
-    (lambda: change_scenes.rings(64), "fair_from_curves", {}, {"spacing": 1.2}, {"spacing": 0.9}),
-    (lambda: change_scenes.rough_ball(6), "fair_denoise", {}, {"size": 0.6}, {"amount": 0.5}),
-    (lambda: change_scenes.rough_ball(7), "fair_denoise", {}, {"size": 0.6}, {"amount": 0.5}),
-)
 
 
 def changes_in_the_redo_panel_do_not_wait() -> Story:
@@ -126,40 +112,6 @@ def changes_outside_edit_mode_do_not_wait() -> Story:
         press("Z", *middle(), ctrl=True, shift=True)
         yield 1.0
         assert (spoilt_scenes.object_positions() == last).all(), "redo did not bring the answer back"
-
-
-def changes_of_the_other_operators_do_not_wait() -> Story:
-    """Of those that make faces, and of Fair Denoise: one change, and another one before its answer is there."""
-    progress = bpy.context.window_manager.fairing_progress
-
-    def settled() -> bool:
-        return not progress.following
-
-    for enter, operator, first, second, third in OTHERS:
-        enter()
-        open_tab()
-        yield 1.0
-        with in_view():
-            assert getattr(bpy.ops.mesh, operator)("EXEC_DEFAULT", True, **first) == {"FINISHED"}
-        yield 0.5
-        shown = scenes.positions()
-        yield from change_with(**second)
-        if progress.following:
-            assert np.array_equal(scenes.positions(), shown), "the result before the change is not shown"
-        yield from redo_with(**third)
-        last = scenes.positions()
-        assert not np.array_equal(last, shown), report().reason
-        yield from change_with(**first)
-        assert not progress.following or np.array_equal(scenes.positions(), last)
-        yield from wait_until(settled, 120.0)
-        tell(f"{operator}: {len(last)} vertices, {len(last) - len(scenes.original())} new")
-        last = scenes.positions()
-        press("Z", *middle(), ctrl=True)
-        yield 1.0
-        assert np.array_equal(scenes.positions(), scenes.original()), "undo did not take the run back"
-        press("Z", *middle(), ctrl=True, shift=True)
-        yield 1.0
-        assert np.array_equal(scenes.positions(), last), "redo did not bring the answer back"
 
 
 def a_field_of_the_redo_panel_is_pulled() -> Story:

@@ -100,20 +100,6 @@ def dome() -> int:
     return scenes.start(centres()[:, 2] > 0.0)
 
 
-def grainy() -> int:
-    """A sphere with a skin, swollen on top, the swelling selected."""
-    scenes.clear()
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=6)
-
-    def swollen(points: Any) -> Any:
-        grain = 0.012 * np.sin(45.0 * points[:, :1]) * np.sin(45.0 * points[:, 1:2])
-        return points * (1.0 + grain + 0.35 * np.exp(-8.0 * (1.0 - points[:, 2:])))
-
-    move(swollen)
-    found = centres()
-    return scenes.start(found[:, 2] / np.linalg.norm(found, axis=1) > 0.6)
-
-
 def egg() -> int:
     """A flattened sphere, its top selected along a ring of edges."""
     scenes.clear()
@@ -210,3 +196,20 @@ def hole() -> int:
     scenes.select_vertices(np.arange(len(bm.verts)) == rim[0])
     bpy.ops.ed.undo_push(message="scene")
     return 1
+
+
+def large_hole() -> None:
+    """A ball without a cap, the border selected: some 10,000 new vertices."""
+    scenes.clear()
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=7)
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(bpy.context.object.data)
+    bmesh.ops.delete(bm, geom=[vertex for vertex in bm.verts if vertex.co.z > 0.5], context="VERTS")
+    for vertex in bm.verts:
+        vertex.select = vertex.is_boundary
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(bpy.context.object.data)
+    bpy.ops.ed.undo_push(message="scene")
+    scenes.keep_original()

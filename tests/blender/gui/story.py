@@ -23,18 +23,15 @@ from ends_chapters import (
     undo_and_removal_end_a_search,
 )
 from fillet_chapters import fillet_is_dragged
-from jobs_chapters import ten_jobs
 from live_chapters import (
     live_begins_in_the_background,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_moves_a_neck,
 )
 from long_run_chapters import (
     cancel_a_hopeless_run,
     cancel_a_long_run,
     finish_a_long_run,
-    redo_after_a_long_run,
 )
 from panel import (
     extension,
@@ -50,7 +47,6 @@ from panel import (
 from redo_chapters import (
     a_field_of_the_redo_panel_is_pulled,
     changes_in_the_redo_panel_do_not_wait,
-    changes_of_the_other_operators_do_not_wait,
     changes_outside_edit_mode_do_not_wait,
 )
 from screen_chapters import SCREENS
@@ -64,9 +60,6 @@ from sculpt_chapters import (
 )
 from tutorial_chapters import tutorial_as_written
 from verdict_chapters import (
-    again_in_other_ways,
-    joins_curvature,
-    keeps_detail,
     marks_before_a_run,
     not_usable,
     worth_a_look,
@@ -211,18 +204,13 @@ CHAPTERS = (
     cancel_a_hopeless_run,
     cancel_a_long_run,
     finish_a_long_run,
-    redo_after_a_long_run,
     changes_in_the_redo_panel_do_not_wait,
-    changes_of_the_other_operators_do_not_wait,
     a_field_of_the_redo_panel_is_pulled,
     in_german,
     judge,
     marks_before_a_run,
     worth_a_look,
     not_usable,
-    again_in_other_ways,
-    keeps_detail,
-    joins_curvature,
     fills_a_hole,
     fillet_is_dragged,
     masked_in_sculpt_mode,
@@ -233,14 +221,12 @@ CHAPTERS = (
     changes_outside_edit_mode_do_not_wait,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_moves_a_neck,
     live_begins_in_the_background,
     undo_and_removal_end_a_run,
     undo_and_removal_end_a_search,
     disabling_ends_a_run,
     another_file_ends_a_run,
     tutorial_as_written,
-    ten_jobs,
     *SCREENS,
 )
 # Each ends Blender, so that it has one of its own; they are played only where they are named.
