@@ -16,7 +16,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from mathutils import Euler, Matrix
+from mathutils import Euler, Matrix, Vector
 from scipy.spatial import cKDTree
 
 import meshes
@@ -292,7 +292,11 @@ TURNED = Matrix.LocRotScale((3.0, -2.0, 1.0), Euler((0.3, 0.4, 0.5)), (1.0, 1.0,
 MIRRORED = Matrix.LocRotScale((0.0, 0.0, 0.0), Euler((0.0, 0.0, 0.0)), (-0.5, 2.0, 1.0))
 
 
-@pytest.mark.parametrize("matrix", [TURNED, MIRRORED], ids=["turned", "mirrored"])
+TINY = Matrix.Scale(1e-4, 4)
+LARGE = Matrix.Scale(1e5, 4)
+
+
+@pytest.mark.parametrize("matrix", [TURNED, MIRRORED, TINY, LARGE], ids=["turned", "mirrored", "tiny", "large"])
 def test_the_answer_is_one_of_the_world(kind: Kind, matrix: Matrix) -> None:
     """Whatever the object's matrix is; faces outward as before."""
 
@@ -317,6 +321,38 @@ def test_the_answer_is_one_of_the_world(kind: Kind, matrix: Matrix) -> None:
     assert len(placed) == pytest.approx(len(plain), rel=0.1)
     assert cKDTree(plain).query(placed)[0].max() < length
     assert cKDTree(placed).query(plain)[0].max() < length
+
+
+def with_a_lifted_key(obj: bpy.types.Object) -> None:
+    """A key that lifts everything, a group that everything is in, and faces that are all alike."""
+    for name in ("Basis", "Lifted"):
+        if not (obj.data.shape_keys and name in obj.data.shape_keys.key_blocks):
+            obj.shape_key_add(name=name, from_mix=False)
+    for vertex in obj.data.vertices:
+        obj.data.shape_keys.key_blocks["Lifted"].data[vertex.index].co = vertex.co + Vector((0.0, 0.0, 0.5))
+    obj.active_shape_key_index = 0
+    obj.vertex_groups.new(name="All").add(range(len(obj.data.vertices)), 0.75, "REPLACE")
+    sets = obj.data.attributes.new(".sculpt_face_set", "INT", "FACE")
+    for polygon in obj.data.polygons:
+        polygon.material_index, polygon.use_smooth = 1, True
+        sets.data[polygon.index].value = 7
+
+
+def test_keys_weights_and_faces_go_on_as_they_are_around(kind: Kind) -> None:
+    obj = begun(kind, with_a_lifted_key)
+    had_faces = len(obj.data.polygons) > 0
+    assert kind.run() == {"FINISHED"}
+    meshes.leave()
+    keys = obj.data.shape_keys.key_blocks
+    for basis, lifted in zip(keys["Basis"].data, keys["Lifted"].data, strict=True):
+        assert (lifted.co - basis.co - Vector((0.0, 0.0, 0.5))).length < 2e-4
+    (group,) = (each.index for each in obj.vertex_groups if each.name == "All")
+    for vertex in obj.data.vertices:
+        assert [e.weight for e in vertex.groups if e.group == group] == pytest.approx([0.75], abs=1e-5)
+    if had_faces:
+        sets = obj.data.attributes[".sculpt_face_set"].data
+        found = {(p.material_index, p.use_smooth, sets[p.index].value) for p in obj.data.polygons}
+        assert found == {(1, True, 7)}
 
 
 def test_several_objects_are_done_like_one(kind: Kind) -> None:

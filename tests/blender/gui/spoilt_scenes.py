@@ -100,14 +100,6 @@ def dome() -> int:
     return scenes.start(centres()[:, 2] > 0.0)
 
 
-def egg() -> int:
-    """A flattened sphere, its top selected along a ring of edges."""
-    scenes.clear()
-    bpy.ops.mesh.primitive_uv_sphere_add(segments=64, ring_count=32)
-    move(lambda points: points * np.array([1.3, 1.3, 0.8]))
-    return scenes.start(centres()[:, 2] > 0.36)
-
-
 def _squashed_ball() -> Any:
     """Add a sphere with a shaken upper half; return its faces (f,) of that half."""
     _ball()
