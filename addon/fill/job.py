@@ -189,7 +189,7 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
     try:
         yield
     except fairing.MeshError as error:
-        tells_why = {"turned", "between"} & error.diagnostic.figures.keys()
+        tells_why = {"turned", "between", "one_way"} & error.diagnostic.figures.keys()
         if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
         raise BorderRefusal(said("not_joined", advice=joining_advice(loops)), outline) from error

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 #include <set>
 
 #include "base/errors.h"
@@ -106,32 +105,16 @@ Diagnostic torn(const Indices& chain) {
     return at_vertices(Code::not_a_loop, text, std::move(ends), {{"torn", 1.0}});
 }
 
-// Loops along the mesh that touch themselves or each other, parted as around holes.
-std::vector<BoundaryLoop> parted(const HoledMesh& mesh, std::vector<BoundaryLoop> loops, bool are_parted) {
-    std::set<int> seen;
-    bool touch = false;
-    std::vector<Indices> along;
-    Indices numbers;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        if (loops[l].is_bare) continue;
-        along.push_back(loops[l].vertices);
-        numbers.push_back(static_cast<int>(l));
-        for (const int v : loops[l].vertices) touch = !seen.insert(v).second || touch;
+// A loop along the mesh in parts where it touches itself, as around holes: by itself, whatever is named besides.
+std::vector<BoundaryLoop> parted(const HoledMesh& mesh, BoundaryLoop loop) {
+    const std::set<int> once(loop.vertices.begin(), loop.vertices.end());
+    if (loop.is_bare || once.size() == loop.vertices.size()) return {std::move(loop)};
+    std::vector<BoundaryLoop> parts;
+    for (Indices& vertices : parted_loop(loop.vertices, mesh.mesh().vertices, mesh.mesh().triangles)) {
+        parts.push_back({std::move(vertices), {}});
+        parts.back().is_turned = loop.is_turned;
     }
-    if (!are_parted || !touch) return loops;
-    std::multimap<int, BoundaryLoop> in_order;
-    for (PartedLoop& each : parted_loops(along, mesh.mesh().vertices, mesh.mesh().triangles)) {
-        const int l = numbers[each.begins_in];
-        BoundaryLoop loop{std::move(each.vertices), {}};
-        loop.is_turned = loops[l].is_turned;
-        in_order.emplace(l, std::move(loop));
-    }
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        if (loops[l].is_bare) in_order.emplace(static_cast<int>(l), std::move(loops[l]));
-    }
-    std::vector<BoundaryLoop> result;
-    for (auto& [l, loop] : in_order) result.push_back(std::move(loop));
-    return result;
+    return parts;
 }
 
 }  // namespace
@@ -164,18 +147,22 @@ Holes named_loops(const HoledMesh& mesh, const NamedLoops& named, bool bridge, b
         if (!named.curvatures.empty()) loop.curvatures = named.curvatures[l];
         try {
             orient(mesh, loop);
-            loops.push_back(std::move(loop));
         } catch (const MeshError& error) {
             if (bridge) throw;
             result.left.push_back({named.loops[l], error.diagnostic()});
+            continue;
+        }
+        if (are_parted && named.are_parted()) {
+            for (BoundaryLoop& part : parted(mesh, std::move(loop))) loops.push_back(std::move(part));
+        } else {
+            loops.push_back(std::move(loop));
         }
     }
     if (bridge) {
-        result.holes.push_back({parted(mesh, std::move(loops), are_parted && named.are_parted())});
+        result.holes.push_back({std::move(loops)});
         return result;
     }
-    for (BoundaryLoop& loop : parted(mesh, std::move(loops), are_parted && named.are_parted()))
-        result.holes.push_back({{std::move(loop)}});
+    for (BoundaryLoop& loop : loops) result.holes.push_back({{std::move(loop)}});
     return result;
 }
 

@@ -90,14 +90,11 @@ double LoopShape::perimeter() const {
 }
 
 double turning(const LoopShape& loop) {
-    constexpr double stands_up = 20.0 * degree;  // twice what noise of a tenth of an edge makes
-    double sum = 0.0;
-    for (int k = 0; k < loop.size(); ++k) {
-        const double turn = turn_at(loop, k);
-        const bool own = loop.angles.size() > 0 && !(std::abs(loop.angles[k] - turn) < stands_up);
-        sum += own ? loop.angles[k] : turn;
-    }
-    return sum / full_turn;
+    constexpr double stands_up = 0.75;  // of a turn; noise of a fifth of an edge makes half a one
+    double in_planes = 0.0;
+    for (int k = 0; k < loop.size(); ++k) in_planes += turn_at(loop, k) / full_turn;
+    const double by_angles = loop.angles.sum() / full_turn;
+    return loop.angles.size() > 0 && std::abs(by_angles - in_planes) > stands_up ? by_angles : in_planes;
 }
 
 double times_flat(const LoopShape& loop) { return 2.0 / std::max(1.0 + turning(loop), whole); }

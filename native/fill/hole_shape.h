@@ -24,8 +24,9 @@ struct LoopShape {
 inline constexpr double out_of_proportion = 20.0;
 
 // The geodesic curvature of a loop added up, over 2π: 1 around a hole in a plane, 0 at the end of a tube, −1 around the
-// outside of a sheet, however that is bent along one direction. In the tangent planes, where the triangles' own angles
-// are not far from that: these don't mind triangles that stand up from the surface, but noise adds to them.
+// outside of a sheet, however that is bent along one direction. In the tangent planes where the triangles' own angles
+// are nowhere far from that; else by these, whose sum triangles that stand up from the surface don't change (noise
+// does).
 double turning(const LoopShape& loop);
 
 // How many times as large as a flat disc the cap of a ball over a loop is: 1 over a plane, 2 over a tube's end. By

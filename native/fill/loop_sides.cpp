@@ -75,6 +75,23 @@ void check_sides(const std::vector<BoundaryLoop>& loops) {
     throw MeshError(refused(loops, one < other ? 0 : 1, what, "turn its normals"));
 }
 
+// Between two holes in walls that face one way a surface would have to turn back at both.
+void check_walls(const std::vector<BoundaryLoop>& loops) {
+    constexpr double is_wall = 0.5;  // turning: 1 around a hole in a plane, 0 at the end of a tube
+    if (loops.size() != 2) return;
+    for (const BoundaryLoop& loop : loops) {
+        if (loop.is_bare || turning(loop.shape) < is_wall) return;
+    }
+    const Vector3 one = loops[0].shape.normals.rowwise().mean();
+    if (one.dot(loops[1].shape.normals.rowwise().mean()) < facing) return;
+    Indices all = loops[0].vertices;
+    all.insert(all.end(), loops[1].vertices.begin(), loops[1].vertices.end());
+    throw MeshError(
+        refusal("both are holes in walls that face one way, no surface joins them smoothly: pull their "
+                "rims out into ends of a tube first",
+                std::move(all), "one_way"));
+}
+
 }  // namespace
 
 void BoundaryLoop::turn() {
@@ -93,7 +110,9 @@ void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
         if (joined ? way_to_others(loops, l) < leads_away : leads_outside(loops[l].shape)) turned.push_back(l);
     }
     for (const std::size_t l : turned) loops[l].turn();
-    if (joined) check_sides(loops);
+    if (!joined) return;
+    check_sides(loops);
+    check_walls(loops);
 }
 
 Diagnostic not_joined(const std::vector<BoundaryLoop>& loops) {

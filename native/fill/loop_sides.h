@@ -20,7 +20,8 @@ struct BoundaryLoop {
 };
 
 // Turns loops that no triangle holds where the surface would lead away from the others that are to be joined, or out of
-// a lone loop. Throws LOOPS_NOT_JOINED where a tube would be seen from outside at one end and from inside at the other.
+// a lone loop. Throws LOOPS_NOT_JOINED where a tube would be seen from outside at one end and from inside at the other,
+// and for two holes in walls that face one way.
 void settle_sides(std::vector<BoundaryLoop>& loops, bool joined);
 
 // Why no triangulation joins the loops: which of them leads away, and what to do.

@@ -188,41 +188,30 @@ HoleLoops hole_loops(const View<Points>& points, const Triangles& triangles, con
     return walk.walked();
 }
 
-std::vector<PartedLoop> parted_loops(const std::vector<Indices>& loops, const View<Points>& points,
-                                     const Triangles& triangles) {
+std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points, const Triangles& triangles) {
     BorderSides sides;
-    Indices of_loop;
     std::map<Pair, std::size_t> number;
-    for (std::size_t l = 0; l < loops.size(); ++l) {
-        for (std::size_t k = 0; k < loops[l].size(); ++k) {
-            sides.push_back({loops[l][k], loops[l][(k + 1) % loops[l].size()]});
-            number.emplace(sides.back(), sides.size() - 1);
-            of_loop.push_back(static_cast<int>(l));
-        }
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+        sides.push_back({loop[k], loop[(k + 1) % loop.size()]});
+        number.emplace(sides.back(), k);
     }
     Walk walk(sides, static_cast<int>(points.cols()));
-    std::size_t first = 0;
-    for (const Indices& loop : loops) {
-        for (std::size_t k = 0; k < loop.size(); ++k)
-            walk.follow(first + k, static_cast<int>(first + (k + 1) % loop.size()));
-        first += loop.size();
-    }
+    for (std::size_t k = 0; k < loop.size(); ++k) walk.follow(k, static_cast<int>((k + 1) % loop.size()));
     walk.join(points, triangles);
-    std::map<std::size_t, PartedLoop> in_order;  // by the first of their sides
-    for (Indices loop : walk.walked().loops) {
+    std::map<std::size_t, Indices> in_order;  // by the first of their sides
+    for (Indices part : walk.walked().loops) {
         std::size_t begins = sides.size();
         std::size_t at = 0;
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            const std::size_t side = number.at({loop[k], loop[(k + 1) % loop.size()]});
+        for (std::size_t k = 0; k < part.size(); ++k) {
+            const std::size_t side = number.at({part[k], part[(k + 1) % part.size()]});
             if (side < begins) at = k;
             begins = std::min(begins, side);
         }
-        std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(at), loop.end());
-        in_order.emplace(begins, PartedLoop{of_loop[begins], std::move(loop)});
+        std::rotate(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(at), part.end());
+        in_order.emplace(begins, std::move(part));
     }
-    std::vector<PartedLoop> result;
-    result.reserve(in_order.size());
-    for (auto& [begins, parted] : in_order) result.push_back(std::move(parted));
+    std::vector<Indices> result;
+    for (auto& [begins, part] : in_order) result.push_back(std::move(part));
     return result;
 }
 

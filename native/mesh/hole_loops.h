@@ -25,14 +25,8 @@ BorderSides border_sides(const Triangles& triangles, int vertex_count);
 // `triangles`: those with a vertex that the border passes several times are enough.
 HoleLoops hole_loops(const View<Points>& points, const Triangles& triangles, const BorderSides& border);
 
-struct PartedLoop {
-    int begins_in;  // the number of a loop that was given
-    Indices vertices;
-};
-
-// Loops along the border with the hole on their left, parted likewise where they touch. A vertex some of whose sectors
-// belong to no loop given stays as it is.
-std::vector<PartedLoop> parted_loops(const std::vector<Indices>& loops, const View<Points>& points,
-                                     const Triangles& triangles);
+// A loop along the border with the hole on its left, parted likewise where it touches itself; a vertex some of whose
+// sectors belong to others stays as it is. The first one returned has the first of its sides.
+std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points, const Triangles& triangles);
 
 }  // namespace fairing
