@@ -62,7 +62,8 @@ def read(source: Path) -> tuple[Parts, Write]:
                 if not len(parts.faces.sizes):
                     raise ValueError("it has no faces")
         except (Exception, SystemExit) as error:  # libraries raise anything, and meshio ends the program
-            reasons.append(f"{name}: {error}" if isinstance(error, ValueError) else f"{name}: {error!r}")
+            kind_of = "" if isinstance(error, ValueError) else f" {type(error).__name__}:"
+            reasons.append(f"{name}:{kind_of} {error}")
         else:
             return parts, partial(_written, (kind, name, known))
     raise ValueError(f"{source}: can't be read: {'; '.join(reasons)}")
