@@ -67,53 +67,6 @@ def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
     assert not len(piece.across.sharp)
 
 
-def test_a_coarse_bevel_runs_on() -> None:
-    """Bends of 25°, 40° and 25°, none far above the others: all come back to a tenth of an edge."""
-    mesh = roof(90.0, 0.0)
-    y = mesh.positions[:, 1]
-    row = 2.0 / SIZE
-    flat = np.minimum(np.abs(y), row)
-    points = mesh.positions.copy()
-    points[:, 2] = -np.tan(np.radians(20.0)) * flat - np.maximum(np.abs(y) - flat, 0.0)
-    (piece,) = fill(replace(mesh, positions=points), np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
-    assert piece.verdict.grade == GOOD
-    assert "run" in reported([piece.across])  # as a bevel, or each of its edges
-    wanted = -np.tan(np.radians(20.0)) * np.minimum(np.abs(piece.points[:, 1]), row)
-    wanted -= np.maximum(np.abs(piece.points[:, 1]) - row, 0.0)
-    np.testing.assert_allclose(piece.points[:, 2], wanted, atol=0.1 * row)
-
-
-def test_a_marked_ridge_goes_on_marked() -> None:
-    mesh = roof(20.0, 0.0)
-    ridge = (np.abs(mesh.positions[mesh.edges][:, :, 1]) < 1e-9).all(axis=1)
-    (soft,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
-    assert not len(soft.across.edges)
-    (piece,) = fill(replace(mesh, sharp=ridge), np.eye(4), [rim(mesh, 0.0)], FillOptions()).pieces
-    assert len(piece.across.sharp) == len(piece.across.edges) > 3
-
-
-def test_a_drawn_line_is_kept_with_its_vertices() -> None:
-    """Two edges over a vertex beside the ridge; they are the first points inside, at their places."""
-    mesh = roof(90.0, 0.0)
-    loop = rim(mesh, 0.0)
-    first, last = hard_ends(mesh, loop, mesh.triangles).tolist()
-    middle = len(mesh.positions)
-    with_line = replace(
-        mesh,
-        positions=np.vstack([mesh.positions, [0.0, 0.06, 0.01]]),
-        edges=np.vstack([mesh.edges, [[first, middle], [middle, last]]]),
-        pinned=np.append(mesh.pinned, False),
-    )
-    (piece,) = fill(with_line, np.eye(4), [loop], FillOptions()).pieces
-    assert piece.across.drawn.tolist() == [middle]
-    assert piece.points[len(loop)].tolist() == [0.0, 0.06, 0.01]
-    assert len(piece.positions) == len(piece.points) - len(loop)
-    assert reported([piece.across]) == "1 drawn"
-    assert len(loop) in piece.triangles
-    (other,) = fill(with_line, np.eye(4), [loop], FillOptions(run_on=False)).pieces
-    assert not len(other.across.drawn)
-
-
 def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
     """A ridge of 36° leaves kinks that the mesh's own bends hide."""
     mesh = roof(36.0, 0.0)

@@ -12,7 +12,6 @@ import pytest
 import meshes
 from extension import module
 from test_fill import border_edges, open_sphere
-from test_new_mesh import dented, fair_new
 from test_panel import Layout
 
 
@@ -77,15 +76,6 @@ def test_every_entry_of_the_pie_exists(mode: str) -> None:
     assert 2 <= len(layout.reported) <= 8
     assert len(set(layout.reported)) == len(layout.reported)
     bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def test_a_new_mesh_under_multiresolution_is_refused() -> None:
-    obj, chosen = dented()
-    obj.modifiers.new("Levels", "MULTIRES")
-    count = len(obj.data.polygons)
-    with pytest.raises(RuntimeError, match="Multiresolution modifier can't be kept"):
-        fair_new(obj, chosen)
-    assert len(obj.data.polygons) == count
 
 
 def test_a_part_of_an_outline_stands_for_all_of_it_in_scripts_too() -> None:

@@ -76,19 +76,6 @@ def _ring_length(edge: Any) -> int:
         count += 1
 
 
-def test_a_bridge_goes_on_from_both_sides() -> None:
-    """The rows of a pipe whose middle is gone, and an edge loop from one end to the other."""
-    obj = meshes.remove(pipe(), lambda centre: abs(centre.z) < 0.5)
-    select_border(obj, lambda place: abs(place.z) < 1.2)
-    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True, bridge=True) == {"FINISHED"}
-    new = [face for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
-    assert {len(face.verts) for face in new} == {4}
-    assert len(new) % 32 == 0
-    upright = [e for e in new[0].edges if abs(e.verts[0].co.z - e.verts[1].co.z) > 0.05]
-    assert _loop_length(upright[0]) == 14 + len(new) // 32
-    meshes.leave()
-
-
 def test_hard_edges_that_run_through_are_named() -> None:
     """A box of quads without a window over one edge: the edge runs on, and the report says that rows don't."""
     bpy.ops.mesh.primitive_cube_add()

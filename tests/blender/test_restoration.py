@@ -10,7 +10,6 @@ from __future__ import annotations
 import bpy
 import numpy as np
 import pytest
-from mathutils import Euler, Matrix
 
 import meshes
 
@@ -46,23 +45,6 @@ def test_hemisphere_from_its_surroundings(rim: int) -> None:
     assert off_sphere(meshes.positions(obj)) < BOUND[rim]
     assert meshes.report().converged
     assert meshes.report().boundary_angle < 1.0
-
-
-@pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (3.0, 0.5, 1.5), (-1.0, 1.0, 1.0), (-2.0, -3.0, -0.4)])
-def test_fair_in_world_space(scale: tuple[float, float, float]) -> None:
-    obj = meshes.sphere()
-    upper = upper_half(obj)
-    spoil(obj, upper)
-    obj.matrix_world = Matrix.LocRotScale((1.0, -2.0, 0.5), Euler((0.3, -0.8, 1.1)), scale)
-    bpy.context.view_layer.update()
-    world = np.array(obj.matrix_world)
-    inverse = np.linalg.inv(world)
-    points = meshes.positions(obj)
-    meshes.move(obj, points @ inverse[:3, :3].T + inverse[:3, 3])
-    if np.linalg.det(world) < 0.0:
-        obj.data.flip_normals()  # the mesh itself is inside out so that the object is not
-    meshes.fair(obj, upper)
-    assert off_sphere(meshes.positions(obj) @ world[:3, :3].T + world[:3, 3]) < BOUND[48] + 1e-5
 
 
 def test_custom_normals() -> None:
