@@ -1,7 +1,5 @@
 """Bevels and rolled edges that end at a hole run on through it with their width and their profile."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
@@ -9,7 +7,6 @@ import creased
 import fairing
 import holes
 from creased import Hole
-from fairing._bands import bands_at, pairs_across
 
 TENTH = 0.1  # of the radius
 
@@ -51,29 +48,10 @@ def test_without_the_rule_it_swells() -> None:
     assert off(creased.in_bevel(20, 1), 0.12, edges="ignored") > 0.4
 
 
-def test_bands_are_found_where_they_come_to_the_outline() -> None:
-    """Two, a quarter turn each, that face each other; sides belong together, in order, each vertex once."""
-    hole = creased.in_bevel(24, 1)
-    loop = hole.loop[::-1]
-    normals = fairing.surrounding_normals(hole.vertices, hole.triangles, loop).normals
-    one, other = bands_at(loop, hole.vertices, normals)
-    for band, sign in ((one, one.points[:, 1].mean() < 0), (other, other.points[:, 1].mean() < 0)):
-        assert abs(abs(band.end.angle) - 90) < 10
-        assert band.end.direction[1] * (1 if sign else -1) > 0.99
-        assert (np.diff(band.shares) > 0).all()
-    pairs = pairs_across(one, other)
-    assert pairs[0] == (0, len(other.places) - 1)
-    assert pairs[-1] == (len(one.places) - 1, 0)
-    assert len(pairs) == min(len(one.places), len(other.places))
-    assert all(a < c and b > d for (a, b), (c, d) in pairwise(pairs))
-
-
 @pytest.mark.parametrize("half_angle", [20, 60, 90, 130])
 def test_a_ball_has_no_bands(half_angle: float) -> None:
     vertices, triangles = holes.bowl(48, half_angle)
-    loop = np.arange(48)
-    normals = fairing.surrounding_normals(vertices, triangles, loop).normals
-    assert bands_at(loop, vertices, normals) == []
+    assert fairing.fill(vertices, triangles, [np.arange(48)]).bands == ()
 
 
 @pytest.mark.parametrize("noise", [0.1, 0.3])
@@ -81,9 +59,7 @@ def test_noise_has_no_bands(noise: float) -> None:
     """A flat mesh with noise of so many edges."""
     hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, 0.0)], 16)
     rough = hole.vertices + noise / 16 * np.random.default_rng(2).normal(size=hole.vertices.shape)
-    loop = hole.loop[::-1]
-    normals = fairing.surrounding_normals(rough, hole.triangles, loop).normals
-    assert bands_at(loop, rough, normals) == []
+    assert fairing.fill(rough, hole.triangles, [hole.loop]).bands == ()
 
 
 def test_a_band_that_ends_in_the_hole_is_no_band_through_it() -> None:

@@ -72,19 +72,3 @@ def test_what_is_wrong_elsewhere_is_no_matter() -> None:
     assert found.surface is not None
     assert plain.surface is not None
     assert np.abs(found.surface.vertices - plain.surface.vertices).max() < 1e-9
-
-
-def test_a_thousand_small_holes_are_cancelled_in_between() -> None:
-    vertices, triangles = ball(5)
-    chosen = np.arange(0, len(vertices), 37)
-    gone = np.isin(triangles, chosen).any(axis=1)
-    asked = 0
-
-    def stop(fraction: float, stage: str) -> bool:
-        nonlocal asked
-        asked += 1
-        return fraction < 0.2
-
-    with pytest.raises(fairing.Cancelled):
-        fairing.fill(vertices, triangles[~gone], progress=stop)
-    assert asked > 1

@@ -84,12 +84,6 @@ def test_curvatures_are_given_in_the_order_of_the_loops_or_of_the_vertices() -> 
     assert error("cubic", 40, wrong) > 1e-3
 
 
-@pytest.mark.parametrize("rows", [3, (2, 2)])
-def test_curvatures_of_another_shape_are_refused(rows: Any) -> None:
-    with pytest.raises(ValueError, match="fixed_curvatures"):
-        filled("cubic", 20, continuity="G2", fixed_curvatures=np.zeros(rows))
-
-
 def test_a_rough_outline_keeps_the_tangent_join_and_says_so() -> None:
     vertices, triangles, loop = holed("torus", 40)
     rough = vertices + np.random.default_rng(0).normal(0.0, 2e-3, vertices.shape)

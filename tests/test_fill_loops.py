@@ -8,7 +8,6 @@ import pytest
 
 import fairing
 import holes
-from fairing import _core
 from holes import FloatArray, IntArray
 
 EMPTY = np.empty((0, 3), dtype=int)
@@ -19,12 +18,6 @@ def ring(count: int, radius: float = 1.0, centre: Any = (0.0, 0.0, 0.0)) -> tupl
     turn = 2 * np.pi * np.arange(count) / count
     away = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
     return np.asarray(centre) + radius * away, away
-
-
-def crossings(points: FloatArray) -> IntArray:
-    """Of the edges of a loop through all points."""
-    loop = np.arange(len(points), dtype=np.int32)
-    return _core.crossing_edges(np.column_stack([loop, np.roll(loop, -1)]), points)
 
 
 def up(count: int) -> FloatArray:
@@ -168,37 +161,8 @@ def test_edges_that_cross_are_refused_with_their_ends() -> None:
     eight = np.column_stack([np.sin(turn), np.sin(2 * turn), 0 * turn])
     refused("NONMANIFOLD_VERTEX", {0, 23, 24, 47}, False, eight, [np.arange(48)], up(48))
     eight[20:28, 2] = 0.1  # one way above the other one
-    assert len(crossings(eight)) == 0
+    fairing.fill(eight, EMPTY, [np.arange(48)], normals=up(48))
     both = np.concatenate([ring(24)[0], ring(24, 1.0, (1.3, 0.0, 0.0))[0]])
     loops = [np.arange(24), np.arange(24, 48)]
     refused("NONMANIFOLD_VERTEX", {3, 4, 20, 21, 32, 33, 39, 40}, False, both, loops, up(48))
     assert fairing.fill(both, EMPTY, loops, normals=up(48)).converged
-
-
-def test_a_vertex_on_another_edge_touches_it() -> None:
-    square = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [1, 0, 0], [0, 2, 0]], float)
-    found = crossings(square)
-    assert {*found.ravel().tolist()} == {0, 1, 2, 3, 4}
-    square[3, 1] = 1e-6
-    assert len(crossings(square)) == 0
-
-
-def test_crossings_are_those_of_all_pairs() -> None:
-    """Random edges in a plane, against the signs of areas."""
-    points = np.random.default_rng(3).uniform(0, 1, (40, 3)) * [1, 1, 0]
-    loop = np.arange(40)
-    ends = np.column_stack([loop, np.roll(loop, -1)])
-
-    def side(p: int, q: int, r: int) -> float:
-        (ax, ay), (bx, by) = points[q, :2] - points[p, :2], points[r, :2] - points[p, :2]
-        return float(np.sign(ax * by - ay * bx))
-
-    expected = {
-        (i, j)
-        for i, (a, b) in enumerate(ends)
-        for j, (c, d) in enumerate(ends)
-        if i < j and not {a, b} & {c, d} and side(a, b, c) != side(a, b, d) and side(c, d, a) != side(c, d, b)
-    }
-    found = {tuple(sorted((row[0], row[2]))) for row in crossings(points).tolist()}
-    assert found == expected
-    assert len(found) > 50

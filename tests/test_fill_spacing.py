@@ -59,20 +59,6 @@ def test_edges_follow_the_outlines_or_have_one_length(factor: float) -> None:
     assert 0.6 < typical(graded) / (factor * MEAN) < 1.6
 
 
-def test_each_hole_follows_its_own_outline() -> None:
-    """Two circles, one ten times as large: as many new vertices in both, in proportion to their edges' mean."""
-    both = np.concatenate([CIRCLE, 10.0 * CIRCLE + [30.0, 0.0, 0.0]])
-    loops = [np.arange(64), 64 + np.arange(64)]
-    up = np.tile([0.0, 0.0, 1.0], (128, 1))
-    counts = []
-    for inner in ("outline", "even"):
-        result = fairing.fill(both, EMPTY, loops, normals=up, inner=inner)
-        small = result.vertices[:, 0] < 5.0
-        counts.append((np.count_nonzero(small), np.count_nonzero(~small)))
-    for small, large in counts:
-        assert small == pytest.approx(large, rel=0.05)
-
-
 SQUARE = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
 
 

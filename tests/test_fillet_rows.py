@@ -210,29 +210,6 @@ def test_where_fillets_run_into_each_other_pairs_stand_in_and_that_is_said() -> 
     assert fairing.boundary_loops(faces) == []
 
 
-def test_motion_and_numbers_change_nothing() -> None:
-    vertices, triangles = solids.box(2)
-    counted = without_diagonals(vertices, triangles)
-    plain = fairing.fillet(vertices, triangles, width=0.2, faces="quads", neighbours=counted)
-    rng = np.random.default_rng(4)
-    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
-    turn *= np.sign(np.linalg.det(turn))
-    order = rng.permutation(len(vertices))
-    other = fairing.fillet(
-        (1e3 * vertices @ turn.T + 5.0)[order],
-        np.argsort(order)[triangles],
-        width=200.0,
-        faces="quads",
-        neighbours=np.argsort(order)[counted],
-    )
-    assert plain.quads is not None
-    assert other.quads is not None
-    assert len(plain.quads.quads) == len(other.quads.quads)
-    back = (other.vertices - 5.0) @ turn / 1e3
-    near = np.linalg.norm(back[:, None] - plain.vertices, axis=2).min(axis=1)
-    assert near.max() < 2e-3
-
-
 def test_faces_are_triangles_or_quads() -> None:
     vertices, triangles = solids.box(1)
     with pytest.raises(ValueError, match="faces"):

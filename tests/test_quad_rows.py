@@ -114,15 +114,6 @@ def corner_angles(points: FloatArray, quads: IntArray) -> FloatArray:
     return angles
 
 
-def test_the_answer_turns_and_grows_with_the_mesh() -> None:
-    wave = lambda u, v: (8 * u, 5 * v, np.sin(3 * u + v))  # noqa: E731
-    vertices, triangles = holes.sheet(wave, (24, 18), holes.disc)
-    first = fairing.fill(vertices, triangles, faces="quads")
-    again = fairing.fill(1e3 * vertices @ TURN + 50, triangles, faces="quads")
-    assert np.array_equal(first.triangles, again.triangles)
-    assert np.abs(1e3 * first.vertices @ TURN + 50 - again.vertices).max() < 8
-
-
 def test_no_concave_quad_is_handed_out() -> None:
     """A star of sharp points has no pattern of convex quads: pairs of triangles stand in."""
     turn = 2 * np.pi * np.arange(100) / 100

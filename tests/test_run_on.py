@@ -8,8 +8,6 @@ import pytest
 import creased
 import fairing
 from creased import FloatArray, Hole, IntArray
-from fairing._edge_ends import EdgeEnd
-from fairing._matching import matched
 
 PROFILES: dict[str, list[tuple[float, float]]] = {
     "two edges": [(-1.0, -1.0), (-0.15, 0.0), (0.15, 0.0), (1.0, -1.0)],
@@ -95,20 +93,6 @@ def test_the_mesh_fits_and_keeps_the_spacing() -> None:
             assert (min(pair), max(pair)) in inner
         counts.append(len(curve))
     assert counts[0] > 1.6 * counts[1] > 2.2 * counts[2]
-
-
-def test_curves_move_turn_and_scale_with_the_mesh() -> None:
-    """And so does the surface, as far as its distances to the exact one tell."""
-    hole = creased.in_bent_sheet(10, 1)
-    turn = np.linalg.qr(np.random.default_rng(5).normal(size=(3, 3)))[0]
-    turn *= np.sign(np.linalg.det(turn))
-    shift = np.array([5.0, -3.0, 80.0])
-    one = filled(hole)
-    other = fairing.fill(300.0 * hole.vertices @ turn.T + shift, hole.triangles, [hole.loop])
-    back = (other.vertices - shift) @ turn / 300.0
-    new = len(one.curves[0]) - 2
-    assert np.abs(one.vertices[:new] - back[:new]).max() < 1e-9
-    assert hole.error(back) == pytest.approx(hole.error(one.vertices), abs=5e-5)
 
 
 def test_a_marked_edge_runs_on_however_flat() -> None:
@@ -232,32 +216,6 @@ def _flat_area(loop: FloatArray) -> float:
     """Over a loop on the faces z = 0 and x = 0 of a box, unfolded."""
     u, v = loop[:, 0] - loop[:, 2], loop[:, 1]
     return 0.5 * abs(float((u * np.roll(v, -1) - v * np.roll(u, -1)).sum()))
-
-
-def end(x: float, y: float, way: tuple[float, float], angle: float = 90.0, marked: bool = False) -> EdgeEnd:
-    direction = np.array([*way, 0.0]) / np.hypot(*way)
-    return EdgeEnd(0, 0, np.array([x, y, 0.0]), direction, np.zeros(3), angle, marked)
-
-
-def test_ends_are_joined_by_direction_and_kind() -> None:
-    """Two that face each other; not at a right angle, nor a convex with a concave one; three and four in a point."""
-    right, left, up, down = end(-1, 0, (1, 0)), end(1, 0, (-1, 0)), end(0, -1, (0, 1)), end(0, 1, (0, -1))
-    assert [joint.ends for joint in matched([right, left]).joints] == [(0, 1)]
-    assert matched([up, right]).lonely == (0, 1)
-    assert matched([right, end(1, 0, (-1, 0), -90.0)]).lonely == (0, 1)
-    for several in ([up, left, right], [up, left, down, right]):
-        (joint,) = matched(several).joints
-        assert joint.centre == pytest.approx([0.0, 0.0, 0.0], abs=1e-12)
-    slanted = matched([end(-1, 0.3, (1, 0)), end(-1, -0.3, (1, 0)), end(1, -0.3, (-1, 0)), end(1, 0.3, (-1, 0))])
-    assert sorted(joint.ends for joint in slanted.joints) == [(0, 3), (1, 2)]
-
-
-def test_ambiguous_ends_and_too_many_are_left_alone() -> None:
-    fork = matched([end(-1, 0, (1, 0)), end(1, -0.2, (-1, 0)), end(1, 0.2, (-1, 0))])
-    assert (fork.joints, fork.ambiguous) == ((), (0, 1, 2))
-    angles = np.linspace(0, 2 * np.pi, 9, endpoint=False)
-    star = matched([end(np.cos(a), np.sin(a), (-np.cos(a), -np.sin(a))) for a in angles])
-    assert (star.joints, star.too_many) == ((), tuple(range(9)))
 
 
 def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:

@@ -21,7 +21,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges
 import fairing
-import forced
 import hole_fillers
 import holes
 import known_surfaces
@@ -40,9 +39,10 @@ def timed(vertices: FloatArray, triangles: IntArray, *loops: Any, **options: Any
 
 
 def shape_of(vertices: FloatArray, result: fairing.FillResult | fairing.RemeshResult) -> str:
-    """Least angle that the outline does not force, and the highest valence of a new vertex."""
+    """Least angle of triangles without an edge on the outline, and the highest valence of a new vertex."""
     points = np.concatenate([vertices, result.vertices])
-    angles = forced.unforced_angles(points, result.triangles)
+    inner = (result.triangles < len(vertices)).sum(axis=1) < 2
+    angles = holes.angles(points, result.triangles[inner])
     valence = np.bincount(holes.edges_of(result.triangles).ravel())[len(vertices) :].max()
     return f"{angles.min():.0f}° | {valence}"
 
