@@ -24,7 +24,7 @@ POLISH = {"tolerance": 1e-12, "max_iterations": 1000}
 
 def patches() -> Iterator[tuple[str, dict[str, Any], Any, dict[str, Any]]]:
     """Yield name, input arrays, and options of every case."""
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+    sys.path[:0] = [str(Path(__file__).resolve().parents[1] / "tests" / part) for part in ("meshes", "tools")]
     import blend
     import shapes
 

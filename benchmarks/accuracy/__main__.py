@@ -18,7 +18,7 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+sys.path += [str(Path(__file__).resolve().parents[2] / "tests" / part) for part in ("meshes", "tools")]
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import cost

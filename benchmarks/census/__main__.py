@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path += [str(ROOT / "tests"), str(ROOT / "benchmarks/common")]
+sys.path += [*(str(ROOT / "tests" / part) for part in ("meshes", "tools")), str(ROOT / "benchmarks/common")]
 Row = dict[str, Any]
 
 

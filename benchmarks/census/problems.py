@@ -33,7 +33,7 @@ class Problem:
     """A call of `fairing.fair`.
 
     kind: row of the table; vertices (n, 3), triangles (m, 3), fixed (k,) with normals (k, 3); free: vertices that move;
-    surface: of `tests/surfaces.py`, where the answer is known.
+    surface: of `tests/meshes/surfaces.py`, where the answer is known.
     """
 
     name: str

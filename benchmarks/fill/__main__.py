@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests"))
+sys.path += [str(Path(__file__).resolve().parents[2] / "tests" / part) for part in ("meshes", "tools")]
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bridges

@@ -10,7 +10,6 @@ import numpy as np
 
 import fairing
 import holes
-import test_fill
 from holes import FloatArray
 
 
@@ -20,13 +19,13 @@ def _from_axis(p: FloatArray) -> FloatArray:
 
 
 _HOLES: dict[str, tuple[Any, Callable[[FloatArray], FloatArray]]] = {
-    "side of a cylinder": (test_fill.cylinder_side, lambda p: _from_axis(p) - 1),
-    "saddle (catenoid)": (test_fill.saddle, lambda p: _from_axis(p) - np.cosh(p[:, 2])),
-    "torus": (test_fill.torus, lambda p: np.hypot(_from_axis(p) - 2, p[:, 2]) - 0.7),
+    "side of a cylinder": (holes.cylinder_side, lambda p: _from_axis(p) - 1),
+    "saddle (catenoid)": (holes.saddle, lambda p: _from_axis(p) - np.cosh(p[:, 2])),
+    "torus": (holes.torus, lambda p: np.hypot(_from_axis(p) - 2, p[:, 2]) - 0.7),
 }
 _GAPS: dict[str, tuple[Any, Callable[[FloatArray], FloatArray]]] = {
-    "tube, two rims bridged": (test_fill.tube, lambda p: _from_axis(p) - 1),
-    "catenoid, two rims bridged": (test_fill.catenoid, lambda p: _from_axis(p) - np.cosh(p[:, 2])),
+    "tube, two rims bridged": (holes.tube, lambda p: _from_axis(p) - 1),
+    "catenoid, two rims bridged": (holes.catenoid, lambda p: _from_axis(p) - np.cosh(p[:, 2])),
 }
 
 

@@ -20,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 DATA = ROOT.parent / "shared" / "data"
-sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "benchmarks" / "common")]
+sys.path[:0] = [*(str(ROOT / "tests" / part) for part in ("meshes", "tools")), str(ROOT / "benchmarks" / "common")]
 
 
 def missing(data: Path) -> list[str]:

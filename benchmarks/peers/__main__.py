@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "peers"
-sys.path += [str(ROOT / "tests"), str(BUILD / "driver")]
+sys.path += [*(str(ROOT / "tests" / part) for part in ("meshes", "tools")), str(BUILD / "driver")]
 PARTS = "times,live,real,irregular,memory,quality"
 NEEDED = ("fairing", "igl", "meshlib", "pymeshlab", "peers_driver", "numpy", "scipy", "matplotlib")
 

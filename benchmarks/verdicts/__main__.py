@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-for place in ("tests", "tests/blender", "benchmarks/common"):
+for place in ("tests/meshes", "tests/tools", "tests/blender", "benchmarks/common"):
     sys.path.append(str(ROOT / place))
 os.environ.setdefault("BLENDER_USER_RESOURCES", tempfile.mkdtemp(prefix="verdicts-"))  # before bpy is there
 

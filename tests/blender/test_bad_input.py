@@ -1,4 +1,4 @@
-"""Nothing breaks the operator: the rows of tests/test_robustness.py that apply in Blender, in its order.
+"""Nothing breaks the operator: the rows of tests/package/test_robustness.py that apply in Blender, in its order.
 
 Refused: the mesh keeps every bit, no undo step is added, the elements in question are selected. Solved: finite, all but
 the free vertices keep every bit, what is odd is reported.

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+import shapes
+
 BEGIN = """
 import atexit, os, sys, threading, time
 sys.path.insert(0, sys.argv[1])
@@ -29,7 +31,7 @@ def start(work, daemon=True):
 
 def ended(program: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     """The program, run to its end by an interpreter of its own; it must end in order."""
-    command = [sys.executable, "-c", BEGIN + program, str(Path(__file__).parent), *arguments]
+    command = [sys.executable, "-c", BEGIN + program, str(Path(shapes.__file__).parent), *arguments]
     done = subprocess.run(command, capture_output=True, text=True, timeout=180, check=False)
     assert done.returncode == 0, done.stderr
     return done

@@ -9,7 +9,7 @@ import pytest
 
 import fairing
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 NOTES = "### Added\n- Something."
 
 

@@ -83,3 +83,26 @@ def edges_of(triangles: IntArray) -> IntArray:
     """(e, 2) each edge once, the smaller index first."""
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
     return np.unique(np.sort(sides, axis=1), axis=0)
+
+
+def cylinder_side(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    return np.cos(2.4 * u), np.sin(2.4 * u), 2.4 * v
+
+
+def saddle(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    height = 1.6 * v - 0.8
+    return np.cosh(height) * np.cos(2 * u), np.cosh(height) * np.sin(2 * u), height
+
+
+def torus(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    radius, turn = 2 + 0.7 * np.cos(2 * v - 1), 0.8 * u
+    return radius * np.cos(turn), radius * np.sin(turn), 0.7 * np.sin(2 * v - 1)
+
+
+def tube(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    return np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), 3 * v - 1.5
+
+
+def catenoid(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    height = 2 * v - 1
+    return np.cosh(height) * np.cos(2 * np.pi * u), np.cosh(height) * np.sin(2 * np.pi * u), height

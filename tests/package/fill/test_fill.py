@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 import fairing
 import holes
-from holes import FloatArray, IntArray
+from holes import FloatArray, IntArray, catenoid, cylinder_side, saddle, torus, tube
 
 EMPTY = np.empty((0, 3), dtype=int)
 
@@ -53,29 +53,6 @@ def test_the_surface_does_not_depend_on_the_spacing() -> None:
 
 
 Place = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
-
-
-def cylinder_side(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    return np.cos(2.4 * u), np.sin(2.4 * u), 2.4 * v
-
-
-def saddle(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    height = 1.6 * v - 0.8
-    return np.cosh(height) * np.cos(2 * u), np.cosh(height) * np.sin(2 * u), height
-
-
-def torus(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    radius, turn = 2 + 0.7 * np.cos(2 * v - 1), 0.8 * u
-    return radius * np.cos(turn), radius * np.sin(turn), 0.7 * np.sin(2 * v - 1)
-
-
-def tube(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    return np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), 3 * v - 1.5
-
-
-def catenoid(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    height = 2 * v - 1
-    return np.cosh(height) * np.cos(2 * np.pi * u), np.cosh(height) * np.sin(2 * np.pi * u), height
 
 
 def radius(points: FloatArray) -> FloatArray:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-NATIVE = Path(__file__).parents[1] / "native"
+NATIVE = Path(__file__).parents[2] / "native"
 GEOMETRY = re.compile(
     r"\.cross\(|\bQuaternion|\bAngleAxis|\.unitOrthogonal\("
 )  # declared everywhere, defined there alone
