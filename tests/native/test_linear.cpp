@@ -101,17 +101,6 @@ TEST_CASE("an indefinite matrix is refused") {
     CHECK_FALSE(factor.factorise(lower, "the operator", Progress()));
 }
 
-TEST_CASE("a factorisation can be cancelled and done again") {
-    SparseCholesky factor;
-    const SparseMatrix lower = random_matrix(200, 1, 3);
-    CHECK_THROWS_AS(
-        static_cast<void>(factor.factorise(lower, "x", Progress([](double, std::string_view) { return false; }))),
-        Cancelled);
-    REQUIRE(factor.factorise(lower, "x", Progress()));
-    const VectorX rhs = VectorX::Ones(200);
-    CHECK((lower.selfadjointView<Eigen::Lower>() * factor.solve(rhs) - rhs).norm() < 1e-10);
-}
-
 TEST_CASE("the LU factor solves diagonally dominant systems that are not symmetric, connected or not") {
     for (const int n : {1, 2, 17, 300}) {
         for (const int blocks : {1, 3}) {

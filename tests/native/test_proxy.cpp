@@ -84,13 +84,6 @@ TEST_CASE("a walk across the surface ends at the nearest point") {
     CHECK(again.triangle == found.triangle);
 }
 
-TEST_CASE("a point beyond the border ends on it") {
-    const Ball ball;
-    const SurfacePoint found = ball.surface.project(test::sphere(2.0, 0.5), 0);
-    CHECK(found.weights.minCoeff() == doctest::Approx(0.0));
-    CHECK(ball.surface.position(found).x() == doctest::Approx(test::sphere(1.0, 0.5).x()).epsilon(0.01));
-}
-
 TEST_CASE("curved triangles interpolate vertices and follow a sphere to third order") {
     const Ball ball;
     for (int v = 0; v < ball.single.patch().vertex_count(); ++v) {

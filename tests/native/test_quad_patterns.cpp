@@ -147,13 +147,3 @@ TEST_CASE("rings that would meet themselves are refused") {
     CHECK(front.quad_count() == 0);
     CHECK(front.filled()->quads.size() == 4);
 }
-
-TEST_CASE("corners of the boundary move only where their angles allow it") {
-    VectorX angles = VectorX::Constant(8, 180.0);
-    angles[3] = 125.0;
-    Eigen::Matrix2Xd places = Eigen::Matrix2Xd::Random(2, 8);
-    const QuadFront front(Indices(8, 2), places, angles);
-    CHECK_FALSE(front.cost_of_turning(0, 1).has_value());
-    REQUIRE(front.cost_of_turning(3, 1).has_value());
-    CHECK(*front.cost_of_turning(3, 1) < 0.5);
-}

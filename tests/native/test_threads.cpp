@@ -120,47 +120,6 @@ TEST_CASE("threads: the exception of a piece comes through and the next loop run
     }
 }
 
-TEST_CASE("threads: a large factor has the same bits for any number of them") {
-    constexpr int n = 1500;
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int i = 0; i < n; ++i) {
-        entries.emplace_back(i, i, 8.5);
-        // Two coupled grids and a few far couplings: subtrees, and fronts of several blocks above them.
-        for (const int step : {1, 30, 31, 700}) {
-            if (i + step < n) entries.emplace_back(i + step, i, -1.0 + 0.001 * (i % 7));
-        }
-    }
-    SparseMatrix lower(n, n);
-    lower.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(n, 2);
-    SparseCholesky single;
-    REQUIRE(single.factorise(lower, "a test matrix", Progress()));
-    const Eigen::MatrixXd alone = single.solve(rhs);
-    CHECK((lower.selfadjointView<Eigen::Lower>() * alone - rhs).norm() < 1e-11 * rhs.norm());
-    for (const int threads : {2, 4}) {
-        const Threads team(threads);
-        SparseCholesky factor;
-        REQUIRE(factor.factorise(lower, "a test matrix", Progress()));
-        CHECK(factor.solve(rhs).cwiseEqual(alone).all());
-        lower.coeffRef(n - 1, n - 1) = -1.0;
-        CHECK_FALSE(factor.factorise(lower, "a test matrix", Progress()));
-        lower.coeffRef(n - 1, n - 1) = 8.5;
-    }
-}
-
-TEST_CASE("threads: a nested solve has the same bits for any number of them") {
-    const DentedCap cap(52);
-    FairOptions wanted = options(Method::global);
-    wanted.threads = 1;
-    const FairResult alone = fair(cap.input, {}, wanted, {});
-    CHECK(alone.converged);
-    CHECK(alone.levels.size() > 1);
-    for (const int threads : {0, 2, 5}) {
-        wanted.threads = threads;
-        CHECK(same_bits(fair(cap.input, {}, wanted, {}), alone));
-    }
-}
-
 TEST_CASE("threads: a solve on levels has the same bits with and without work beside it") {
     const test::Single single = test::single_patch(test::grid(60, 0.2, test::sphere));
     const Patch& patch = single.patch();
