@@ -84,7 +84,9 @@ class Motion:
             return self.scale * (values @ self.turn.T + self.shift)
         if kind == "directions":
             return sign * values @ self.turn.T
-        return values * {"heights": sign * self.scale, "curvatures": sign / self.scale}.get(kind, 1.0)
+        return values * {"heights": sign * self.scale, "lengths": self.scale, "curvatures": sign / self.scale}.get(
+            kind, 1.0
+        )
 
     def of(self, scene: Scene) -> Scene:
         """The scene, moved."""
@@ -97,6 +99,7 @@ class Motion:
     def difference(self, scene: Scene, before: Found, after: Found) -> float:
         """The largest one between what was found before and after the motion, in units of the scene."""
         place, row = (np.argsort(self.order(len(array))) for array in (scene.points, scene.faces))
+        units = dict.fromkeys(("points", "surface", "heights", "lengths"), self.scale) | {"curvatures": 1 / self.scale}
         worst = 0.0
         for (kind, where, values), (_, there, found) in zip(before, after, strict=True):
             if kind in ("vertices", "triangles"):
@@ -104,16 +107,15 @@ class Motion:
                 sets = [{frozenset(np.atleast_1d(each).tolist()) for each in many} for many in (number[values], found)]
                 assert sets[0] == sets[1], kind
                 continue
-            unit = {"points": self.scale, "surface": self.scale, "heights": self.scale, "curvatures": 1 / self.scale}
             if kind == "surface":
                 (old, old_faces), (new, new_faces) = (self.image(kind, values[0]), values[1]), found
                 gaps = [fairing.deviation(old[np.unique(old_faces)], new, new_faces)]
                 gaps += [fairing.deviation(new[np.unique(new_faces)], old, old_faces)]
             elif where is None:
-                gaps = [np.asarray(values) - np.asarray(found)]
+                gaps = [self.image(kind, values) - np.asarray(found)]
             else:
                 gaps = [self.image(kind, values)[np.argsort(place[where])] - np.asarray(found)[np.argsort(there)]]
-            worst = max(worst, *(float(np.nanmax(np.abs(gap), initial=0.0)) / unit.get(kind, 1.0) for gap in gaps))
+            worst = max(worst, *(float(np.nanmax(np.abs(gap), initial=0.0)) / units.get(kind, 1.0) for gap in gaps))
         return worst
 
 
@@ -258,6 +260,9 @@ ROWS: dict[str, Row] = {
         lambda s, **k: surface(s.points, fairing.remesh(s.points, s.inside, s.rim, fixed_normals=s.normals, **k)), 2e-2,
     ),
     "fillet": _run(tetrahedron, filleted, 2e-2),
+    "fillet_width": Row(
+        tetrahedron, lambda s: [("lengths", None, np.atleast_1d(fairing.fillet_width(s.points, s.faces)))]
+    ),
     "surface_from_curves": _run(ball, over_wires, 6e-2),
     "denoise": _run(
         ball, lambda s, **k: [("points", np.arange(len(s.points)), fairing.denoise(s.other, s.faces, **k))], 1e-9
