@@ -74,6 +74,17 @@ void measure_join(FairResult& report, const HolePatch& patch, const Triangles& a
 // G2: mean curvatures at `fixed` of what lies around a patch, NaN where they are not known; on the side of the normals.
 VectorX curvatures_around(const HolePatch& patch, const Triangles& around);
 
+// A pattern of quads on a surface, each as two triangles.
+struct Rows {
+    HolePatch patch;
+    Indices triangle;  // under each new vertex, and its place there
+    Points weights;
+    VertexPairs pairs;
+};
+
+// On the first `old_count` vertices of a solved patch and new ones; nothing where no pattern fits.
+std::optional<Rows> rows_over(const HolePatch& solved, int old_count, const Progress& progress);
+
 // A pattern of quads in rows over a solved patch, and the equation on it where it is fine enough; the same patch, with
 // a warning, where no pattern fits. `solve`: on such a patch from where it is; `loops`: how many it joins.
 using SolveAgain = std::function<FairResult(const HolePatch&)>;

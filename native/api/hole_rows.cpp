@@ -11,14 +11,6 @@ namespace fairing {
 
 namespace {
 
-// A pattern of quads on a surface, each as two triangles.
-struct Rows {
-    HolePatch patch;
-    Indices triangle;  // under each new vertex, and its place there
-    Points weights;
-    VertexPairs pairs;
-};
-
 // The corners of a quad, from one at which the shorter diagonal does not end.
 std::array<int, 4> turned(const std::array<int, 4>& quad, const Points& points) {
     constexpr double shorter = 1.0 - 1e-6;  // by more than roundoff: equal diagonals keep their order
@@ -41,6 +33,8 @@ std::vector<Eigen::Vector3i> staying(const HolePatch& patch) {
     }
     return rest;
 }
+
+}  // namespace
 
 std::optional<Rows> rows_over(const HolePatch& solved, int old_count, const Progress& progress) {
     QuadMesh made;
@@ -74,8 +68,6 @@ std::optional<Rows> rows_over(const HolePatch& solved, int old_count, const Prog
     rows.weights = std::move(made.weights);
     return rows;
 }
-
-}  // namespace
 
 SolvedHole cut_from(const SolvedHole& solved, const HolePatch& patch, const Indices& triangle, const Points& weights) {
     SolvedHole made{patch, solved.report, true};

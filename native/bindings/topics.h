@@ -11,6 +11,7 @@ void bind_fillet(pybind11::module_& module);
 void bind_hierarchy(pybind11::module_& module);
 void bind_holes(pybind11::module_& module);
 void bind_measure(pybind11::module_& module);
+void bind_meshing(pybind11::module_& module);
 void bind_outline(pybind11::module_& module);
 void bind_quads(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);

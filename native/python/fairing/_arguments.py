@@ -55,15 +55,17 @@ def integers(name: str, value: npt.ArrayLike, columns: int | None) -> IntArray:
     if not np.can_cast(array.dtype, np.int32):
         outside = (array > _INT32.max) | (array < _INT32.min)
         if outside.any():
-            raise _index_range(name, array, outside)
+            raise _index_range(name, array, outside, "which does not exist")
     return np.ascontiguousarray(array, dtype=np.int32)
 
 
-def _index_range(name: str, array: npt.NDArray[Any], outside: npt.NDArray[np.bool_]) -> MeshError:
+def _index_range(
+    name: str, array: npt.NDArray[Any], outside: npt.NDArray[np.bool_], why: str, **figures: float
+) -> MeshError:
     """Its elements: rows of the triangles, otherwise the vertices named, in the caller's wider type."""
     place = tuple(np.argwhere(outside)[0])
-    text = f"{name}: row {place[0]} names vertex {array[place]}, which does not exist"
-    figures = {"vertex": float(array[place])}
+    text = f"{name}: row {place[0]} names vertex {array[place]}, {why}"
+    figures = {"vertex": float(array[place]), **figures}
     if name == "triangles":
         rows = np.flatnonzero(outside.any(axis=1)).astype(np.int32)
         return MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle", figures))
@@ -103,15 +105,9 @@ def indices_within(name: str, array: IntArray, count: int) -> IntArray:
     """
     if array.size == 0 or (array.min() >= 0 and array.max() < count):
         return array
-    outside = (array < 0) | (array >= count)
-    place = tuple(np.argwhere(outside)[0])
     there_are = f"outside 0 … {count - 1}" if count else "but there are no vertices"
-    text = f"{name}: row {place[0]} names vertex {array[place]}, {there_are}{_reason(array, count)}"
-    figures = {"vertex": float(array[place]), "vertices": float(count)}
-    if name == "triangles":
-        rows = np.flatnonzero(outside.any(axis=1)).astype(np.int32)
-        raise MeshError(Diagnostic("INDEX_RANGE", text, rows, "triangle", figures))
-    raise MeshError(Diagnostic("INDEX_RANGE", text, np.unique(array[outside]), "vertex", figures))
+    outside = (array < 0) | (array >= count)
+    raise _index_range(name, array, outside, there_are + _reason(array, count), vertices=float(count))
 
 
 def _reason(array: IntArray, count: int) -> str:
@@ -123,9 +119,33 @@ def _reason(array: IntArray, count: int) -> str:
     return "; indices count from 0 (those of an OBJ file from 1)"
 
 
+def vertices_of(name: str, value: npt.ArrayLike | None, count: int, columns: int | None = None) -> IntArray:
+    """(k,), or (k, columns), of ``count`` vertices, none for None; ValueError, or MeshError INDEX_RANGE."""
+    return indices_within(name, integers(name, [] if value is None else value, columns), count)
+
+
 def triangles_within(value: npt.ArrayLike, count: int) -> IntArray:
     """Triangles of ``count`` vertices, (m, 3); ValueError, or MeshError INDEX_RANGE."""
-    return indices_within("triangles", integers("triangles", value, 3), count)
+    return vertices_of("triangles", value, count, 3)
+
+
+def mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
+    """(n, 3) and (m, 3); ValueError, or MeshError INDEX_RANGE."""
+    points = floats("vertices", vertices)
+    return points, triangles_within(triangles, len(points))
+
+
+def held_mesh(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, fixed: npt.ArrayLike | None
+) -> tuple[FloatArray, IntArray, IntArray | None]:
+    """The same with the vertices ``fixed`` (k,), whose range the engine checks; None: not given."""
+    return *mesh(vertices, triangles), boundary(fixed, None)[0]
+
+
+def finite_triangles(points: FloatArray, triangles: IntArray) -> IntArray:
+    """Those without a corner that is NaN or infinite."""
+    finite: IntArray = triangles[np.isfinite(points[triangles]).all(axis=(1, 2))]
+    return finite
 
 
 def triangles_as_given(value: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
@@ -153,11 +173,21 @@ def edges_of(name: str, value: npt.ArrayLike | None, triangles: IntArray) -> Int
         return NO_EDGES
     pairs = integers(name, value, 2)
     sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    known = {tuple(side) for side in np.sort(sides, axis=1).tolist()}
-    for pair in np.sort(pairs, axis=1).tolist():
-        if tuple(pair) not in known:
-            raise ValueError(f"{name}: {pair[0]} and {pair[1]} are not joined by an edge of the triangles")
+    unknown = pairs[places_of(pairs, sides) < 0]
+    if len(unknown):
+        a, b = sorted(unknown[0].tolist())
+        raise ValueError(f"{name}: {a} and {b} are not joined by an edge of the triangles")
     return pairs
+
+
+def places_of(pairs: IntArray, others: IntArray) -> npt.NDArray[np.intp]:
+    """(k,) where each pair of vertices (k, 2) stands among others, whichever way around; −1 where it doesn't."""
+    keys, known = (np.sort(each, axis=1).astype(np.int64) @ [1 << 32, 1] for each in (pairs, others))
+    if not len(known):
+        return np.full(len(keys), -1)
+    order = np.argsort(known, kind="stable")
+    place = order[np.searchsorted(known[order], keys).clip(max=len(known) - 1)]
+    return np.where(known[place] == keys, place, -1)
 
 
 def choice(name: str, value: Any, accepted: Sequence[str]) -> str:

@@ -43,17 +43,15 @@ def boundary_normals(
 
     ``creases``: (c, 2) edges that are hard whatever they bend. Fits use one side of hard edges alone.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
-    where = _arguments.indices_within("fixed", _arguments.integers("fixed", fixed, None), len(points))
+    points, faces = _arguments.mesh(vertices, triangles)
+    where = _arguments.vertices_of("fixed", fixed, len(points))
     rule = _arguments.choice("side", side, SIDES)
     around = Surroundings.of(points, faces, where, outside)
     if rule == "outside":
         found = surrounding_normals(points, around.outside, where, creases=creases)
         return BoundaryNormals(**vars(found), from_inside=_none(len(where)))
-    named = _arguments.integers("creases", [] if creases is None else creases, 2)
-    edges = _arguments.indices_within("creases", named, len(points))
-    inside = around.inside[np.isfinite(points[around.inside]).all(axis=(1, 2))]
+    edges = _arguments.vertices_of("creases", creases, len(points), 2)
+    inside = _arguments.finite_triangles(points, around.inside)
     return BoundaryNormals(**_core.boundary_normals(points, inside, around.outside, where, edges, rule == "inside"))
 
 

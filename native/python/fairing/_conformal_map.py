@@ -18,9 +18,8 @@ def conformal_map(
     counter-clockwise in it, as far as the places given allow. Zero at vertices without a triangle. SolverError where a
     piece of the mesh has less than two fixed vertices, or no area. Other errors as in :func:`fairing.fair`.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
-    held = _arguments.indices_within("fixed", _arguments.integers("fixed", fixed, None), len(points))
+    points, faces = _arguments.mesh(vertices, triangles)
+    held = _arguments.vertices_of("fixed", fixed, len(points))
     given = np.ascontiguousarray(places, dtype=np.float64)
     if given.shape != (len(held), 2):
         raise ValueError(f"places: expected shape ({len(held)}, 2), got {given.shape}")

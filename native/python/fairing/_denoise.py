@@ -57,16 +57,14 @@ def denoise(
     ValueError, Cancelled, SolverError
         As for :func:`fairing.fair`.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
+    points, faces = _arguments.mesh(vertices, triangles)
     _seams.check_finite(points, faces)
     length = _arguments.finite("size", size)
     if length < 0:
         raise ValueError(f"size: a length, or 0 for {EDGES:g} mean edges, is needed, not {size!r}")
     share = _arguments.share("amount", amount)
     count = _arguments.whole("threads", threads, 0)
-    held = _arguments.NO_EDGES.ravel() if fixed is None else _arguments.integers("fixed", fixed, None)
-    _arguments.indices_within("fixed", held, len(points))
+    held = _arguments.vertices_of("fixed", fixed, len(points))
     part = _part(faces, held, _arguments.edges_of("edges", edges, faces), len(points))
     result = points.copy()
     if not len(part.free) or share == 0.0:

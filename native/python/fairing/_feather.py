@@ -146,15 +146,12 @@ def feather_weights(
     outside, at which the band ends (:func:`fairing.hard_edges`); ``creases``: (c, 2) edges that are hard whatever they
     bend. The arguments are those of :func:`fairing.fair`; ``feather`` is above 0.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
-    held, _ = _arguments.boundary(fixed, None)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     share = width(feather, None, {})
     if share == 0.0:
         raise ValueError("feather: a number above 0 is needed: 0 is no band")
     around = Surroundings.of(points, faces, held, outside)
-    named = _arguments.integers("creases", [] if creases is None else creases, 2)
-    edges = _arguments.indices_within("creases", named, len(points))
+    edges = _arguments.vertices_of("creases", creases, len(points), 2)
     return _faded(Boundary(points, held, None), around, share, edges)
 
 

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core, _options, _run_on
+from fairing import _arguments, _core, _run_on
 from fairing._filled import Surfaces
 from fairing._given import of_own_boundary
 from fairing._groups import Options
 from fairing._holes import given_loops
 from fairing._new_mesh import FillResult
-from fairing._patch import refuse_made_here, spacing_of
+from fairing._patch import own_mesh_options, refuse_made_here, spacing_of
 from fairing._rows import FACES
 from fairing._types import FloatArray, IntArray
 from fairing._watch import Progress
@@ -119,8 +119,7 @@ def fill(
         As for :func:`fairing.fair`.
     """
     given = of_own_boundary(options, named, threads)
-    points = _arguments.floats("vertices", vertices)
-    around = _arguments.triangles_within(triangles, len(points))
+    points, around = _arguments.mesh(vertices, triangles)
     length = spacing_of(spacing, inner)
     refuse_made_here(given, progress)
     if not isinstance(bridge, (bool, np.bool_)):
@@ -130,7 +129,9 @@ def fill(
     joins = given.get("continuity", "G1") == "G2"
     if fixed_curvatures is not None and not joins:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
-    engine = _engine_options(given)
+    engine = own_mesh_options(
+        Options.of(**{name: value for name, value in given.items() if name != "threads"}), threads
+    )
     in_rows = _arguments.choice("faces", faces, FACES) == "quads"
     most = _arguments.whole("max_vertices", max_vertices, 0)
     edges_around = _run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))
@@ -144,17 +145,6 @@ def fill(
     wishes = bool(bridge), in_rows, joins, length.length, length.even, most
     filled = holes.fill(through, wishes, engine, progress)
     return Surfaces(len(points), filled, holes, curves).joined()
-
-
-def _engine_options(given: dict[str, Any]) -> _core.Options:
-    named = {"inner_fairness": "conformal", **given}
-    threads = named.pop("threads", 0)
-    chosen = Options.of(**named)
-    if vars(chosen.skin).keys() & given.keys():
-        raise ValueError("detail, feather and weights: not accepted here, where there is no skin yet")
-    if not isinstance(chosen.layout.inner_fairness, str):
-        raise ValueError("inner_fairness: rows of weights are not accepted here, where the mesh is made by this call")
-    return _options.engine_options(chosen, threads, 0)
 
 
 Rows = tuple[list[FloatArray], list[FloatArray], FloatArray, FloatArray]

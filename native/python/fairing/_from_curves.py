@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _options
-from fairing._arguments import listed
-from fairing._cells import Cells, cells_of
 from fairing._denoise import edges_around
 from fairing._fair import solved
 from fairing._groups import Boundary, Options
 from fairing._measure import edges_with_uses, self_intersections
-from fairing._network import refuse
 from fairing._new_mesh import FromCurvesResult, read_only, report_fields
 from fairing._patch import Patch, Spacing, spacing_of
 from fairing._proportion import Limit
-from fairing._types import Diagnostic, FloatArray, IntArray
+from fairing._types import Diagnostic, FloatArray, IntArray, MeshError
 from fairing._watch import Progress, Watch
 
 _STIFF = 100.0  # mean edges: shorter waves go from soap films that are bent into one surface, whose cells have some 20
@@ -86,8 +83,19 @@ def surface_from_curves(
     if not (wires[:, None] == sharp).all(axis=2).any(axis=0).all():
         raise ValueError("creases: some of them are none of `edges`")
     watch = Watch(progress)
-    cells = cells_of(wires, points, bool(closed))
-    return _Task(points, cells, _Held.of(cells, sharp), length, max_vertices, count).filled(watch)
+    cells = _Cells(*_core.wire_cells(wires, points, bool(closed)))
+    return _Task(points, cells, _Held.of(cells, wires, sharp), length, max_vertices, count).filled(watch)
+
+
+@dataclass(frozen=True, eq=False)
+class _Cells:
+    """Loops with their surface on the left, all of a network wound alike, and the normal of each (l, 3)."""
+
+    loops: list[IntArray]
+    normals: FloatArray
+    left_open: list[IntArray]
+    rims: IntArray
+    """(r, 2) edges around openings that are closed."""
 
 
 @dataclass(frozen=True)
@@ -100,12 +108,13 @@ class _Held:
     """(c, 2) the edges over which it may bend."""
 
     @classmethod
-    def of(cls, cells: Cells, sharp: IntArray) -> _Held:
-        edges, uses = cells.edges
+    def of(cls, cells: _Cells, wires: IntArray, sharp: IntArray) -> _Held:
+        """Free slopes are at the edges over which the surface may bend, and at wires with one cell."""
+        sides = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in cells.loops])
+        used = np.bincount(_arguments.places_of(sides, wires), minlength=len(wires))
         bent = np.unique(np.sort(np.concatenate([sharp, cells.rims]), axis=1), axis=0)
-        ends = np.concatenate([edges[uses == 1].ravel(), bent.ravel()])
-        creases = np.intersect1d(ends, edges).astype(np.int32)
-        return cls(creases, np.setdiff1d(edges, creases).astype(np.int32), bent)
+        creases = np.intersect1d(np.concatenate([wires[used == 1], bent]), wires[used > 0]).astype(np.int32)
+        return cls(creases, np.setdiff1d(wires[used > 0], creases).astype(np.int32), bent)
 
     @property
     def all(self) -> IntArray:
@@ -115,7 +124,7 @@ class _Held:
 @dataclass(frozen=True, eq=False)
 class _Task:
     points: FloatArray
-    cells: Cells
+    cells: _Cells
     held: _Held
     length: Spacing
     max_vertices: Any
@@ -141,7 +150,7 @@ class _Task:
             **values,
             triangles=new.triangles,
             cells=tuple(map(read_only, self.cells.loops)),
-            cell=read_only(_cell_of(new.triangles, self.cells)),
+            cell=_core.cells_of_triangles(new.triangles, self.cells.loops, len(new.vertices)),
             left_open=tuple(map(read_only, self.cells.left_open)),
             creases=read_only(self.held.bent),
         )
@@ -176,7 +185,7 @@ class _Task:
         """A soap film in each cell. The normals are told, as all wires are, but do not count."""
         loops, normals = self.cells.loops, self.cells.normals
         rows = [np.tile(normal, (len(loop), 1)) for loop, normal in zip(loops, normals, strict=True)]
-        found = _core.fill_loops(self.points, list(loops), rows, False, "soap_film", progress)
+        found = _core.fill_loops(self.points, loops, rows, False, "soap_film", progress)
         fixed = self.held.all
         return Patch(
             np.concatenate([self.points, found["vertices"]]), found["triangles"], fixed,
@@ -206,7 +215,7 @@ class _Task:
 
 def _wires(name: str, value: npt.ArrayLike, count: int) -> IntArray:
     """(e, 2) edges, each once, the lower end first."""
-    given = _arguments.indices_within(name, _arguments.integers(name, value, 2), count)
+    given = _arguments.vertices_of(name, value, count, 2)
     if (given[:, 0] == given[:, 1]).any():
         raise ValueError(f"{name}: row {int((given[:, 0] == given[:, 1]).argmax())} joins a vertex to itself")
     return np.unique(np.sort(given, axis=1), axis=0).astype(np.int32)
@@ -215,39 +224,21 @@ def _wires(name: str, value: npt.ArrayLike, count: int) -> IntArray:
 def _check(wires: IntArray, points: FloatArray) -> None:
     """MeshError for what no surface can begin with."""
     if not len(wires):
-        refuse("NO_CELL", "there are no wires: edges without a face are needed", np.empty(0, np.int32))
+        _refuse("NO_CELL", "there are no wires: edges without a face are needed", wires)
     used = np.unique(wires)
     broken = used[~np.isfinite(points[used]).all(axis=1)]
     if len(broken):
-        refuse("NONFINITE", f"coordinates are not finite at {listed(broken)}", broken)
+        _refuse("NONFINITE", f"coordinates are not finite at {_arguments.listed(broken)}", broken)
     on_edges, pairs = _core.touching_edges(wires, points)
     short = wires[(points[wires[:, 0]] == points[wires[:, 1]]).all(axis=1)]
     where = np.unique(np.concatenate([short.ravel(), pairs.ravel(), on_edges.ravel()]))
     if not len(where):
         where = np.unique(_core.crossing_edges(wires, points))
     if len(where):
-        text = f"wires cross, or lie on each other, at {listed(where)}: give them one common vertex, or move them apart"
-        refuse("WIRES_CROSS", text, where)
+        text = f"wires cross, or lie on each other, at {_arguments.listed(where)}: "
+        _refuse("WIRES_CROSS", text + "give them one common vertex, or move them apart", where)
 
 
-def _cell_of(triangles: IntArray, cells: Cells) -> IntArray:
-    """(m,) the cell of each triangle: that of a wire along it, and then of its neighbours across other edges."""
-    along = {
-        side: k
-        for k, loop in enumerate(cells.loops)
-        for side in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)
-    }
-    wires = {tuple(edge) for edge in cells.edges[0].tolist()}
-    beside: dict[tuple[int, int], list[int]] = {}
-    found = np.full(len(triangles), -1, dtype=np.int32)
-    for row, (a, b, c) in enumerate(triangles.tolist()):
-        for side in ((a, b), (b, c), (c, a)):
-            found[row] = max(found[row], along.get(side, -1))
-            edge = (min(side), max(side))
-            if edge not in wires:
-                beside.setdefault(edge, []).append(row)
-    pairs = np.array([rows for rows in beside.values() if len(rows) == 2], dtype=np.int64).reshape(-1, 2)
-    while (found[pairs[:, 0]] != found[pairs[:, 1]]).any():
-        for one, other in (pairs.T, pairs.T[::-1]):
-            np.maximum.at(found, one, found[other])
-    return found
+def _refuse(code: str, text: str, where: IntArray) -> NoReturn:
+    elements = where.astype(np.int32).ravel()
+    raise MeshError(Diagnostic(code, text, elements, "vertex", {"vertices": float(len(elements))}))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
@@ -21,8 +20,6 @@ def hard_edges(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, marked: npt
     ``marked``: (m, 2) edges that are hard whatever they bend; pairs that are no edges of the triangles are left out, as
     are triangles with a corner that is NaN or infinite.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
-    named = _arguments.integers("marked", [] if marked is None else marked, 2)
-    pairs = _arguments.indices_within("marked", named, len(points))
-    return _core.hard_edges(points, faces[np.isfinite(points[faces]).all(axis=(1, 2))], pairs)
+    points, faces = _arguments.mesh(vertices, triangles)
+    pairs = _arguments.vertices_of("marked", marked, len(points), 2)
+    return _core.hard_edges(points, _arguments.finite_triangles(points, faces), pairs)

@@ -25,7 +25,5 @@ def hierarchy(
     Both arrays hold indices of ``vertices``: those in use, ascending, and (m, 3) triangles of them. The last
     level is the mesh itself. Errors as in :func:`fairing.fair`.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
-    held = None if fixed is None else _arguments.integers("fixed", fixed, None)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     return _core.hierarchy(points, faces, held, _arguments.whole("levels", levels, 0))

@@ -34,10 +34,8 @@ def hole_loops(vertices: npt.ArrayLike, triangles: npt.ArrayLike, border: npt.Ar
     ``border``: (e, 2) the edges with one triangle, where they are known, each in the direction that has the hole on its
     left. Then of the triangles those at pinches are enough.
     """
-    points, faces = _mesh(vertices, triangles)
-    edges = None
-    if border is not None:
-        edges = _arguments.indices_within("border", _arguments.integers("border", border, 2), len(points))
+    points, faces = _arguments.mesh(vertices, triangles)
+    edges = None if border is None else _arguments.vertices_of("border", border, len(points), 2)
     loops, torn = _core.hole_loops(points, faces, edges)
     return HoleLoops(tuple(loops), tuple(torn))
 
@@ -50,7 +48,7 @@ def outer_borders(vertices: npt.ArrayLike, triangles: npt.ArrayLike, loops: Any 
     the geodesic curvature along the loop, seen from the mesh, adds up to more than 0.9 · 2π (2π around any sheet, 0 at
     the end of a tube, −2π around a hole in a plane). :func:`fairing.fill` without ``loops`` leaves outer borders open.
     """
-    points, faces = _mesh(vertices, triangles)
+    points, faces = _arguments.mesh(vertices, triangles)
     return np.array(_core.outer_borders(points, faces, _named(loops, points, faces)), dtype=bool)
 
 
@@ -63,7 +61,7 @@ def expected_vertices(
     others; takes milliseconds. An outer border gives a number beyond all measure. ``loops``: as for
     :func:`fairing.outer_borders`.
     """
-    points, faces = _mesh(vertices, triangles)
+    points, faces = _arguments.mesh(vertices, triangles)
     return _core.expected_fill(points, faces, _named(loops, points, faces), bridge, spacing)
 
 
@@ -75,13 +73,7 @@ def given_loops(loops: Any, count: int) -> list[IntArray]:
         raise ValueError("loops: a list of vertex indices for each loop is needed")
     if all(isinstance(entry, (int, np.integer)) for entry in loops):
         loops = [loops]
-    named = [_arguments.integers("loops", loop, None) for loop in loops]
-    return [_arguments.indices_within("loops", loop, count) for loop in named]
-
-
-def _mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
-    points = _arguments.floats("vertices", vertices)
-    return points, _arguments.triangles_within(triangles, len(points))
+    return [_arguments.vertices_of("loops", loop, count) for loop in loops]
 
 
 def _named(loops: Any, points: FloatArray, triangles: IntArray) -> list[IntArray]:

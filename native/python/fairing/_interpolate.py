@@ -18,9 +18,7 @@ def interpolate(
     ``fixed`` must have all border vertices that triangles use. Zero at vertices that hang together with no fixed one.
     Errors as in :func:`fairing.fair`.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
-    held, _ = _arguments.boundary(fixed, None)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     given = np.ascontiguousarray(values, dtype=np.float64)
     count = 0 if held is None else len(held)
     if given.ndim != 2 or len(given) != count:

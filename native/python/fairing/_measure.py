@@ -25,8 +25,7 @@ def mean_curvature(
     normals of fixed and border vertices are fitted to their own side. Zero at vertices without triangles.
     Errors as in :func:`fairing.fair`.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
+    points, faces = _arguments.mesh(vertices, triangles)
     held, given = _arguments.boundary(fixed, fixed_normals)
     kind = _arguments.choice("normals", normals, _NORMALS)
     return _core.mean_curvature(points, faces, held, given, kind)
@@ -38,8 +37,7 @@ def vertex_normals(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, normals
     "fitted": consistent with the curvature fit; "averaged": normalised sum of cross products (§6). Zero at
     vertices without triangles.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
+    points, faces = _arguments.mesh(vertices, triangles)
     return _core.vertex_normals(points, faces, _arguments.choice("normals", normals, _NORMALS))
 
 
@@ -48,8 +46,7 @@ def cotan_laplacian(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[
 
     S_ij = −(cot α + cot β), without ½; rows sum to zero; positive semidefinite.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
+    points, faces = _arguments.mesh(vertices, triangles)
     return _core.cotan_laplacian(points, faces)
 
 
@@ -93,9 +90,7 @@ def flipped_triangles(
     The corners' normals are those of N. Max, at free vertices alone. This is what the warning FLIPPED_TRIANGLES of
     :func:`fairing.fair` names for the same ``fixed``. Errors as there.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
-    held, _ = _arguments.boundary(fixed, None)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     return _core.flipped_triangles(points, faces, held)
 
 
@@ -109,8 +104,7 @@ def self_intersections(
     component; here any triangles are compared. With ``near``, (k,) numbers of triangles, only pairs with one of these
     count, and both of a pair are named: faster where these are few. ValueError where a number is none of a triangle.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
+    points, faces = _arguments.mesh(vertices, triangles)
     asked = None if near is None else _arguments.rows_within("near", near, len(faces))
     whole = np.isfinite(points[faces]).all(axis=(1, 2))
     finite = np.flatnonzero(whole)

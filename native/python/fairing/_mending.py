@@ -44,9 +44,7 @@ class Surroundings:
         None are where that leaves most fixed vertices without any: single triangles at the boundary's corners.
         """
         if given is not None:
-            named = _arguments.integers("outside", given, 3)
-            outside = _arguments.indices_within("outside", named, vertices.shape[0])
-            return cls.between(vertices, triangles, outside)
+            return cls.between(vertices, triangles, _arguments.vertices_of("outside", given, len(vertices), 3))
         held = marked(np.empty(0, np.int32) if fixed is None else fixed, vertices.shape[0])  # the engine names others
         corners = held[triangles]
         idle = corners[:, 0] & corners[:, 1] & corners[:, 2]
@@ -58,7 +56,7 @@ class Surroundings:
     @classmethod
     def between(cls, vertices: FloatArray, inside: IntArray, outside: IntArray) -> Surroundings:
         """Without triangles outside that have a corner which is not finite."""
-        finite = outside[np.isfinite(vertices[outside]).all(axis=(1, 2))]
+        finite = _arguments.finite_triangles(vertices, outside)
         rim = marked(inside, len(vertices)) & marked(finite, len(vertices))
         return cls(inside, finite, np.flatnonzero(rim).astype(np.int32))
 

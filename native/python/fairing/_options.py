@@ -40,8 +40,7 @@ def layout_within(layout: Layout, count: int) -> dict[str, Any]:
     """How vertices of a mesh of ``count`` lie: the word or the rows (i, j, λ), and (e, 2) edges, where given."""
     found: dict[str, Any] = {}
     if layout.neighbours is not None:
-        edges = _arguments.integers("neighbours", layout.neighbours, 2)
-        found["neighbours"] = _arguments.indices_within("neighbours", edges, count)
+        found["neighbours"] = _arguments.vertices_of("neighbours", layout.neighbours, count, 2)
     if isinstance(layout.inner_fairness, str):
         found["inner_fairness"] = _arguments.choice("inner_fairness", layout.inner_fairness, INNER_FAIRNESS)
     elif layout.inner_fairness is not None:

@@ -78,11 +78,8 @@ def _bounded(
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """The arguments, checked; triangles with a corner that is NaN or infinite are left out."""
     points = _arguments.floats("vertices", vertices)
-    name, given = triangles
-    faces = _arguments.indices_within(name, _arguments.integers(name, given, 3), points.shape[0])
-    name, given = places
-    where = _arguments.indices_within(name, _arguments.integers(name, given, None), points.shape[0])
-    return points, faces[np.isfinite(points[faces]).all(axis=(1, 2))], where
+    faces = _arguments.vertices_of(*triangles, len(points), 3)
+    return points, _arguments.finite_triangles(points, faces), _arguments.vertices_of(*places, len(points))
 
 
 def surrounding_normals(
@@ -103,8 +100,7 @@ def surrounding_normals(
     vertices belong to ``creases`` of :func:`fairing.fair`.
     """
     points, faces, where = _bounded(vertices, ("triangles", triangles), ("at", at))
-    named = _arguments.integers("creases", [] if creases is None else creases, 2)
-    edges = _arguments.indices_within("creases", named, points.shape[0])
+    edges = _arguments.vertices_of("creases", creases, len(points), 2)
     return SurroundingNormals(**_core.surrounding_normals(points, faces, where, edges))
 
 

@@ -123,6 +123,16 @@ def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
     _options.callback(progress)
 
 
+def own_mesh_options(chosen: Options, threads: int) -> _core.Options:
+    """What the engine is told about a mesh that a call makes itself, checked."""
+    if vars(chosen.skin).keys() & chosen.chosen.keys():
+        raise ValueError("detail, feather and weights: not accepted here, where the mesh is made by this call")
+    fairness = chosen.layout.inner_fairness
+    if not isinstance(fairness, str | None):
+        raise ValueError("inner_fairness: rows of weights are not accepted here, where the mesh is made by this call")
+    return _options.engine_options(chosen.changed(inner_fairness=fairness or "conformal"), threads, 0)
+
+
 def spacing_of(value: Any, inner: str | None) -> Spacing:
     if _arguments.finite("spacing", value) < 0:
         raise ValueError(f"spacing: a length, or 0 for that of the boundary's edges, is needed, not {value!r}")

@@ -33,8 +33,7 @@ def paired_quads(vertices: npt.ArrayLike, triangles: npt.ArrayLike, kept: npt.Ar
     once. Raises ValueError for arrays of other shapes, coordinates that aren't finite, a triangle that names a vertex
     twice, or a kept edge that the triangles don't have, and MeshError INDEX_RANGE for an index that is no vertex.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, len(points))
+    points, faces = _arguments.mesh(vertices, triangles)
     _check(points, faces)
     quads, pairs, rest = _core.paired_quads(points, faces, _arguments.edges_of("kept", kept, faces))
     return PairedQuads(quads, faces[rest], pairs, rest)

@@ -4,29 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core
+from fairing import _arguments, _core, _joining, _mending
 from fairing._given import flat, given
 from fairing._groups import Boundary, Options
-from fairing._inner_vertices import with_inner_vertices
-from fairing._new_mesh import RemeshResult, read_only, report_fields
-from fairing._patch import (
-    LEAST_COUNT,
-    Patch,
-    Spacing,
-    carried,
-    cut_fields,
-    free_slopes,
-    refuse_made_here,
-    spacing_of,
-)
-from fairing._proportion import Limit
-from fairing._quads import paired_quads
-from fairing._rows import FACES, no_rows, quads_of, rows_over
-from fairing._types import IntArray, MeshError
-from fairing._watch import Progress, Watch
+from fairing._new_mesh import RemeshResult
+from fairing._patch import own_mesh_options, refuse_made_here, spacing_of
+from fairing._rows import FACES, quads_of
+from fairing._watch import Progress
 
 
 def remesh(
@@ -69,73 +55,22 @@ def remesh(
     if around.continuity is not None and around.curvatures is None:
         raise ValueError("continuity: 'G2' on parts of the boundary needs `curvatures` here")
     wishes = flat(chosen, threads, around)
-    points = _arguments.floats("vertices", vertices)
-    corners = _arguments.triangles_within(triangles, len(points))
+    points, corners = _arguments.mesh(vertices, triangles)
     held, given_normals = _arguments.boundary(around.vertices, around.normals)
     lines = _arguments.edges_of("kept", kept, corners)
     length = spacing_of(spacing, inner)
-    wants_quads = _arguments.choice("faces", faces, FACES) == "quads"
-    outside = around.outside
+    in_rows = _arguments.choice("faces", faces, FACES) == "quads"
+    most = _arguments.whole("max_vertices", max_vertices, 0)
     refuse_made_here(wishes, progress)
     if wishes.get("equation") == "soap_film":
         raise ValueError("equation: 'soap_film' has no normals to continue; accepted are the others")
-    watch = Watch(progress)
-    base = len(points)
-    refined = with_inner_vertices(points, corners, held, lines)
-    if refined is not None:
-        points, corners = refined.vertices, refined.triangles
-    old = Patch(points, corners, held, given_normals)
-    most = Limit.of(_count_on(old, length), max_vertices)
-    border = old.border()
-    most.check(most.flat, border)
-    report = old.faired("outline", outside, wishes, watch.part(0, 0.4))
-    watch.lap("first")
-    if given_normals is None:
-        averaged = _core.vertex_normals(points, corners, "averaged")
-        held, given_normals = report.fixed, averaged[report.fixed]
-    solved = Patch(report.vertices, corners, held, given_normals)
-    most.check(solved.expected_new(length), border)
-    stays = len(lines) > 0 or len(free_slopes(wishes)[0]) > 0
-    rows = rows_over(solved, base, watch.part(0.4, 0.6)) if wants_quads and not stays else None
-    if rows is not None:
-        new, origin, old_vertex = rows.patch, rows.origin, np.full(len(rows.origin[0]), -1, np.int32)
-    else:
-        new, origin, old_vertex = solved.meshed_anew(base, lines, (length, 0), wishes, watch.part(0.4, 0.6))
-    watch.lap("mesh")
-    values = report_fields(report, base)
-    added = len(new.vertices) - base
-    if added >= min(LEAST_COUNT, len(np.setdiff1d(corners, report.fixed))):
-        values = report_fields(new.faired("given", outside, wishes, watch.part(0.6, 1.0)), base)
-        values["triangles"] = new.triangles
-    else:
-        values.update(cut_fields(new, base))
-        values["mean_curvature"] = carried(report.mean_curvature, corners, origin)
-    values["seconds"] = {**values["seconds"], **watch.seconds}
-    quads = None
-    if rows is not None:
-        quads = quads_of(new.triangles, rows.pairs)
-    elif wants_quads:
-        values["warnings"] += (no_rows(border, "curves" if stays else "shape"),)
-        quads = paired_quads(new.vertices, new.triangles, _edges_again(new.triangles, base, old_vertex, lines))
-    if refined is not None:
-        origin = refined.given(origin)
-    places = read_only(origin[0]), read_only(origin[1])
-    return RemeshResult(**values, origin=places, old=read_only(old_vertex), quads=quads)
-
-
-def _edges_again(triangles: IntArray, base: int, old: IntArray, kept: IntArray) -> IntArray:
-    """(e, 2) edges of the new triangles that are the old mesh's ``kept`` ones."""
-    name = np.concatenate([np.arange(base), old])
-    held = {(a, b) for a, b in np.sort(kept, axis=1).tolist()}
-    sides = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
-    again = [tuple(pair) in held for pair in np.sort(name[sides], axis=1).tolist()]
-    edges: IntArray = sides[np.array(again, dtype=bool)]
-    return edges
-
-
-def _count_on(old: Patch, spacing: Spacing) -> float:
-    """About how many new vertices there would be on the old surface; 0 where `fair` will say why there is none."""
-    try:
-        return old.expected_new(spacing)
-    except MeshError:
-        return 0.0
+    engine = own_mesh_options(chosen, threads)
+    beside = _mending.Surroundings.of(points, corners, held, around.outside)
+    joined = _mending.Boundary(points, held, given_normals)
+    if chosen.surface.continuity == "G2":
+        joined = _joining.with_curvatures(joined, beside, around.curvatures, around.continuity)
+    patch = points, corners, joined.fixed, given_normals, joined.curvatures, beside.outside
+    values = _core.new_patch(patch, lines.tolist(), engine, (length.length, length.even, in_rows, most), progress)
+    values.pop("base")
+    pairs = values.pop("pairs")
+    return RemeshResult(**values, quads=None if pairs is None else quads_of(values["triangles"], pairs))

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
-from fairing._types import FloatArray, IntArray
+from fairing._types import IntArray
 
 LIMITS: dict[str, float] = _core.LIMITS
 
@@ -52,7 +52,7 @@ def girth(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.Array
     The worst of all components. ``girth`` of the result of :func:`fairing.fair` has its two figures, between the ends
     of tubes. Errors as for :func:`fairing.fair`.
     """
-    points, faces, held = _bounded(vertices, triangles, fixed)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     found = _core.girth(points, faces, held)
     return None if found is None else Girth(*found)
 
@@ -67,7 +67,7 @@ def knobs(
     quarter and more than four fifths of ``before``, the extent of another surface. Components (see
     :func:`fairing.components`) with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
     """
-    points, faces, held = _bounded(vertices, triangles, fixed)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     return _core.knobs(points, faces, held, before)
 
 
@@ -80,8 +80,8 @@ def flank(
     wide, bend back. Components with several loops, with pins or with an open border don't count. Errors as for
     :func:`fairing.fair`.
     """
-    points, faces, held = _bounded(vertices, triangles, fixed)
-    beyond = _arguments.indices_within("around", _arguments.integers("around", around, 3), points.shape[0])
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
+    beyond = _arguments.vertices_of("around", around, len(points), 3)
     found = _core.flank(points, faces, beyond, held)
     return None if found is None else Flank(*found)
 
@@ -100,7 +100,7 @@ def sunken(
     that go straight on are drawn; the depth is the median over them, and the vertices are those as deep as that,
     ascending. Components with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
     """
-    points, faces, held = _bounded(vertices, triangles, fixed)
+    points, faces, held = _arguments.held_mesh(vertices, triangles, fixed)
     directions = _arguments.floats("normals", normals)
     if directions.shape != points.shape:
         raise ValueError(f"normals: expected one for each of {len(points)} vertices, got shape {directions.shape}")
@@ -154,11 +154,10 @@ def rounded_edges(
     old = _arguments.floats("before", before)
     new = _arguments.floats("after", after, old.shape[0])
     faces = _arguments.triangles_within(triangles, old.shape[0])
-    where = _arguments.indices_within("moved", _arguments.integers("moved", moved, None), old.shape[0])
+    where = _arguments.vertices_of("moved", moved, len(old))
     pairs = None
     if marked is not None:
-        named = _arguments.indices_within("marked", _arguments.integers("marked", marked, 2), old.shape[0])
-        pairs = np.sort(named, axis=1)
+        pairs = np.sort(_arguments.vertices_of("marked", marked, len(old), 2), axis=1)
     known = np.isfinite(old[faces]).all(axis=(1, 2)) & np.isfinite(new[faces]).all(axis=(1, 2))
     return _core.rounded_edges(old, new, faces[known], where, pairs)
 
@@ -171,9 +170,8 @@ def seam_kinks(
     A seam is where vertices of ``held`` lie in the same place, as doubled ones do: the surface is open there, and what
     held it up shows as a crest. ``limit``: ``limit`` of :func:`fairing.visible_join`.
     """
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
-    places = _arguments.indices_within("held", _arguments.integers("held", held, None), points.shape[0])
+    points, faces = _arguments.mesh(vertices, triangles)
+    places = _arguments.vertices_of("held", held, len(points))
     return _core.seam_kinks(points, faces, places, limit)
 
 
@@ -186,11 +184,3 @@ def is_spoilt(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.Array
     points = _arguments.floats("vertices", vertices)
     within = _arguments.triangles_within(inside, points.shape[0])
     return _core.is_spoilt(points, within, _arguments.triangles_within(outside, points.shape[0]))
-
-
-def _bounded(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, fixed: npt.ArrayLike | None
-) -> tuple[FloatArray, IntArray, IntArray | None]:
-    points = _arguments.floats("vertices", vertices)
-    faces = _arguments.triangles_within(triangles, points.shape[0])
-    return points, faces, _arguments.boundary(fixed, None)[0]

@@ -1,0 +1,23 @@
+// Vertices inside a patch of few large faces, none of whose own is free: a new mesh begins with these.
+#pragma once
+
+#include <optional>
+
+#include "geometry/hard_edges.h"
+
+namespace fairing {
+
+// The same surface with more triangles.
+struct RefinedPatch {
+    Points vertices;  // the given ones come first
+    Triangles triangles;
+    Indices parent;  // the given triangle that each lies in,
+    Points corners;  // and where its corners lie there: column 3 t + k has the weights of corner k
+};
+
+// Edges inside that are not `kept` are halved four times, and triangles without such an edge get a vertex in their
+// middle. Nothing where a vertex is free already, as the patch has a surface of its own then, or one inside is held.
+std::optional<RefinedPatch> with_inner_vertices(const Points& points, const Triangles& triangles,
+                                                const std::optional<Indices>& fixed, const VertexPairs& kept);
+
+}  // namespace fairing

@@ -1,0 +1,119 @@
+#include "boundary/hard_ways.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "mesh/nearest_first.h"
+
+namespace fairing {
+
+namespace {
+
+constexpr double least_hard = 0.75;  // of the way through a patch: less is no edge of it
+constexpr double hard_cost = 1e-3;   // as much of a hard edge's length counts: the way leaves these where it must
+
+// From one vertex to all within reach.
+struct Tree {
+    std::vector<char> reached;
+    VectorX far;
+    Indices before;
+    Indices by;  // the edge from there
+};
+
+class Graph {
+public:
+    Graph(const View<Points>& points, const VertexPairs& edges, const VertexPairs& hard)
+        : edges_(edges), at_(static_cast<std::size_t>(points.cols())) {
+        double hard_length = 0.0;
+        double total = 0.0;
+        for (const auto& [a, b] : edges) {
+            const double length = (points.col(a) - points.col(b)).norm();
+            const bool is_hard = std::ranges::binary_search(hard, std::array<int, 2>{a, b});
+            for (const int v : {a, b}) at_[v].push_back(static_cast<int>(lengths_.size()));
+            lengths_.push_back(length);
+            soft_.push_back(is_hard ? 0.0 : length);
+            total += 2.0 * length;
+            if (is_hard) hard_length += length;
+        }
+        // Longer than that no soft part of a way may be.
+        const double most = (1.0 / least_hard - 1.0) * hard_length;
+        farthest_ = (1.0 + hard_cost) * most + hard_cost * total;
+    }
+
+    // The edges of the ways from each end to the place where all of them meet; none where they are soft.
+    [[nodiscard]] std::set<int> way(const Indices& ends) const {
+        std::vector<Tree> trees;
+        const bool is_pair = ends.size() == 2;
+        for (std::size_t k = 0; k < (is_pair ? 1 : ends.size()); ++k)
+            trees.push_back(tree(ends[k], is_pair ? ends[1] : none));
+        const int meeting = is_pair ? (trees[0].reached[ends[1]] != 0 ? ends[1] : none) : nearest(trees);
+        if (meeting == none) return {};
+        std::set<int> found;
+        double length = 0.0;
+        double soft = 0.0;
+        for (const Tree& each : trees) {
+            for (int v = meeting; each.before[v] != none; v = each.before[v]) {
+                found.insert(each.by[v]);
+                length += lengths_[each.by[v]];
+                soft += soft_[each.by[v]];
+            }
+        }
+        return soft <= (1.0 - least_hard) * length ? found : std::set<int>{};
+    }
+
+private:
+    [[nodiscard]] Tree tree(int start, int target) const {
+        const auto count = at_.size();
+        constexpr double never = std::numeric_limits<double>::infinity();
+        Tree found{std::vector<char>(count, 0), {}, Indices(count, none), Indices(count, none)};
+        NearestFirst ahead(VectorX::Constant(static_cast<Eigen::Index>(count), never));
+        ahead.lower(start, 0.0);
+        for (int v = ahead.next(); v != none && !(ahead[v] > farthest_); v = ahead.next()) {
+            found.reached[v] = 1;
+            if (v == target) break;
+            for (const int edge : at_[v]) {
+                const int other = edges_[edge][0] == v ? edges_[edge][1] : edges_[edge][0];
+                if (!ahead.lower(other, ahead[v] + (soft_[edge] + hard_cost * lengths_[edge]))) continue;
+                found.before[other] = v;
+                found.by[other] = edge;
+            }
+        }
+        found.far = std::move(ahead).take();
+        return found;
+    }
+
+    // The vertex that all trees reach with the least sum of ways.
+    [[nodiscard]] int nearest(const std::vector<Tree>& trees) const {
+        int best = none;
+        double least = std::numeric_limits<double>::infinity();
+        for (int v = 0; v < static_cast<int>(at_.size()); ++v) {
+            double sum = 0.0;
+            for (const Tree& each : trees) sum += each.reached[v] != 0 ? each.far[v] : least;
+            if (!(sum < least)) continue;
+            least = sum;
+            best = v;
+        }
+        return best;
+    }
+
+    const VertexPairs& edges_;
+    std::vector<Indices> at_;  // edges at each vertex
+    std::vector<double> lengths_;
+    std::vector<double> soft_;  // as much of each is not hard
+    double farthest_ = 0.0;
+};
+
+}  // namespace
+
+VertexPairs hard_ways(const View<Points>& points, const VertexPairs& edges, const VertexPairs& hard,
+                      const std::vector<Indices>& ends) {
+    const Graph graph(points, edges, hard);
+    std::set<int> found;
+    for (const Indices& each : ends) found.merge(graph.way(each));
+    VertexPairs result;
+    for (const int edge : found) result.push_back(edges[edge]);
+    return result;
+}
+
+}  // namespace fairing
