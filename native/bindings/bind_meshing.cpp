@@ -1,9 +1,12 @@
+#include <algorithm>
+
 #include "api/new_patch.h"
 #include "bindings/fair_options.h"
 #include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "boundary/hard_ways.h"
 #include "fill/wire_cells.h"
+#include "fillet/first_mesh.h"
 
 namespace fairing::bindings {
 
@@ -72,11 +75,26 @@ py::dict new_patch_arrays(const GivenPatch& given, const VertexPairs& kept, cons
     return dict;
 }
 
+py::tuple first_mesh_arrays(const DoubleArray& vertices, const IntArray& triangles, const py::array_t<bool>& inside,
+                            const IntArray& seams, double spacing) {
+    PythonRun run;
+    const Points points = to_points(vertices);
+    const Triangles faces = to_triangles(triangles);
+    CutPieces cut{points, faces, {inside.data(), inside.data() + inside.size()}, to_pairs(seams)};
+    const FirstMesh first =
+        run.without_gil([&](const ProgressCallback&) { return first_mesh(std::move(cut), spacing); });
+    py::array_t<bool> marks(static_cast<py::ssize_t>(first.inside.size()));
+    std::ranges::copy(first.inside, marks.mutable_data());
+    return py::make_tuple(marks, from_indices(first.pieces), from_triangles(first.triangles), from_pairs(first.lines));
+}
+
 }  // namespace
 
 void bind_meshing(py::module_& module) {
     module.def("new_patch", &new_patch_arrays, py::arg("patch"), py::arg("kept"), py::arg("options"), py::arg("wishes"),
                py::arg("progress"));
+    module.def("first_mesh", &first_mesh_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("inside"),
+               py::arg("seams"), py::arg("spacing"));
     module.def("wire_cells", &wire_cell_arrays, py::arg("wires"), py::arg("vertices"), py::arg("closed"));
     module.def("cells_of_triangles", &cell_array, py::arg("triangles"), py::arg("loops"), py::arg("vertex_count"));
     module.def("hard_ways", &hard_way_array, py::arg("vertices"), py::arg("edges"), py::arg("hard"), py::arg("ends"));

@@ -25,7 +25,7 @@ extern "C" {
 
 /* The version of this header's interface: it grows where functions or fields come, fairing_interface() of a library
  * that is older is less. */
-#define FAIRING_INTERFACE 2
+#define FAIRING_INTERFACE 3
 
 FAIRING_API int fairing_interface(void);
 FAIRING_API const char* fairing_version(void); /* of the engine, such as "0.1.0" */
@@ -108,6 +108,13 @@ FAIRING_API fairing_status fairing_fill(const double* points, size_t point_count
                                         fairing_progress progress, void* user, fairing_filling** filling,
                                         fairing_error* error);
 
+/* Fairs the selected triangles and gives them a new mesh: a filling of one "hole", whose loop is the boundary. Of the
+ * options `bridge` and `longest` do not count, and `side` does. */
+FAIRING_API fairing_status fairing_remesh(const double* points, size_t point_count, const int* triangles,
+                                          size_t triangle_count, const unsigned char* selected,
+                                          const fairing_fill_options* options, fairing_progress progress, void* user,
+                                          fairing_filling** filling, fairing_error* error);
+
 FAIRING_API void fairing_free_filling(fairing_filling* filling); /* NULL is allowed */
 
 /* The new points (x y z of each), and triangles of the old points' numbers and, behind these, the new ones'. */
@@ -144,6 +151,10 @@ FAIRING_API const char* fairing_warning_code(const fairing_result* result, int w
 FAIRING_API const char* fairing_warning_message(const fairing_result* result, int warning);
 /* The vertices or triangles that it is about; their number goes to `count`. */
 FAIRING_API const int* fairing_warning_elements(const fairing_result* result, int warning, int* count);
+
+/* Fills `curvatures`, point_count of them, with the mean curvature at each point: −1/R on a sphere of radius R. */
+FAIRING_API fairing_status fairing_mean_curvature(const double* points, size_t point_count, const int* triangles,
+                                                  size_t triangle_count, double* curvatures, fairing_error* error);
 
 /* NOLINTEND(readability-identifier-naming) */
 

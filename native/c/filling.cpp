@@ -4,10 +4,12 @@
 #include <memory>
 
 #include "api/fill.h"
+#include "api/new_patch.h"
 #include "base/columns.h"
 #include "base/errors.h"
 #include "bindings/words.h"
 #include "c/shared.h"
+#include "mesh/loops.h"
 
 struct fairing_filling {  // NOLINT(readability-identifier-naming): as the header calls it
     std::vector<fairing::FilledHole> holes;
@@ -120,18 +122,41 @@ fairing_status fairing_fill(const double* points, size_t point_count, const int*
                 "options.size: sizeof(fairing_fill_options) is needed");
         const fairing_fill_options given = options ? *options : fairing_default_fill_options();
         const FillOptions wanted = to_fill_options(given);
-        const std::span<const int> flat(triangles, 3 * triangle_count);
-        check_indices(flat, point_count);
+        const View<Points> all = points_of({points, point_count});
+        const HoledMesh mesh({all, triangles_of({triangles, triangle_count}, point_count)});
         NamedLoops named = to_loops(loops, loop_sizes, loop_count, point_count);
         named.longest = given.longest;
         named.longest_length = given.longest_length;
-        const Points all = Eigen::Map<const Points>(points, 3, static_cast<Eigen::Index>(point_count));
-        const HoledMesh mesh(
-            {all, Eigen::Map<const Triangles>(triangles, 3, static_cast<Eigen::Index>(triangle_count))});
         const Holes found = find_holes(mesh, named, wanted.bridge);
         auto made = std::make_unique<fairing_filling>();
         made->holes = fill(mesh, found.holes, {}, wanted, calling(progress, user));
         std::ranges::transform(found.left, std::back_inserter(made->holes), left_open);
+        join(*made, static_cast<int>(point_count));
+        tell_of_each(*made);
+        *filling = made.release();
+    });
+}
+
+fairing_status fairing_remesh(const double* points, size_t point_count, const int* triangles, size_t triangle_count,
+                              const unsigned char* selected, const fairing_fill_options* options,
+                              fairing_progress progress, void* user, fairing_filling** filling, fairing_error* error) {
+    return guarded(error, [&] {
+        require(points && triangles && selected && filling, "points, triangles, selected, filling: none may be NULL");
+        *filling = nullptr;
+        require(!options || options->size == sizeof(fairing_fill_options),
+                "options.size: sizeof(fairing_fill_options) is needed");
+        const fairing_fill_options given = options ? *options : fairing_default_fill_options();
+        const FillOptions wanted = to_fill_options(given);
+        const SelectedMesh mesh({points, point_count}, {triangles, triangle_count}, selected);
+        NewPatch found = new_patch(mesh.input(given.surface.side), {},
+                                   {wanted.fair, {wanted.spacing, 0, wanted.spread}, false, wanted.max_vertices},
+                                   calling(progress, user));
+        auto made = std::make_unique<fairing_filling>();
+        FilledHole& patch = made->holes.emplace_back();
+        patch.loops = boundary_loops(mesh.inside, static_cast<int>(point_count));
+        patch.vertices = std::move(found.vertices);
+        patch.triangles = std::move(found.triangles);
+        patch.report = std::move(found.report);
         join(*made, static_cast<int>(point_count));
         tell_of_each(*made);
         *filling = made.release();

@@ -5,11 +5,15 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 #include "base/errors.h"
 #include "base/memory.h"
 #include "bindings/words.h"
+#include "boundary/boundary_fit.h"
+#include "boundary/surrounding_fit.h"
+#include "mesh/loops.h"
 
 namespace fairing::c {
 
@@ -90,16 +94,49 @@ FairOptions to_options(const fairing_options& given) {
     return options;
 }
 
-void check_indices(std::span<const int> triangles, std::size_t point_count) {
+View<Points> points_of(Triples<double> points) {
+    return View<Points>::Map(points.numbers, 3, static_cast<Eigen::Index>(points.count));
+}
+
+Triangles triangles_of(Triples<int> triangles, std::size_t point_count) {
+    Triangles all = Eigen::Map<const Triangles>(triangles.numbers, 3, static_cast<Eigen::Index>(triangles.count));
     Diagnostic wrong{
         Code::index_range, "triangles: some name a vertex that does not exist", {}, ElementKind::triangle, {}};
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        const bool exists = triangles[k] >= 0 && static_cast<std::size_t>(triangles[k]) < point_count;
-        const int triangle = static_cast<int>(k / 3);
-        if (!exists && (wrong.elements.empty() || wrong.elements.back() != triangle))
-            wrong.elements.push_back(triangle);
-    }
+    for (int t = 0; t < static_cast<int>(all.cols()); ++t)
+        if (all.col(t).minCoeff() < 0 || static_cast<std::size_t>(all.col(t).maxCoeff()) >= point_count)
+            wrong.elements.push_back(t);
     if (!wrong.elements.empty()) throw MeshError(wrong);
+    return all;
+}
+
+SelectedMesh::SelectedMesh(Triples<double> given, Triples<int> triangles, const unsigned char* selected)
+    : points(points_of(given)) {
+    const Triangles all = triangles_of(triangles, given.count);
+    Indices own;
+    Indices others;
+    for (int t = 0; t < static_cast<int>(all.cols()); ++t) (selected[t] != 0 ? own : others).push_back(t);
+    require(!own.empty(), "selected: no triangle is selected");
+    inside = all(Eigen::all, own);
+    outside = all(Eigen::all, others);
+}
+
+MeshInput SelectedMesh::input(std::string_view side) const {
+    std::set<int> border;
+    for (const Indices& loop : boundary_loops(inside, static_cast<int>(points.cols())))
+        border.insert(loop.begin(), loop.end());
+    const Indices outline(border.begin(), border.end());
+    require(side == "outside" || side == "inside" || side == "automatic",
+            "options.side: outside, inside or automatic is needed");
+    const SideRule rule = side == "inside" ? SideRule::inside : SideRule::automatic;
+    const SurroundingNormals found = side == "outside"
+                                         ? surrounding_normals(points, outside, outline, {})
+                                         : boundary_normals({points, inside, outside}, outline, {}, rule).normals;
+    Indices known;
+    for (int k = 0; k < static_cast<int>(outline.size()); ++k)
+        if (found.normals.col(k).squaredNorm() > 0.0) known.push_back(k);
+    const Points normals = found.normals(Eigen::all, known);
+    for (int& place : known) place = outline[place];
+    return {points, inside, known, normals, std::nullopt, outside};
 }
 
 ProgressCallback calling(fairing_progress progress, void* user) {

@@ -1,7 +1,8 @@
 // What the functions of the C library share.
 #pragma once
 
-#include <span>
+#include <functional>
+#include <string_view>
 
 #include "api/fair.h"
 #include "c/fairing.h"
@@ -14,8 +15,30 @@ fairing_status guarded(fairing_error* error, const std::function<void()>& work);
 // Throws std::invalid_argument with the message where it does not hold.
 void require(bool holds, const char* message);
 
-// Throw INDEX_RANGE for vertices that do not exist.
-void check_indices(std::span<const int> triangles, std::size_t point_count);
+// The caller's arrays, and how many triples there are.
+template <typename Number>
+struct Triples {
+    const Number* numbers;
+    std::size_t count;
+};
+
+View<Points> points_of(Triples<double> points);
+// Throws INDEX_RANGE for vertices that do not exist.
+Triangles triangles_of(Triples<int> triangles, std::size_t point_count);
+
+// A part of a mesh, and what is around it.
+struct SelectedMesh {
+    Points points;
+    Triangles inside;
+    Triangles outside;
+
+    // Throws INDEX_RANGE, and std::invalid_argument where nothing is selected.
+    SelectedMesh(Triples<double> given, Triples<int> triangles, const unsigned char* selected);
+
+    // With border vertices whose slope is known, on the side "outside", "inside" or "automatic". Others are left out:
+    // they stay, with that of their own triangles. Refers to this mesh.
+    [[nodiscard]] MeshInput input(std::string_view side) const;
+};
 
 FairOptions to_options(const fairing_options& given);
 

@@ -1,4 +1,4 @@
-"""The C library fills holes to the bits of the Python package: python same_bits.py libfairing.so."""
+"""The C library fills, remeshes and measures to the bits of the Python package: python same_bits.py libfairing.so."""
 
 from __future__ import annotations
 
@@ -32,33 +32,52 @@ def tube() -> tuple[np.ndarray, np.ndarray]:
     return points, triangles[~gone]
 
 
-def by_c(library: ctypes.CDLL, points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def pointer(array: np.ndarray) -> ctypes.c_void_p:
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+def new_mesh(library: ctypes.CDLL, name: str, *arguments: object) -> tuple[np.ndarray, np.ndarray]:
+    """The new points and triangles of a call, which takes its last arguments from here."""
     filling, error, count = ctypes.c_void_p(), Error(), ctypes.c_size_t()
-    none = None
-    status = library.fairing_fill(
-        points.ctypes.data_as(ctypes.c_void_p), ctypes.c_size_t(len(points)),
-        triangles.ctypes.data_as(ctypes.c_void_p), ctypes.c_size_t(len(triangles)),
-        none, none, ctypes.c_size_t(0), none, none, none, ctypes.byref(filling), ctypes.byref(error),
-    )  # fmt: skip
+    status = getattr(library, name)(*arguments, None, None, None, ctypes.byref(filling), ctypes.byref(error))
     assert status == 0, error.message
     arrays = []
-    for name, kind in (("points", ctypes.c_double), ("triangles", ctypes.c_int)):
-        function = getattr(library, f"fairing_new_{name}")
+    for what, kind in (("points", ctypes.c_double), ("triangles", ctypes.c_int)):
+        function = getattr(library, f"fairing_new_{what}")
         function.restype = ctypes.POINTER(kind)
-        pointer = function(filling, ctypes.byref(count))
-        arrays.append(np.ctypeslib.as_array(pointer, (count.value, 3)).copy())
+        found = function(filling, ctypes.byref(count))
+        arrays.append(np.ctypeslib.as_array(found, (count.value, 3)).copy())
     library.fairing_free_filling(filling)
     return arrays[0], arrays[1]
 
 
 def main() -> None:
+    library = ctypes.CDLL(sys.argv[1])
     points, triangles = tube()
-    made, faces = by_c(ctypes.CDLL(sys.argv[1]), points, triangles)
+    mesh = pointer(points), ctypes.c_size_t(len(points)), pointer(triangles), ctypes.c_size_t(len(triangles))
+    made, faces = new_mesh(library, "fairing_fill", *mesh, None, None, ctypes.c_size_t(0))
     same = fairing.fill(points, triangles, edges="ignored")
     assert len(made) > 100
     assert np.array_equal(made, same.vertices)
     assert np.array_equal(faces, same.triangles)
-    print(f"{len(made)} vertices, the same bits")
+
+    chosen = (np.abs(points[triangles][:, :, 2]) < 0.6).all(axis=1) & (points[triangles][:, :, 0] > 0).all(axis=1)
+    made, faces = new_mesh(library, "fairing_remesh", *mesh, pointer(chosen.astype(np.uint8)))
+    rim = np.intersect1d(triangles[chosen], triangles[~chosen])
+    border = np.unique(np.concatenate(fairing.boundary_loops(triangles[chosen])))
+    held = border[np.isin(border, rim)]
+    beyond = triangles[~chosen]
+    slopes = fairing.boundary_normals(points, triangles[chosen], held, outside=beyond).normals
+    patch = fairing.Boundary(held, slopes, outside=beyond)
+    again = fairing.remesh(points, triangles[chosen], patch)
+    assert len(made) > 20
+    assert np.array_equal(made, again.vertices)
+    assert np.array_equal(faces, again.triangles)
+
+    curvatures = np.empty(len(points))
+    assert library.fairing_mean_curvature(*mesh, pointer(curvatures), None) == 0
+    assert np.array_equal(curvatures, fairing.mean_curvature(points, triangles))
+    print(f"{len(same.vertices)} and {len(made)} vertices, {len(points)} curvatures, the same bits")
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core, _run_on
-from fairing._filled import Surfaces
+from fairing._filled import joined
 from fairing._given import of_own_boundary
 from fairing._groups import Options
 from fairing._holes import given_loops
@@ -144,7 +144,7 @@ def fill(
     through = [each.for_engine if isinstance(each, _run_on.Curves) else None for each in curves]
     wishes = bool(bridge), in_rows, joins, length.length, length.even, most
     filled = holes.fill(through, wishes, engine, progress)
-    return Surfaces(len(points), filled, holes, curves).joined()
+    return joined(len(points), filled, holes, curves)
 
 
 Rows = tuple[list[FloatArray], list[FloatArray], FloatArray, FloatArray]

@@ -14,13 +14,9 @@ from fairing import (
 )
 from fairing._fair import solved
 from fairing._groups import Boundary, Options
-from fairing._measure import boundary_loops
 from fairing._new_mesh import Origin, read_only
 from fairing._types import FairResult, FloatArray, IntArray
 from fairing._watch import Progress
-
-LEAST_COUNT = 1000
-"""Free vertices of the mesh that is solved, for each component. Coarser wishes are cut from its surface."""
 
 INNER = ("outline", "even")
 
@@ -47,19 +43,11 @@ class Patch:
     fixed: IntArray | None
     normals: FloatArray | None
 
-    def expected_count(self, spacing: Spacing) -> float:
-        """About how many vertices a mesh of that spacing has."""
-        return _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
-
     def expected_new(self, spacing: Spacing) -> float:
-        """About how many of these are new: by Euler's formula half as many as the outline has vertices are not."""
+        """About how many vertices of a mesh of that spacing are new: half as many as the boundary has are not."""
         mine = self.triangles[_core.components(self.triangles, self.fixed, len(self.vertices)) >= 0]
-        return self.expected_count(spacing) - 0.5 * sum(map(len, _core.boundary_loops(mine)))
-
-    def border(self) -> IntArray:
-        """Its border vertices."""
-        border: IntArray = np.unique(np.concatenate([np.empty(0, np.int32), *boundary_loops(self.triangles)]))
-        return border
+        count = _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
+        return count - 0.5 * sum(map(len, _core.boundary_loops(mine)))
 
     def remeshed(
         self, old_count: int, spacing: Spacing, least: int, options: dict[str, Any], progress: Progress | None
@@ -87,12 +75,6 @@ class Patch:
         placed = np.concatenate([self.vertices[:old_count], mesh["vertices"]])
         new = Patch(placed, read_only(triangles), self.fixed, self.normals)
         return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
-
-    def with_old(self, vertices: FloatArray) -> Patch:
-        """The same with its first vertices at these places."""
-        return Patch(
-            np.concatenate([vertices, self.vertices[len(vertices) :]]), self.triangles, self.fixed, self.normals
-        )
 
     def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
         chosen = {"inner_fairness": "conformal", **options}
@@ -138,14 +120,6 @@ def spacing_of(value: Any, inner: str | None) -> Spacing:
         raise ValueError(f"spacing: a length, or 0 for that of the boundary's edges, is needed, not {value!r}")
     chosen = ("even" if value else "outline") if inner is None else inner
     return Spacing(float(value), _arguments.choice("inner", chosen, INNER) == "even")
-
-
-def cut_fields(patch: Patch, old_count: int) -> dict[str, Any]:
-    """The fields of a mesh that was cut from another one's surface."""
-    return {
-        "vertices": read_only(patch.vertices[old_count:]), "triangles": patch.triangles, "polished": False,
-        "cut": True,
-    }  # fmt: skip
 
 
 def carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArray:

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing._first_mesh import FirstMesh, first_mesh, without_specks
 from fairing._interpolate import interpolate
 from fairing._measure import boundary_loops
 from fairing._new_mesh import FilletResult, read_only, report_fields
@@ -71,22 +70,21 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
     """The new mesh within the line, faired."""
     watch, count = wishes.watch, len(given.points)
     placed = np.concatenate([given.points, cut["points"]])
-    inside = without_specks(cut, placed, wishes.spacing)
-    cut = {**cut, "inside": inside}
-    first = first_mesh(cut, placed, wishes.spacing)
-    rim = np.isin(cut["boundary"], np.concatenate(boundary_loops(first.triangles)))
-    patch = Patch(placed, first.triangles, cut["boundary"][rim], np.ascontiguousarray(cut["normals"][rim]))
-    spacing = Spacing(wishes.spacing, even=True, flat=True)
-    new, origin, on_seam = patch.meshed_anew(
-        len(placed), first.lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4)
+    inside, pieces, triangles, lines = _core.first_mesh(
+        placed, cut["triangles"], cut["inside"], cut["seams"], wishes.spacing
     )
+    cut = {**cut, "inside": inside}
+    rim = np.isin(cut["boundary"], np.concatenate(boundary_loops(triangles)))
+    patch = Patch(placed, triangles, cut["boundary"][rim], np.ascontiguousarray(cut["normals"][rim]))
+    spacing = Spacing(wishes.spacing, even=True, flat=True)
+    new, origin, on_seam = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     chosen = dict(wishes.options)
     if chosen.get("continuity", "G1") == "G2":
         chosen["fixed_curvatures"] = cut["curvatures"][rim]
     report = new.faired("given", None, chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
-    old, weights = _origins(cut, origin, first, count)
+    old, weights = _origins(cut, origin, pieces, count)
     values = report_fields(report, count)
     vertices = report.vertices
     if wishes.profile:
@@ -186,11 +184,12 @@ def line_places(cut: dict[str, Any], begin: int) -> tuple[IntArray, FloatArray]:
     return cut["parent"][place // 3], cut["weights"][place]
 
 
-def _origins(cut: dict[str, Any], origin: Any, within: FirstMesh, count: int) -> tuple[IntArray, FloatArray]:
+def _origins(cut: dict[str, Any], origin: Any, pieces: IntArray, count: int) -> tuple[IntArray, FloatArray]:
     """Triangles (k,) of the old mesh and weights (k, 3) there, of the line's points and then of those within."""
     on_line, line_weights = line_places(cut, count)
-    inner = np.einsum("kc,kcw->kw", origin[1], within.weights[origin[0]])
-    old = np.concatenate([on_line, within.parents[origin[0]]]).astype(np.int32)
+    rows = pieces[origin[0]]
+    inner = np.einsum("kc,kcw->kw", origin[1], cut["weights"].reshape(-1, 3, 3)[rows])
+    old = np.concatenate([on_line, cut["parent"][rows]]).astype(np.int32)
     weights = np.clip(np.concatenate([line_weights, inner]), 0.0, None)
     return old, weights / weights.sum(axis=1, keepdims=True)
 

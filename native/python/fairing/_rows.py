@@ -2,51 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from fairing import _core
-from fairing._new_mesh import Origin, read_only
-from fairing._patch import Patch
+from fairing._new_mesh import read_only
 from fairing._quads import PairedQuads
-from fairing._types import Diagnostic, FloatArray, IntArray, SolverError
-from fairing._watch import Progress
+from fairing._types import Diagnostic, FloatArray, IntArray
 
 FACES = ("triangles", "quads")
-
-
-@dataclass(frozen=True)
-class Rows:
-    """A pattern of quads on a surface, each as two triangles."""
-
-    patch: Patch
-    origin: Origin
-    pairs: IntArray
-    """(q, 2) the triangles of each quad; see :class:`fairing.PairedQuads`."""
-
-
-def rows_over(solved: Patch, old_count: int, progress: Progress | None) -> Rows | None:
-    """The pattern that suits a solved patch best, over the first ``old_count`` of its vertices and new ones.
-
-    None where no pattern fits, or the surface can't be flattened.
-    """
-    try:
-        made = _core.quad_mesh(solved.vertices, solved.triangles, solved.fixed, solved.normals, progress)
-    except SolverError:
-        return None
-    if not len(made["quads"]):
-        return None
-    points = np.concatenate([solved.vertices[:old_count], made["vertices"]])
-    number = np.concatenate([made["boundary"], old_count + np.arange(len(made["vertices"]))]).astype(np.int32)
-    quads = number[made["quads"]]
-    count = len(quads)
-    stay = _core.components(solved.triangles, solved.fixed, len(solved.vertices)) < 0
-    rest = solved.triangles[stay]
-    halves = np.concatenate([halves_of(points, quads), number[made["triangles"]], rest])
-    pairs = np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
-    patch = Patch(points, read_only(halves), solved.fixed, solved.normals)
-    return Rows(patch, (made["triangle"], made["weights"]), pairs)
 
 
 def halves_of(points: FloatArray, quads: IntArray) -> IntArray:
