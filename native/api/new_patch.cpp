@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <tuple>
 
 #include "api/hole_job.h"
 #include "api/inner_vertices.h"
@@ -53,10 +54,34 @@ VertexPairs edges_again(const NewPatch& made, int old_count, const VertexPairs& 
     for (int side = 0; side < static_cast<int>(made.triangles.size()) && !held.empty(); ++side) {
         const int a = side_tail(made.triangles, side);
         const int b = side_head(made.triangles, side);
-        const auto [low, high] = std::minmax(name(a), name(b));
-        if (held.contains({low, high})) edges.push_back({a, b});
+        const int one = name(a);
+        const int other = name(b);
+        if (held.contains({std::min(one, other), std::max(one, other)})) edges.push_back({a, b});
     }
     return edges;
+}
+
+// Triangles around a patch and its own. Those between fixed vertices lie around it, unless that leaves most of these
+// without any: single triangles at the boundary's corners.
+std::pair<Triangles, Triangles> parted(const View<Points>& points, const Triangles& triangles, const Indices& fixed) {
+    std::vector<char> held(static_cast<std::size_t>(points.cols()), 0);
+    for (const int v : fixed)
+        if (v >= 0 && v < static_cast<int>(held.size())) held[v] = 1;  // fair() names others
+    Indices idle;
+    Indices own;
+    std::set<int> beside_idle;
+    std::set<int> beside_own;
+    for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) {
+        const Eigen::Vector3i corners = triangles.col(t);
+        const bool is_idle = held[corners[0]] != 0 && held[corners[1]] != 0 && held[corners[2]] != 0;
+        if (is_idle && !points(Eigen::all, corners).allFinite()) continue;
+        (is_idle ? idle : own).push_back(t);
+        for (const int v : corners)
+            if (held[v] != 0) (is_idle ? beside_idle : beside_own).insert(v);
+    }
+    const auto both = std::ranges::count_if(beside_idle, [&](int v) { return beside_own.contains(v); });
+    if (idle.empty() || 2 * both < static_cast<std::ptrdiff_t>(beside_own.size())) return {Triangles(3, 0), triangles};
+    return {triangles(Eigen::all, idle), triangles(Eigen::all, own)};
 }
 
 class Job {
@@ -106,15 +131,21 @@ private:
 
     [[nodiscard]] FairResult faired(MeshInput patch, Start start, const std::optional<VectorX>& curvatures,
                                     const Progress& progress) const {
-        const HolePatch side{{}, patch.triangles, {}, {}};
+        HolePatch side;
+        std::tie(patch.outside, side.triangles) = surroundings(patch);
         patch.fixed_curvatures = curvatures;
-        patch.outside = input_.outside;
         patch.held = input_.held;
         FairOptions options = options_.fair;
         options.start = start;
+        const Triangles outside = patch.outside;
         FairResult report = fair(std::move(patch), {}, options, within(progress));
-        measure_join(report, side, input_.outside);
+        measure_join(report, side, outside);
         return report;
+    }
+
+    [[nodiscard]] std::pair<Triangles, Triangles> surroundings(const MeshInput& patch) const {
+        if (input_.outside.cols() > 0) return {input_.outside, patch.triangles};
+        return parted(patch.vertices, patch.triangles, patch.fixed ? *patch.fixed : Indices());
     }
 
     // Without normals given those of the old triangles are kept.

@@ -77,7 +77,7 @@ void turn_to_one_side(WireNetwork& network, const View<Points>& points) {
     for (int k = 0; k < static_cast<int>(network.arcs.size()); ++k) {
         const Points here = carried(network.from(2 * k).normal, points, network.path(2 * k));
         const Points there = carried(network.from(2 * k + 1).normal, points, network.path(2 * k + 1));
-        agreement.push_back(here.rightCols<1>().col(0).dot(there.rightCols<1>().col(0)));
+        agreement.push_back(here.rightCols<1>().col(0).dot(there.col(0)));
     }
     Indices order(agreement.size());
     std::iota(order.begin(), order.end(), 0);

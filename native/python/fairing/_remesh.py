@@ -69,7 +69,8 @@ def remesh(
     joined = _mending.Boundary(points, held, given_normals)
     if chosen.surface.continuity == "G2":
         joined = _joining.with_curvatures(joined, beside, around.curvatures, around.continuity)
-    patch = points, corners, joined.fixed, given_normals, joined.curvatures, beside.outside
+    outside = beside.outside if around.outside is not None else corners[:0]
+    patch = points, corners, joined.fixed, given_normals, joined.curvatures, outside
     values = _core.new_patch(patch, lines.tolist(), engine, (length.length, length.even, in_rows, most), progress)
     values.pop("base")
     pairs = values.pop("pairs")
