@@ -30,7 +30,7 @@ from fairing._measure import (
     self_intersections,
     vertex_normals,
 )
-from fairing._new_mesh import FilletResult, FillResult, RemeshResult
+from fairing._new_mesh import FilletResult, FillResult, PairedQuads, RemeshResult
 from fairing._outline import (
     VisibleJoin,
     bad_outline,
@@ -39,7 +39,7 @@ from fairing._outline import (
     visible_join,
 )
 from fairing._paper import PaperOptions
-from fairing._quads import PairedQuads, paired_quads
+from fairing._quads import paired_quads
 from fairing._remesh import remesh
 from fairing._shape import (
     LIMITS,

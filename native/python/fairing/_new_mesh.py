@@ -7,10 +7,23 @@ from typing import Any, Literal
 
 import numpy as np
 
-from fairing._quads import PairedQuads
 from fairing._types import Diagnostic, FairResult, FloatArray, IntArray
 
 Origin = tuple[IntArray, FloatArray]
+
+
+@dataclass(frozen=True, eq=False)
+class PairedQuads:
+    """The faces that :func:`fairing.maps.paired_quads` makes of m triangles: q quads and t triangles."""
+
+    quads: IntArray
+    """(q, 4) vertices, wound like the triangles. Corners 1 and 3 are the ends of the edge that went."""
+    triangles: IntArray
+    """(t, 3) vertices of the triangles without a partner, as given."""
+    pairs: IntArray
+    """(q, 2) the two triangles of each quad: corner 0 is of the first alone, corner 2 of the second."""
+    rest: IntArray
+    """(t,) the triangles without a partner, ascending."""
 
 
 @dataclass(frozen=True, eq=False)

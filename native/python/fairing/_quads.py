@@ -2,27 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import numpy.typing as npt
 
 from fairing import _arguments, _core
+from fairing._new_mesh import PairedQuads
 from fairing._types import IntArray
-
-
-@dataclass(frozen=True, eq=False)
-class PairedQuads:
-    """The faces that :func:`paired_quads` makes of m triangles: q quads and the t triangles that are left."""
-
-    quads: IntArray
-    """(q, 4) vertices, wound like the triangles. Corners 1 and 3 are the ends of the edge that went."""
-    triangles: IntArray
-    """(t, 3) vertices of the triangles without a partner, as given."""
-    pairs: IntArray
-    """(q, 2) the two triangles of each quad: corner 0 is of the first alone, corner 2 of the second."""
-    rest: IntArray
-    """(t,) the triangles without a partner, ascending."""
 
 
 def paired_quads(vertices: npt.ArrayLike, triangles: npt.ArrayLike, kept: npt.ArrayLike | None = None) -> PairedQuads:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairing._new_mesh import read_only
-from fairing._quads import PairedQuads
+from fairing._new_mesh import PairedQuads, read_only
 from fairing._types import Diagnostic, FloatArray, IntArray
 
 FACES = ("triangles", "quads")
