@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    static constexpr int unmade = -2;
+    static constexpr int unmade = -2;  // no vertex, nor `none`: to be made when it is first asked for
 
     int added(const Vector3& place) {
         points_.push_back(place);

@@ -65,7 +65,7 @@ public:
 private:
     [[nodiscard]] Tree tree(int start, int target) const {
         const auto count = at_.size();
-        constexpr double never = std::numeric_limits<double>::infinity();
+        constexpr double never = std::numeric_limits<double>::infinity();  // not reached yet
         Tree found{std::vector<char>(count, 0), {}, Indices(count, none), Indices(count, none)};
         NearestFirst ahead(VectorX::Constant(static_cast<Eigen::Index>(count), never));
         ahead.lower(start, 0.0);

@@ -16,7 +16,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+constexpr double pi = std::numbers::pi;  // half a turn, in radians
 // By how much a cell's outline turns to the left within the surface, at least. By Gauss and Bonnet it is 2π − ∫K: 2π if
 // it is flat, π in each quarter of a sphere, and 0 around a half sphere, at the end of a tube or at the rim of a hull,
 // where the wires go around an opening; −2π around the outside of a sheet.
