@@ -7,7 +7,7 @@ import pytest
 
 import fairing
 import shapes
-from solving import codes, fair_patch, solved
+from solving import fair_patch, solved
 
 
 def test_fixed_vertices_keep_their_bits_and_given_order() -> None:
@@ -16,15 +16,6 @@ def test_fixed_vertices_keep_their_bits_and_given_order() -> None:
     result = fairing.fair(patch.vertices, patch.triangles, fixed=order, fixed_normals=patch.normals[order])
     assert np.array_equal(result.fixed, order)
     assert np.array_equal(result.vertices[order], patch.vertices[order])
-
-
-def test_a_converged_result() -> None:
-    _, result = solved("catenoid", 300)
-    assert result.converged
-    assert result.polished
-    assert result.termination == "converged"
-    assert 0 < result.iterations < 200
-    assert result.residual < 1e-4 * result.initial_residual
 
 
 def test_results_are_immutable() -> None:
@@ -41,14 +32,6 @@ def test_mean_curvature_is_that_of_the_public_function() -> None:
         result.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals
     )
     assert np.abs(again - result.mean_curvature).max() < 1e-12
-
-
-def test_running_out_of_iterations_is_said() -> None:
-    result = fair_patch(shapes.catenoid(300), max_iterations=1)
-    assert not result.converged
-    assert result.termination == "iteration_limit"
-    assert "NOT_CONVERGED" in codes(result)
-    assert np.isfinite(result.vertices).all()
 
 
 def test_default_tolerance_is_met() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 import fairing
 from holes import FloatArray, IntArray
@@ -22,32 +21,6 @@ def random_holes(seed: int) -> tuple[FloatArray, IntArray, list[IntArray]]:
         triangles = caps(vertices, triangles, axis[None], float(cosine))
     found = fairing.hole_loops(vertices, triangles)
     return vertices, triangles, [loop for loop in found.loops if len(loop) < 90]
-
-
-def surfaces(result: fairing.FillResult) -> dict[frozenset[int], fairing.Hole]:
-    return {frozenset(np.concatenate(hole.loops).tolist()): hole for hole in result.holes}
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_filling_in_one_call_is_filling_one_by_one(seed: int) -> None:
-    vertices, triangles, loops = random_holes(seed)
-    rng = np.random.default_rng(seed)
-    together = surfaces(fairing.fill(vertices, triangles, loops))
-    order = rng.permutation(len(loops))
-    shuffled = surfaces(fairing.fill(vertices, triangles, [loops[k] for k in order], threads=2))
-    assert len(together) == len(shuffled) == len(loops)
-    for loop in loops:
-        here = frozenset(loop.tolist())
-        (alone,) = fairing.fill(vertices, triangles, [loop]).holes
-        for other in (together[here], shuffled[here]):
-            assert alone.surface is not None
-            assert other.surface is not None
-            assert np.array_equal(alone.surface.vertices, other.surface.vertices)
-            assert np.array_equal(alone.surface.triangles, other.surface.triangles)
-            assert np.array_equal(alone.surface.join, other.surface.join)
-            assert [str(each.message) for each in alone.surface.warnings] == [
-                str(each.message) for each in other.surface.warnings
-            ]
 
 
 def test_all_surfaces_are_those_of_the_holes() -> None:
