@@ -30,7 +30,7 @@ def fair(obj: bpy.types.Object, faces: Any) -> dict[str, Any]:
     bpy.ops.object.mode_set(mode="OBJECT")
     report = bpy.context.window_manager.fairing_report
     names = ("free_vertices", "seconds", "boundary_angle", "converged")
-    return {name: getattr(report, name) for name in names}
+    return {"verdict": report.verdict.capitalize(), **{name: getattr(report, name) for name in names}}
 
 
 def take_pictures(out: Path, stem: str) -> list[Path]:
@@ -71,7 +71,7 @@ def hemisphere(out: Path) -> dict[str, Any]:
 COLUMNS = (
     ("free vertices", "free_vertices", "{:d}"),
     ("seconds", "seconds", "{:.3f}"),
-    ("converged", "converged", "{}"),
+    ("verdict", "verdict", "{}"),
     ("largest boundary angle", "boundary_angle", "{:.2f}°"),
     ("off the exact sphere", "deviation", "{:.1e} R"),
 )
