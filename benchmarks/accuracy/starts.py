@@ -11,9 +11,9 @@ import blend
 import shapes
 from engine import Outcome
 from exact import TIGHT, Scope
-from interiors import STARTS, moved
 from report import WEIGHTS, Row
 from shapes import Patch, Style
+from specimens import STARTS, moved
 
 
 def rows(scope: Scope) -> Iterator[Row]:

@@ -1,8 +1,7 @@
-"""Random surfaces with hard edges, bevels and rolled edges: extruded, turned, built of blocks; bosses and pockets."""
+"""Random surfaces with hard edges, bevels and rolled edges: extruded, turned, built of blocks."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -14,17 +13,6 @@ import fairing
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Mesh = tuple[FloatArray, IntArray]  # vertices (n, 3), triangles (m, 3)
-
-
-@dataclass(frozen=True)
-class Raised:
-    """A plate with a boss or a pocket: the plate without it, the mesh with it, which of its triangles belong to it,
-    and which of the plate's triangles lie under it."""
-
-    plate: Mesh
-    mesh: Mesh
-    part: NDArray[np.bool_]
-    under: NDArray[np.bool_]
 
 
 def profile(rng: Any, edge: float) -> tuple[FloatArray, NDArray[np.bool_]]:
@@ -134,57 +122,3 @@ def _blocks(rng: Any) -> Mesh:
 
 def _steps(cell: tuple[int, ...], filled: set[tuple[int, int, int]]) -> int:
     return min(sum(abs(a - b) for a, b in zip(cell, other, strict=True)) for other in filled)
-
-
-def plate(rng: Any) -> Mesh:
-    """A flat or bent grid, jittered."""
-    n = int(rng.integers(14, 24))
-    x, y = (a.ravel() / n for a in np.meshgrid(np.arange(n + 1), np.arange(n + 1), indexing="ij"))
-    inner = (x > 0) & (x < 1) & (y > 0) & (y < 1)
-    x, y = (a + 0.2 / n * rng.uniform(-1, 1, len(a)) * inner for a in (x, y))
-    bends = rng.uniform(-0.4, 0.4, 2) * (rng.random() < 0.6)
-    number = np.arange((n + 1) ** 2).reshape(n + 1, n + 1)
-    triangles = cut_quads(number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:], rng)
-    return np.column_stack([x, y, bends[0] * x**2 + bends[1] * y**2]), triangles
-
-
-def raised(rng: Any) -> Raised:
-    """A round or square boss, or a pocket, with walls that lean in by up to 30°, in one to four rows."""
-    vertices, triangles = plate(rng)
-    centre, reach = rng.uniform(0.35, 0.65, 2), rng.uniform(0.15, 0.28)
-    away = np.abs(vertices[:, :2] - centre)
-    inside = (np.hypot(*away.T) if rng.random() < 0.5 else away.max(axis=1)) < reach
-    under = inside[triangles].all(axis=1)
-    top = np.unique(triangles[under])
-    directed = np.concatenate([triangles[under][:, pair] for pair in ((0, 1), (1, 2), (2, 0))])
-    known = {(int(a), int(b)) for a, b in directed}
-    rim = np.array([pair for pair in known if pair[::-1] not in known])
-    rows, height = int(rng.integers(1, 5)), rng.uniform(0.05, 0.3) * rng.choice([-1, 1])
-    lean = np.tan(np.radians(rng.uniform(0, 30))) * abs(height)
-    middle = vertices[top].mean(axis=0)
-    rings = np.unique(rim)
-    size, layers, places = len(vertices), [], [vertices]
-    for row in range(1, rows + 1):
-        moved = vertices[rings] + row / rows * _lift(vertices[rings], middle, height, lean)
-        layers.append(np.full(size, -1))
-        layers[-1][rings] = sum(map(len, places)) + np.arange(len(rings))
-        places.append(moved)
-    last = layers[-1].copy()
-    rest = np.setdiff1d(top, rings)
-    last[rest] = sum(map(len, places)) + np.arange(len(rest))
-    places.append(vertices[rest] + _lift(vertices[rest], middle, height, lean))
-    walls, below = [], np.arange(size)
-    for layer in layers:
-        walls.append(cut_quads(below[rim[:, 0]], below[rim[:, 1]], layer[rim[:, 1]], layer[rim[:, 0]], rng))
-        below = layer
-    part = [*walls, last[triangles[under]]]
-    count = sum(map(len, part))
-    mesh = np.concatenate([triangles[~under], *part])
-    chosen = np.arange(len(mesh)) >= len(mesh) - count
-    return Raised((vertices, triangles), (np.concatenate(places), mesh), chosen, under)
-
-
-def _lift(points: FloatArray, middle: FloatArray, height: float, lean: float) -> FloatArray:
-    across = middle[:2] - points[:, :2]
-    size = np.maximum(np.linalg.norm(across, axis=1), 1e-9)
-    return np.column_stack([across * np.minimum(lean / size, 0.5)[:, None], np.full(len(points), height)])

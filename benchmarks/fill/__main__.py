@@ -1,8 +1,8 @@
 """Holes and bridges: exact surfaces, real meshes, peers.
 
-    python benchmarks/fill [hemisphere | peers | caps | shapes | elbows | unseen …]
+    python benchmarks/fill [hemisphere | peers | truth | caps | shapes | elbows …]
 
-Prints all tables of docs/fill.md, in one run where none is named. Processor time, one thread. `unseen` needs
+Prints all tables of docs/fill.md, in one run where none is named. Processor time, one thread. `truth` needs
 shared/data beside the checkout, `peers` takes what is installed of pymeshfix, PyMeshLab and MeshLib.
 """
 
@@ -27,7 +27,6 @@ import known_surfaces
 import real_meshes
 from holes import FloatArray, IntArray
 
-SEED = 104  # of random patches that nothing was tuned on
 SEED_TRUE, COUNT_TRUE = 6701, 140  # never used otherwise
 
 
@@ -85,28 +84,6 @@ def elbows() -> Iterator[str]:
         )
 
 
-def unseen() -> Iterator[str]:
-    """Random patches of a seed that nothing was tuned on, deleted and filled."""
-    yield "| hole | rim | new | converged | angle, median | join > 12° | warnings | least angle | valence | s |"
-    for patch in real_meshes.random_patches(36, SEED):
-        loops = [patch.vertices_in_mesh[loop] for loop in fairing.boundary_loops(patch.triangles)]
-        yield row(patch.name, patch.whole, patch.outside, loops, len(loops) > 1)
-
-
-def row(name: str, vertices: FloatArray, triangles: IntArray, loops: list[Any], bridge: bool) -> str:
-    """One hole."""
-    rim = sum(map(len, loops))
-    try:
-        result, seconds = timed(vertices, triangles, loops, bridge=bridge)
-    except fairing.MeshError as error:
-        return f"| {name} | {rim} | refused: {error.code} |"
-    codes = " ".join(warning.code for warning in result.warnings if warning.code != "SHARP_BOUNDARY")
-    return (
-        f"| {name} | {rim} | {len(result.vertices)} | {result.converged} | {np.median(result.boundary_angle):.1f}° | "
-        f"{np.mean(result.join > 12):.0%} | {codes} | {shape_of(vertices, result)} | {seconds:.2f} |"
-    )
-
-
 def peers() -> Iterator[str]:
     """The height of a hemisphere's apex that other hole fillers give."""
     others = hole_fillers.installed()
@@ -162,7 +139,7 @@ def filled_by_us(vertices: FloatArray, triangles: IntArray, _length: float) -> h
 
 TABLES: dict[str, Callable[[], Iterator[str]]] = {
     "hemisphere": hemisphere, "peers": peers, "caps": caps, "shapes": shapes,
-    "elbows": elbows, "unseen": unseen, "truth": truth,
+    "elbows": elbows, "truth": truth,
 }  # fmt: skip
 
 

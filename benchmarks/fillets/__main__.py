@@ -1,8 +1,9 @@
 """Seams of random hard-surface meshes: rows of quads along them as Fair Fillet makes them, and Blender's Bevel.
 
-    python benchmarks/fillets [count [seed]]
+    python benchmarks/fillets [solids] [count [seed]]
 
-One row for each problem, then the table of docs/quads.md. Seeds that nothing was tuned on, but 1 and 2. Needs bpy.
+One row for each problem, then the table of docs/quads.md; or of random solids how many are written, and how long it
+takes. Seeds that nothing was tuned on, but 1 and 2. Needs bpy.
 """
 
 from __future__ import annotations
@@ -19,8 +20,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 sys.path += [str(Path(__file__).resolve().parents[2] / "tests" / part) for part in ("meshes", "tools")]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "common"))
 
 import bevels
+import fairing
+import solids_at_random
 from bevels import corner_angles
 from hard_surfaces import MAKERS, FloatArray, Polygons, Problem
 
@@ -186,6 +190,29 @@ def _print_table(found: list[tuple[bool, Figures, Figures, float, float]], count
     print(f"off the triangles: median {np.nanmedian(off):.1e}, most {np.nanmax(off):.1e}")
 
 
+def solids(count: int, seed: int) -> None:
+    """All hard edges of random solids: written or refused, and whether what is written is whole."""
+    seconds, codes, spoilt = list[float](), Counter[str](), 0
+    for number in range(count):
+        rng = np.random.default_rng([seed, number])
+        vertices, triangles = (solids_at_random.swept, solids_at_random.blocks)[number % 2](rng)
+        borders = len(fairing.boundary_loops(triangles))
+        edges = np.linalg.norm(vertices[triangles[:, 0]] - vertices[triangles[:, 1]], axis=1)
+        start = time.process_time()
+        try:
+            mesh, _ = fairing.fillet_edges((vertices, triangles), width=float(edges.mean()))
+        except fairing.MeshError as error:
+            codes[error.code] += 1
+            continue
+        seconds.append(time.process_time() - start)
+        crossing = fairing.self_intersections(*mesh)
+        spoilt += len(crossing) > 0 or len(fairing.boundary_loops(mesh[1])) != borders
+    print(f"{len(seconds)} of {count} written, {spoilt} with a crossing or another border; refused: {dict(codes)}")
+    print(f"seconds: median {np.median(seconds):.2f}, most {max(seconds):.2f}")
+
+
 if __name__ == "__main__":
-    numbers = [int(word) for word in sys.argv[1:]]
-    main(*(numbers + [COUNT, SEED][len(numbers) :]))
+    words = sys.argv[1:]
+    run = solids if words[:1] == ["solids"] else main
+    numbers = [int(word) for word in words if word.isdigit()]
+    run(*(numbers + [COUNT, SEED][len(numbers) :]))

@@ -130,3 +130,18 @@ def face_case(data: Path) -> Case:
 def all_cases(data: Path) -> list[Case]:
     """In the order of Table 1."""
     return [blend_case(), face_case(data), ear_case(data), tetrathing_case()]
+
+
+def thinned_tetrathing(count: int) -> Case:
+    """From 828 vertices by half-edge collapses on its fair surface; the circles stay."""
+    case = tetrathing_case(times=2)
+    surface = case.fair().vertices
+    mesh = Thinner(surface, case.triangles, np.array_split(case.fixed, 6))
+    thin(mesh, case.free.tolist(), np.ones(len(surface)), len(surface) - count)
+    flip_to_delaunay(mesh, set(range(len(surface))))
+    triangles = np.array([face for face in mesh.faces if face])
+    used, local = np.unique(triangles, return_inverse=True)
+    return replace(
+        case, vertices=surface[used], triangles=local.reshape(-1, 3), fixed=np.searchsorted(used, case.fixed),
+        reference=surface[used],
+    )  # fmt: skip

@@ -9,13 +9,12 @@ import numpy as np
 import curved
 import fairing
 from blend_study import blend_study
-from cases import Case, corner_case, tetrathing_case
+from cases import Case, corner_case, tetrathing_case, thinned_tetrathing
 from linear_bilaplacian import linear_bilaplacian
 from picture_sheet import Panel, save_sheet
 from polygon_mesh import FloatArray
 from rasteriser import View
 from shading import Look, Model, draw
-from thinned import thinned_tetrathing
 
 PIXELS = 400
 FLAT = Look("flat", 0.35)
