@@ -68,8 +68,6 @@ def compared(paths: list[Path]) -> str:
         lines.append(f"{title}: lost {len(lost)} {lost}, gained {len(gained)} {gained}")
     seconds = [sum(row["seconds"] for row in side) for side in zip(*pairs, strict=True)]
     lines.append("seconds: " + ", ".join(f"{each:.1f}" for each in seconds))
-    farthest = [max((row.get("distance", 0.0) for row in side), default=0.0) for side in zip(*pairs, strict=True)]
-    lines.append("worst distance to an exact surface, over D: " + ", ".join(f"{each:.1e}" for each in farthest))
     return "\n".join(lines)
 
 

@@ -92,8 +92,7 @@ def cut_out(name: str, seed: int, radius: float, direction: tuple[float, float, 
     return scene
 
 
-BRIDGE = {"Fair Fill, Bridge": tools.fair_bridge}
-FILL = {"Fair Fill": tools.fair_fill}
+BRIDGE, FILL = {"Fair Fill, Bridge": tools.fair_bridge}, {"Fair Fill": tools.fair_fill}
 SHEETS = {
     "fill_bridges": [
         [
