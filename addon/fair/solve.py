@@ -28,7 +28,7 @@ from .local_pins import pulled, without_lone_pins
 from .memory import Memory, digest
 
 NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
-HINTS = ("SHARP_BOUNDARY",)  # codes that explain a bad result, and nothing where it is good
+NO_ACTION = ("SHARP_BOUNDARY",)  # codes that leave nothing to do to whom they are said
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,6 @@ class Solved:
     result: fairing.FairResult
     warnings: tuple[str, ...]
     failures: tuple[str, ...] = ()  # why there is no answer, where there is none
-    hints: tuple[str, ...] = ()  # what may be the reason where the result is not good
 
 
 @dataclass(frozen=True)
@@ -159,18 +158,18 @@ def _solve_again(
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:
-    reported, failures, hints = reported_by(result, problem.origin)
-    return Solved(problem, result, warnings + reported, failures, hints)
+    reported, failures = reported_by(result, problem.origin)
+    return Solved(problem, result, warnings + reported, failures)
 
 
-def reported_by(result: fairing.FairResult | fairing.RemeshResult, origin: Origin) -> tuple[tuple[str, ...], ...]:
-    """Return what the engine warned of, in sentences: what is always reported, why there is no answer, hints."""
-    unmeasured = tuple(warning for warning in result.warnings if not _is_measured(warning))
-    apart = (*NO_ANSWER, *HINTS)
-    return tuple(
-        sentences(tuple(warning for warning in unmeasured if belongs(warning.code)), origin)
-        for belongs in (lambda code: code not in apart, NO_ANSWER.__contains__, HINTS.__contains__)
-    )
+def reported_by(
+    result: fairing.FairResult | fairing.RemeshResult, origin: Origin
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return what the engine warned of, in sentences: what is always reported, and why there is no answer."""
+    said_of = [each for each in result.warnings if not _is_measured(each) and each.code not in NO_ACTION]
+    reported = tuple(warning for warning in said_of if warning.code not in NO_ANSWER)
+    failures = tuple(warning for warning in said_of if warning.code in NO_ANSWER)
+    return sentences(reported, origin), sentences(failures, origin)
 
 
 def _is_measured(warning: fairing.Diagnostic) -> bool:

@@ -9,7 +9,7 @@ SHAPES: tuple[Item, ...] = (
     (
         "AUTOMATIC",
         "Automatic",
-        "Least Variation for a tube of more than two radii between two boundary loops, Harmonic for all else",
+        "Between two boundary loops the first of all three that keeps their girth, Harmonic for all else",
     ),
     ("HARMONIC", "Harmonic", "Curvature runs steadily across the patch. Restores spheres and pipes"),
     ("MINIMAL_ENERGY", "Minimal Energy", "Bends as little as possible: rounder near tight boundaries"),

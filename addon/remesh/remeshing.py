@@ -79,7 +79,7 @@ def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: 
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
     join = quality.join(own, own.points)
     origin = _origin(problem, result)
-    reported, failures, hints = reported_by(result, origin)
+    reported, failures = reported_by(result, origin)
     swollen = quality.swollen((problem.patch, problem.own_points), (after.patch, points))
     evidence = Evidence(
         after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
@@ -89,7 +89,7 @@ def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: 
     verdict = judge(evidence, options)
     tunnels = () if verdict.grade == GOOD else tunnel_hint(problem.patch)
     verdict = because_of(verdict, tunnels)
-    odd = (() if verdict.grade == GOOD else hints) + (tunnels if verdict.grade == LOOK else ())
+    odd = tunnels if verdict.grade == LOOK else ()
     local = to_local(points, matrix)
     stay = len(part.stay)
     return Remeshed(

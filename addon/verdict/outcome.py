@@ -108,10 +108,7 @@ def outcome(
         vertices=problem.vertices[moving][order],
         positions=positions[order],
         result=leading_part(result, own),
-        warnings=solved.warnings
-        + warnings
-        + (() if verdict.grade == GOOD else solved.hints)
-        + (tunnels if verdict.grade == LOOK else ()),
+        warnings=solved.warnings + warnings + (tunnels if verdict.grade == LOOK else ()),
         before=quality_before,
         after=quality_after,
         distortion=quality.texture_distortion(before, after, patch.triangles),

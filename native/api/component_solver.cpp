@@ -227,8 +227,13 @@ Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const Componen
 Solution ComponentSolver::solve_tangent(Problem& problem, const std::optional<NearStart>& start,
                                         const Progress& progress) {
     std::optional<Solution> near = keeps() && !chooses_ ? solve_near_last(problem, progress) : std::nullopt;
-    if (!near) near = solve_from(problem, start, progress);
-    if (!near && chooses_) near = solve_automatically(problem, options_.pin_radius, progress);
+    const auto from_start = [&](const Problem& given, const Progress& part) { return solve_from(given, start, part); };
+    const bool varies = options_.start == Start::given;  // the others are one surface, whatever is asked for
+    if (!near && !(chooses_ && varies)) near = from_start(problem, progress);
+    if (!near && chooses_) {
+        const auto none = [](const Problem&, const Progress&) { return std::optional<Solution>(); };
+        near = solve_automatically(problem, options_.pin_radius, varies ? Near(from_start) : Near(none), progress);
+    }
     Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
     if (!keeps()) return solution;
     chosen_ = Chosen{outline_of(problem), problem.options.equation};

@@ -40,8 +40,7 @@ Indices drawn(const CurvesThrough* through, const HoledMesh& mesh) {
 // Of the first surface: harmonic but for the equations that join what no harmonic surface does.
 Equation first_equation(const FillOptions& options) {
     const Equation asked = options.fair.solver.equation;
-    const bool is_own = asked == Equation::least_variation || asked == Equation::soap_film ||
-                        (asked == Equation::automatic && !options.joins_curvature);
+    const bool is_own = asked == Equation::least_variation || asked == Equation::soap_film;
     return is_own ? asked : Equation::harmonic;
 }
 

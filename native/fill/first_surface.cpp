@@ -20,7 +20,6 @@
 #include "proxy/proxy_mesh.h"
 #include "reuse/near_start.h"
 #include "stand_in/lofted.h"
-#include "start/automatic_equation.h"
 
 namespace fairing {
 
@@ -267,9 +266,8 @@ FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options,
 }  // namespace
 
 FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& asked, const Progress& progress) {
-    SolverOptions options = asked;
-    if (asked.equation == Equation::automatic)
-        options.equation = automatic_equation(outline.loops, outline.points, outline.normals);
+    SolverOptions options = asked;  // automatic chooses where the solution is sought
+    if (asked.equation == Equation::automatic) options.equation = Equation::harmonic;
     FirstSurface result = sought(outline, options, progress.range(0.0, 0.8));
     if (has_converged(result) || !may_be_replaced(options) || outline.loops.size() < 2) return result;
     return with_loft(outline, options, std::move(result), progress.range(0.8, 1.0));

@@ -221,11 +221,15 @@ Solution solve(const Problem& problem, double pin_radius, const Progress& progre
     return run.stand_in(run.equation());
 }
 
-Solution solve_automatically(Problem& problem, double pin_radius, const Progress& progress) {
+Solution solve_automatically(Problem& problem, double pin_radius, const Near& near, const Progress& progress) {
     const Traits traits(problem);
-    if (!traits.is_tube || !traits.is_between_tubes) return solve(problem, pin_radius, progress);
-    PlanRun harmonic(problem, pin_radius, progress.range(0.0, 0.4));
-    Solution first = harmonic.equation();
+    Found begun = near(problem, progress.range(0.0, 0.2));
+    const Progress rest = progress.range(begun ? 0.2 : 0.0, 1.0);
+    if (!traits.is_tube || !traits.is_between_tubes)
+        return begun ? std::move(*begun) : solve(problem, pin_radius, rest);
+    const Progress beginning = rest.range(0.0, 0.4);
+    PlanRun harmonic(problem, pin_radius, beginning);
+    Solution first = begun ? std::move(*begun) : harmonic.equation();
     Solution best = first;
     double least = lost_girth(problem, best);
     std::vector<WayTaken> ways = first.ways;
@@ -234,7 +238,9 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Progress
         if (least <= kept_girth || has_run_out(problem, best)) break;
         if (equation == Equation::least_variation && traits.is_jagged) continue;
         other.options.equation = equation;
-        Found found = alone(other, progress.range(equation == Equation::minimal_energy ? 0.4 : 0.6, 0.8));
+        const Progress part = rest.range(equation == Equation::minimal_energy ? 0.4 : 0.6, 0.8);
+        Found found = near(other, part);
+        if (!found) found = alone(other, part);
         if (!found) continue;
         ways.insert(ways.end(), found->ways.begin(), found->ways.end());
         const double lost = lost_girth(problem, *found);

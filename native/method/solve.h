@@ -1,6 +1,7 @@
 // method="global": the steps of a patch's plan, one after the other, and the one judge that ends them.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "base/progress.h"
@@ -21,8 +22,9 @@ Solution solve(const Problem& problem, double pin_radius, const Progress& progre
 // Equation::automatic between the ends of tubes, elsewhere harmonic. What is cheap comes first: the harmonic surface,
 // that of minimal energy, that of least variation. The first that keeps the girth of its ends is the answer, else the
 // one of those accepted that misses least, else what stands in for the harmonic one. `problem` gets the equation that
-// was taken.
-Solution solve_automatically(Problem& problem, double pin_radius, const Progress& progress);
+// was taken. `near` solves a problem from a surface that is known, where there is one, and is tried first.
+using Near = std::function<std::optional<Solution>(const Problem&, const Progress&)>;
+Solution solve_automatically(Problem& problem, double pin_radius, const Near& near, const Progress& progress);
 
 // The equation alone: nothing stands in.
 Solution solve_equation_alone(const Problem& problem, const Progress& progress);

@@ -14,7 +14,7 @@ enum class Equation {
     minimal_energy,   // Δ_B H = −2 H (H² − K): least ∫ κ₁² + κ₂²
     soap_film,        // H = 0 with G0 boundary data
     least_variation,  // least variation of the normal curvatures with G1 boundary data (variation/least_variation.h)
-    automatic,        // of a call only: least_variation for long tubes, harmonic elsewhere (start/automatic_equation)
+    automatic,        // of a call only: what keeps a tube's girth, harmonic elsewhere (solve_automatically)
 };
 
 // What is taken where the equation has no surface that is accepted (method/solve).

@@ -83,13 +83,6 @@ std::optional<TubeEnd> tube_end(const Indices& loop, const Points& points, const
     return rim ? std::optional(rim->end) : std::nullopt;
 }
 
-std::optional<double> tube_length(const std::vector<Indices>& loops, const Points& points, const Points& normals) {
-    const auto rims = two_rims(loops, points, normals);
-    if (!rims) return std::nullopt;
-    const double radii = radius_of_area(area_within(loops[0], points)) + radius_of_area(area_within(loops[1], points));
-    return 2.0 * TubeAxis(rims->first.end, rims->last.end).length() / radii;
-}
-
 double area_within(const Indices& loop, const Points& points) {
     Vector3 area = Vector3::Zero();
     for (std::size_t k = 0; k < loop.size(); ++k)

@@ -16,10 +16,6 @@ inline constexpr double wide_bend = 1.2;
 // leaves the loop in many directions, as a flat ring does.
 std::optional<TubeEnd> tube_end(const Indices& loop, const Points& points, const Points& normals);
 
-// How long the tube between two loops is along its axis, over the mean radius of the circles with its ends' areas.
-// Nothing where there are other than two loops, or where they don't face each other along one tube.
-std::optional<double> tube_length(const std::vector<Indices>& loops, const Points& points, const Points& normals);
-
 // The area within a closed loop (columns of `points`): that of its projection in the direction where this is largest.
 double area_within(const Indices& loop, const Points& points);
 

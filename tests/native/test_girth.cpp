@@ -6,7 +6,6 @@
 
 #include "pipes.h"
 #include "shape/girth.h"
-#include "start/swept_tube.h"
 
 using namespace fairing;
 using test::Pipe;
@@ -28,39 +27,6 @@ GirthRange girth(const Pipe& pipe, const Points& points) {
     return *range;
 }
 
-std::vector<Indices> loops_of(const Pipe& pipe) {
-    std::vector<Indices> loops = pipe.single.patch().loops();
-    for (Indices& loop : loops) {
-        for (int& v : loop) v -= pipe.single.patch().free_count;
-    }
-    return loops;
-}
-
-// A quarter of a torus: two rims of radius 1 around circles of that radius.
-struct Bend {
-    std::vector<Indices> loops{{}, {}};
-    Points points{3, 2 * count};
-    Points normals{3, 2 * count};
-
-    explicit Bend(double radius, double degrees) {
-        for (int k = 0; k < 2 * count; ++k) {
-            const double along = k < count ? 0.0 : degrees * std::numbers::pi / 180.0;
-            const double around = 2.0 * std::numbers::pi * k / count;
-            const Vector3 out(std::cos(along), std::sin(along), 0.0);
-            normals.col(k) = std::cos(around) * out + std::sin(around) * Vector3::UnitZ();
-            points.col(k) = radius * out + normals.col(k);
-        }
-        // The surface on the left: forwards around the first one, backwards around the last one.
-        for (int k = 0; k < count; ++k) {
-            loops[0].push_back(count - 1 - k);
-            loops[1].push_back(count + k);
-        }
-    }
-
-private:
-    static constexpr int count = 64;
-};
-
 }  // namespace
 
 TEST_CASE("cross-sections of a pipe have the radii of its circles") {
@@ -80,17 +46,4 @@ TEST_CASE("loops that are no tubes' ends are distinguished from those of a pipe"
     CHECK(is_between_tubes(pipe.single.patch(), pipe.single.points, pipe.problem.fixed_normals));
     const Pipe steep(20, 1.2);  // leans by 69°: a ball between two small caps
     CHECK_FALSE(is_between_tubes(steep.single.patch(), steep.single.points, steep.problem.fixed_normals));
-}
-
-TEST_CASE("a tube is as long as its axis, in radii") {
-    const Pipe pipe(50);
-    const auto length = tube_length(loops_of(pipe), pipe.problem.fixed_points, pipe.problem.fixed_normals);
-    REQUIRE(length);
-    CHECK(*length == doctest::Approx(length_of(pipe)).epsilon(0.005));  // the circles are polygons
-    for (const double degrees : {30.0, 90.0, 150.0}) {
-        const Bend bend(3.0, degrees);
-        const auto along = tube_length(bend.loops, bend.points, bend.normals);
-        REQUIRE(along);
-        CHECK(*along == doctest::Approx(3.0 * degrees * std::numbers::pi / 180.0).epsilon(0.01));
-    }
 }

@@ -41,3 +41,18 @@ def test_a_choice_does_not_depend_on_what_was_solved_before() -> None:
         solver.change(equation=equation)
         result = solver.solve(tube.vertices, tube.normals)
         assert np.array_equal(result.vertices, solved(tube, equation).vertices)
+
+
+@pytest.mark.parametrize(("bend", "degrees"), [(2, 90), (1.3, 120)])
+def test_a_bridge_keeps_the_girth_as_well(bend: float, degrees: float) -> None:
+    """It begins with the harmonic surface of a coarse mesh, which has .87 and .83 of it."""
+    tube = tubes.elbow(bend, degrees)
+    normals = np.zeros_like(tube.vertices)
+    normals[tube.fixed] = tube.normals
+    loops = fairing.boundary_loops(tube.triangles)
+    result = fairing.fill(
+        tube.vertices, np.empty((0, 3), int), loops, normals=normals, bridge=True, equation="automatic"
+    )
+    assert result.converged
+    assert result.girth is not None
+    assert result.girth[0] >= 0.97

@@ -11,7 +11,7 @@ from fairing._new_mesh import FillResult, Hole
 GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
 VISIBLE = 12.0  # degrees at the join; docs/python.md, "What comes back"
 _BROKEN = {"FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION"}
-_HARMLESS = {"PIN_NORMAL_IGNORED", "INCONSISTENT_WINDING", "DEGENERATE_FACE", "NOT_A_HOLE"}
+_HARMLESS = {"PIN_NORMAL_IGNORED", "INCONSISTENT_WINDING", "DEGENERATE_FACE", "NOT_A_HOLE", "SHARP_BOUNDARY"}
 
 
 def judged(result: Any) -> tuple[str, str]:
