@@ -87,17 +87,19 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     result, has_outside = evidence.result, len(evidence.problem.outside) > 0
     stands_in = result.provenance not in ("equation", "low_passed")
     was_tried = stands_in or result.equation == "least_variation"
+    narrows = bool(girth_reason(result))  # Grow by a Ring helped none of 20 such tubes; Automatic has tried all shapes
     offered = {
         GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
         ALL_KEYS: len(evidence.lost.key) > 0,
         KEEP_DETAIL: evidence.lost.is_smoother and options.detail == 0.0,
         ADD_LEFT_OUT: evidence.left_out.count > 0,
-        GROW: has_outside and not len(evidence.problem.inward),  # over a hard edge a flat cap would become a dome
+        # Over a hard edge a flat cap would become a dome.
+        GROW: has_outside and not len(evidence.problem.inward) and not narrows,
         SMOOTH_OUTLINE: has_outside and not options.smooth_boundary and not options.remesh,
         EVEN_SPREAD: bad and _is_folded(evidence) and not options.remesh and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.rounded) > 0 and options.smooth_boundary,
         HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fair_open_borders,
-        EVEN_CURVATURE: (bad or bool(girth_reason(result))) and not was_tried and options.equation in _OTHERS,
+        EVEN_CURVATURE: not was_tried and options.equation in (_OTHERS if bad else _OTHERS[1:] if narrows else ()),
         WRITE: bad and not options.allow_folds,
     }
     return tuple(name for name, offer in offered.items() if offer)
