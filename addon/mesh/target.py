@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -60,7 +60,7 @@ def in_edit_mode(obj: bpy.types.Object, whole: Whole | None = None) -> Iterator[
     finally:
         bmesh.update_edit_mesh(mesh)
         if aside.is_numbered:  # they come back whatever has happened
-            _reload(obj, bm, aside)
+            _reload(obj, aside)
 
 
 @contextmanager
@@ -106,17 +106,42 @@ def _load(bm: Any, mesh: bpy.types.Mesh, aside: SetAside) -> None:
         bpy.data.meshes.remove(copy)
 
 
-def _reload(obj: bpy.types.Object, bm: Any, aside: SetAside) -> None:
+def _reload(obj: bpy.types.Object, aside: SetAside) -> None:
     """Put the attributes back where Blender allows it, in a mesh in object mode, and edit that."""
     obj.update_from_editmode()  # moves shape keys, too, as at the end of edit mode
-    modes = set(bm.select_mode)
     copy = obj.data.copy()
     try:
         aside.put_back(copy)
-        bm.clear()
-        bm.from_mesh(copy, use_shape_key=True, shape_key_index=obj.active_shape_key_index)
+        _edit(obj, copy)
     finally:
         bpy.data.meshes.remove(copy)
+
+
+def _edit(obj: bpy.types.Object, content: bpy.types.Mesh) -> None:
+    """Let an object in edit mode have what a mesh in object mode holds."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    modes = set(bm.select_mode)
+    bm.clear()
+    bm.from_mesh(content, use_shape_key=True, shape_key_index=obj.active_shape_key_index)
     bm.select_mode = modes
     bm.normal_update()
     bmesh.update_edit_mesh(obj.data)
+
+
+@contextmanager
+def restored(objects: Sequence[bpy.types.Object]) -> Iterator[None]:
+    """Give objects in edit mode back what they were where what is done to them raises."""
+    before = []
+    try:
+        for obj in objects:
+            keyed = obj.data.shape_keys is not None
+            before.append(obj.data.copy() if keyed else bpy.data.meshes.new("fairing before"))
+            bmesh.from_edit_mesh(obj.data).to_mesh(before[-1])
+        yield
+    except BaseException:
+        for obj, content in zip(objects, before, strict=False):
+            _edit(obj, content)
+        raise
+    finally:
+        for content in before:
+            bpy.data.meshes.remove(content)

@@ -22,6 +22,7 @@ from ..fair.memory import Memory
 from ..fair.solve import Kept, Solved
 from ..host.context import edited_objects
 from ..mesh import all_keys, mesh_io, remeshed, selecting
+from ..mesh.target import restored
 from ..mirror.reflected import Whole, whole_of
 from ..options.options import FairOptions
 from ..remesh.remeshing import Remeshed
@@ -235,11 +236,13 @@ def write_each(
     named: Iterable[tuple[str, Answer]],
     write_one: Callable[[bpy.types.Object, Answer], Done],
 ) -> list[Done]:
-    """Write each answer to the object in edit mode that it is named with; raises Refused where that can't have it."""
-    objects = objects_in_mode(context)
-    done = []
-    with _without_collector():
-        for name, answer in named:
+    """Write each answer to the object in edit mode that it is named with.
+
+    Where one can't have it all are as they were: raises Refused, and what else goes wrong.
+    """
+    objects, pairs, done = objects_in_mode(context), list(named), []
+    with _without_collector(), restored([objects[name] for name, _ in pairs]):
+        for name, answer in pairs:
             with refusing(name):
                 done.append(write_one(objects[name], answer))
     return done
