@@ -23,13 +23,13 @@ from .options import preset_operators, redo_panel
 from .options.chosen import MESH_OT_fair_reset
 from .overlay import overlay
 from .overlay.settings import FairOverlay
-from .run import cli, compare, redo, undone
+from .run import cli, compare, redo
 from .run.again import MESH_OT_fair_again
 from .run.background import MESH_OT_fair_cancel
 from .run.redo import MESH_OT_fair_follow
 from .selection import watch
 from .selection.tools import MESH_OT_fair_select
-from .show import gizmos, keymap, marks, menus, tools, ui
+from .show import gizmos, marks, menus, tools, ui
 from .verdict.properties import FairCheck, FairProgress, FairReport
 
 _CLASSES: tuple[Any, ...] = (
@@ -84,9 +84,8 @@ def register() -> None:
     brush_preview.register()
     live.register()
     marks.register()
-    keymap.register()
     tools.register()
-    undone.register()
+    compare.register()
     redo.register()
     file_owned.register()
     translations.register()
@@ -98,9 +97,8 @@ def unregister() -> None:
     translations.unregister()
     file_owned.unregister()
     redo.unregister()
-    undone.unregister()
+    compare.unregister()
     tools.unregister()
-    keymap.unregister()
     marks.unregister()
     live.unregister()
     brush_preview.unregister()

@@ -1,12 +1,14 @@
-"""The faces around a patch: what normals are fitted to, and what the result is compared with."""
+"""The faces around a patch, which normals are fitted to and results compared with; keys that bend these."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from .outline import outline_edges, two_sided_edges
 from .region import MeshArrays, Patch, vertices_of
-from .types import Ints, Mask
+from .types import Floats, Ints, Mask
 
 RINGS = 4  # of outside faces handed to the engine's fit, which uses the nearest of them
 
@@ -92,3 +94,51 @@ def numbered(patch: Patch, *triangles: Ints) -> tuple[Ints, ...]:
     number = np.zeros(int(vertices.max(initial=-1)) + 1, dtype=np.int64)
     number[vertices] = np.arange(len(vertices))
     return vertices, *(number[part] for part in triangles)
+
+
+class Neighbourhood:
+    """The triangles (t, 3) of a mesh whose corners are all finite, by the vertices that they have."""
+
+    def __init__(self, positions: Floats, triangles: Ints) -> None:
+        finite = np.isfinite(positions).all(axis=1)
+        self._triangles = triangles if finite.all() else triangles[finite[triangles].all(axis=1)]
+        corners = self._triangles.ravel()
+        self._order = np.argsort(corners, kind="stable")
+        counts = np.bincount(corners, minlength=len(positions))
+        self._ends = np.cumsum(counts)
+        self._begins = self._ends - counts
+
+    def around(self, vertices: Ints, rings: int = RINGS) -> Ints:
+        """Return the (o, 3) triangles within so many steps of the vertices, in the order of the mesh."""
+        rows = self._at(vertices)
+        for _ in range(rings - 1):
+            rows = self._at(np.unique(self._triangles[rows]))
+        found: Ints = self._triangles[rows]
+        return found
+
+    def _at(self, vertices: Ints) -> Ints:
+        """Return the numbers of the triangles with one of these vertices, ascending."""
+        begins, counts = self._begins[vertices], (self._ends - self._begins)[vertices]
+        shifts = np.repeat(begins - np.cumsum(counts) + counts, counts)
+        rows: Ints = np.unique(self._order[shifts + np.arange(len(shifts))] // 3)
+        return rows
+
+
+SAME = 1e-6  # of the selection's size: offsets that differ by less are those of a key that only moves it
+
+
+@dataclass(frozen=True)
+class MovedKey:
+    """New positions for vertices (k,) of one shape key, in the mesh's own coordinates."""
+
+    name: str
+    vertices: Ints
+    positions: Floats  # (k, 3)
+
+
+def is_bent(mesh: MeshArrays, positions: Floats) -> bool:
+    """Return whether a key with positions (n, 3) bends the patch or the faces around it, rather than move them."""
+    inside = vertices_of(mesh, mesh.in_patch)
+    touched = np.unique(np.concatenate([np.flatnonzero(inside), nearby(mesh.triangles, inside).ravel()]))
+    offsets = positions[touched] - mesh.positions[touched]
+    return bool(np.ptp(offsets, axis=0).max() > SAME * np.ptp(mesh.positions[inside], axis=0).max())

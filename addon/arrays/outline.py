@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..words.words import said
+from .places import area_vectors, sum_at, unit
 from .region import MeshArrays, fins, vertices_of
 from .types import Floats, Ints, Mask
-from .vectors import area_vectors, sum_at, unit
 
 SHARP = 60.0  # degrees between two faces at the boundary that are reported
 COARSE = 1e-3  # of an edge: steps between neighbouring coordinates that are reported

@@ -1,10 +1,11 @@
-"""Vertices and faces: as scripts name them, and by where they are."""
+"""Small arithmetic of numbers and vectors: elements as scripts name them, pairs as one number, sums at places."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .types import Floats, Ints
 
@@ -45,3 +46,44 @@ def renumbered(before: Floats, now: Floats) -> Ints | None:
     numbers = np.empty(len(before), dtype=np.int64)
     numbers[first] = second
     return numbers
+
+
+Whole = NDArray[np.integer[Any]]
+
+
+def pair_keys(first: Whole, second: Whole) -> Ints:
+    """Return a number for each pair, in the same order as the pairs; each of them is from 0 to 2³² − 1."""
+    keys: Ints = first.astype(np.int64) << 32 | second.astype(np.int64)
+    return keys
+
+
+def edge_keys(edges: Whole) -> Ints:
+    """Return (e,): the same number for an edge (e, 2) from either end."""
+    return pair_keys(edges.min(axis=1), edges.max(axis=1))
+
+
+def places_of(wanted: Ints, keys: Ints) -> Ints:
+    """Return where each of the wanted keys is among `keys`, which has them all."""
+    order = np.argsort(keys)
+    found: Ints = order[np.searchsorted(keys, wanted, sorter=order)]
+    return found
+
+
+def area_vectors(positions: Floats, triangles: Ints) -> Floats:
+    """Return (m, 3): twice the area times the normal of each triangle."""
+    a, b, c = (positions[column] for column in triangles.T)
+    vectors: Floats = np.cross(b - a, c - a)
+    return vectors
+
+
+def unit(vectors: Floats) -> Floats:
+    """Return the (k, 3) vectors with length 1; zero vectors stay zero."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    units: Floats = vectors / np.where(lengths > 0.0, lengths, 1.0)
+    return units
+
+
+def sum_at(places: Ints, vectors: Floats, count: int) -> Floats:
+    """Return (count, 3): the sum of the vectors (k, 3) at each of the places (k,)."""
+    columns = [np.bincount(places, weights=column, minlength=count) for column in vectors.T]
+    return np.stack(columns, axis=1)

@@ -8,10 +8,10 @@ import numpy as np
 
 import fairing
 
+from ..arrays.around import MovedKey
 from ..arrays.region import MeshArrays, free_vertices, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress
-from ..fair.moved_keys import MovedKey
 from ..mirror.reflected import whole_of
 from ..options.other_options import DenoiseOptions
 

@@ -9,9 +9,9 @@ import numpy as np
 import fairing
 
 from ..arrays.outline import face_normals, turned_over
+from ..arrays.places import sum_at, unit
 from ..arrays.region import MeshArrays, Patch
 from ..arrays.types import Floats, Ints, Mask
-from ..arrays.vectors import sum_at, unit
 from ..words.words import said
 
 MOST_MARKED = 0.25  # of the edges around: importers mark nearly all of them, which sets none apart

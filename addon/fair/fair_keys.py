@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..arrays.around import MovedKey, is_bent
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats
 from ..options.options import FairOptions
@@ -12,7 +13,6 @@ from ..verdict.verdict import GRADES, UNUSABLE
 from ..words.words import said
 from .engine import REFUSALS, Progress, sub_range
 from .fair_arrays import fair_arrays
-from .moved_keys import MovedKey, is_bent
 from .solve import Kept
 
 

@@ -1,9 +1,9 @@
-"""What runs across holes: edges that were drawn there, and hard edges that run on. Plain numpy, no bpy."""
+"""The numbers of a surface over a hole, and what runs across it: edges drawn there, hard edges that run on. No bpy."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -113,3 +113,48 @@ class Numbering:
         marked = [part for part, is_marked in zip(parts, result.marked, strict=True) if is_marked]
         whole, sharp = (self.of[np.concatenate([_no_edges(), *chosen])] for chosen in (parts + rows, marked))
         return Across(self.drawn, whole, sharp, len(parts) - as_drawn, as_drawn, len(result.bands))
+
+
+def numbered_by_pass(numbered: Ints, triangles: Ints, loops: Sequence[Ints]) -> Ints:
+    """Return the numbered triangles (m, 3) with the right pass of the loops at each of their corners.
+
+    numbered: with any of the passes of a vertex; triangles: the same in the numbers of the loops, which have them on
+    their left.
+    """
+    outline = np.concatenate(loops)
+    following = np.concatenate([np.roll(loop, -1) for loop in loops])
+    result = numbered.copy()
+    names, passes = np.unique(outline, return_counts=True)
+    for vertex in names[passes > 1].tolist():
+        corners = np.argwhere(triangles == vertex).tolist()
+        spokes = {int(triangles[t, (k + 1) % 3]): (t, k, int(triangles[t, (k + 2) % 3])) for t, k in corners}
+        for place in np.flatnonzero(outline == vertex).tolist():
+            spoke = int(following[place])
+            while spoke in spokes:  # counter-clockwise from the edge along which the pass leaves
+                t, k, spoke = spokes.pop(spoke)
+                result[t, k] = place
+    return result
+
+
+def renumbered(result: fairing.FillResult, old: Ints, new: Ints) -> fairing.FillResult:
+    """Return a result with other numbers; old, new: the mesh vertices that numbers stand for, both ascending."""
+    number = np.concatenate([np.searchsorted(new, old), len(new) + np.arange(len(result.vertices))]).astype(np.int32)
+    quads = result.quads
+    if quads is not None:
+        quads = replace(quads, quads=number[quads.quads], triangles=number[quads.triangles])
+    return replace(
+        result,
+        triangles=number[result.triangles],
+        fixed=number[result.fixed],
+        loops=tuple(number[loop] for loop in result.loops),
+        curves=tuple(number[curve] for curve in result.curves),
+        bands=tuple(tuple(number[row] for row in band) for band in result.bands),
+        warnings=tuple(_warning(each, number) for each in result.warnings),
+        quads=quads,
+    )
+
+
+def _warning(warning: fairing.Diagnostic, number: Ints) -> fairing.Diagnostic:
+    if warning.kind != "vertex":
+        return warning
+    return replace(warning, elements=number[warning.elements].astype(np.int32))

@@ -10,10 +10,8 @@ import numpy as np
 
 import fairing
 
-from ..arrays.around import RINGS
+from ..arrays.around import RINGS, Neighbourhood
 from ..arrays.border import BorderRefusal
-from ..arrays.neighbourhood import Neighbourhood
-from ..arrays.passes import numbered_by_pass
 from ..arrays.region import MeshArrays, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress
@@ -24,9 +22,8 @@ from ..verdict.verdict import UNUSABLE, Verdict
 from ..words.findings import Origin
 from ..words.sentences import in_mesh_words, sentences
 from ..words.words import said
-from .across import Loose, Numbering, drawn_edges, marked_edges, within
+from .across import Loose, Numbering, drawn_edges, marked_edges, numbered_by_pass, renumbered, within
 from .pieces import Piece
-from .renumbered import renumbered
 from .verdict import Surface, judge
 
 _SEEN = 11  # rings around a hole that the engine looks at: slopes, and what is usual around hard edges

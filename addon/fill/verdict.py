@@ -8,9 +8,9 @@ import numpy as np
 
 import fairing
 
+from ..arrays.places import unit
 from ..arrays.region import MeshArrays, nothing
 from ..arrays.types import Floats, Ints, Mask
-from ..arrays.vectors import unit
 from ..verdict.looks import STAND_INS, girth_reason, kink_reason, sunken_reason
 from ..verdict.piercing import Sheet, crossing, near
 from ..verdict.quality import Join

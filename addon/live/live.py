@@ -30,8 +30,7 @@ from ..overlay import signals
 from ..run.runner import is_free
 from ..words.words import said
 from .region_search import Found
-from .search import Search
-from .session import Session, check_key, fits, is_of, read, session_of, where
+from .session import Search, Session, check_key, fits, is_of, read, session_of, where
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
 MOST_SKIPPED = 15  # changes in a row that do with the first surface, without asking for an answer

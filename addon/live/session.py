@@ -1,4 +1,4 @@
-"""One mesh with a live region, as it was last seen."""
+"""One mesh with a live region, as it was last seen, and the search for its surface in a thread."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from ..arrays.region import free_vertices
 from ..arrays.types import Floats, Ints
 from ..mesh import live_mesh, mesh_io
 from ..options.options import FairOptions
+from ..run.runner import Run
 from ..words.words import said
 from .region import LiveRegion
-from .search import Search
+from .region_search import Found, sought
 
 BLINK = 0.02  # seconds that a step of a drag waits for a search to stop
 
@@ -132,3 +133,28 @@ def fits(session: Session, mesh: bpy.types.Mesh) -> bool:
         faces = live_mesh.region_faces(mesh)
         session.checked = faces is not None and np.array_equal(faces, session.faces)
     return session.checked and np.array_equal(live_mesh.corners(mesh, session.faces), session.corners)
+
+
+class Search:
+    """One search, for the region at these positions."""
+
+    def __init__(self, region: LiveRegion, positions: Floats, matrix: Floats) -> None:
+        """Begin at once. positions: (n, 3) of region.vertices; matrix: (4, 4) to world space."""
+        self._run = Run(lambda progress: sought(region, positions, matrix, progress))
+
+    @property
+    def stopped(self) -> bool:
+        """Whether it was asked to end, here or with all other runs."""
+        return self._run.cancelled
+
+    def stop(self) -> None:
+        """Ask it to end; what it finds counts no more. Returns at once."""
+        self._run.cancel()
+
+    def wait(self, seconds: float | None) -> bool:
+        """Wait for the end, at most so long; return whether it has come."""
+        return self._run.wait(seconds)
+
+    def found(self) -> Found:
+        """Return how it ended; waits for that, and raises what went wrong on the way."""
+        return self._run.result()

@@ -1,13 +1,15 @@
-"""Properties of Blender's collections to arrays."""
+"""Properties and attributes of Blender's meshes as arrays, and back."""
 
 from __future__ import annotations
 
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
 
-from ..arrays.types import Ints, Mask
+from ..arrays.types import Floats, Ints, Mask
+from ..words.words import said
 
 
 def column(items: Any, name: str, width: int, dtype: Any) -> Any:
@@ -43,3 +45,77 @@ def flags(mesh: bpy.types.Mesh, attribute: str, items: Any) -> Mask:
 def elements_of(table: Any, numbers: Ints) -> list[Any]:
     """Return the elements of a bmesh's sequence, whose lookup table is up to date."""
     return [table[number] for number in numbers.tolist()]
+
+
+SCULPT_MASK, FACE_SET = ".sculpt_mask", ".sculpt_face_set"  # Blender's own names of what sculpt mode paints
+
+
+def values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
+    """Return the values of an attribute of a mesh in object mode; None where there is none."""
+    attribute = mesh.attributes.get(name)
+    if attribute is None:
+        return None
+    found = np.empty(len(attribute.data), dtype=dtype)
+    attribute.data.foreach_get("value", found)
+    return found
+
+
+def faces_within(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:
+    """Return the faces of a mesh in object mode with all vertices in the (n,) mask."""
+    starts = np.empty(len(mesh.polygons), dtype=np.int32)
+    corners = np.empty(len(mesh.loops), dtype=np.int32)
+    mesh.polygons.foreach_get("loop_start", starts)
+    mesh.loops.foreach_get("vertex_index", corners)
+    if not len(starts):
+        return np.empty(0, dtype=np.int64)
+    return np.flatnonzero(np.logical_and.reduceat(vertices[corners], starts))
+
+
+def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    """Write one number per vertex (n,) to the vertex attribute `name`, in whichever mode.
+
+    Raises ValueError where the mesh has an attribute of that name for something else.
+    """
+    present = mesh.attributes.get(name)
+    if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
+        raise ValueError(said("other_attribute", name=name))
+    if mesh.is_editmode:
+        _write_edit_attribute(mesh, name, values)
+        return
+    layer = present or mesh.attributes.new(name, "FLOAT", "POINT")
+    layer.data.foreach_set("value", values.astype(np.float32))
+    mesh.update()
+
+
+def _write_edit_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
+    bm = bmesh.from_edit_mesh(mesh)
+    layers = bm.verts.layers.float
+    layer = layers.get(name) or layers.new(name)
+    for vertex, value in zip(bm.verts, values.tolist(), strict=True):
+        vertex[layer] = value
+    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
+
+
+_DTYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": np.bool_}  # by the type of the property
+
+
+def has_numbers(attribute: Any) -> bool:
+    """Return whether the values of an attribute are numbers or flags."""
+    return _value_property(attribute).type in _DTYPES
+
+
+def layout_of(attribute: Any) -> tuple[str, int, Any]:
+    """Return the name of an attribute's values, how many numbers each is, and their type in numpy."""
+    found = _value_property(attribute)
+    return found.identifier, max(1, found.array_length), _DTYPES[found.type]
+
+
+def values_of(attribute: Any) -> Any:
+    """Return (n, w)."""
+    name, width, dtype = layout_of(attribute)
+    return column(attribute.data, name, width, dtype).reshape(-1, width)
+
+
+def _value_property(attribute: Any) -> Any:
+    properties = attribute.bl_rna.properties["data"].fixed_type.properties
+    return next(each for each in properties if each.identifier != "rna_type")

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from ..arrays.harmonic import limited_like
 from ..arrays.types import Floats
-from ..remesh.limited import limited_like
 from .free_normals import NAME as _OWN_NORMALS
 
 _COPIED = ("int", "bool", "string")  # kinds of layers without a mean; BMLoop.copy_from takes Python's handle along

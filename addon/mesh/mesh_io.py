@@ -19,13 +19,13 @@ from ..options.options import FairOptions
 from ..selection.selection import enclosed_faces
 from ..verdict.quality import is_spoilt
 from ..words.words import said
+from .all_keys import shown_offsets
 from .columns import column, elements_of, flags, indices, stored
 from .free_normals import put_at, renew_at, renew_mesh
+from .levels import reflections
 from .marked_lines import lines
-from .mirrored import reflections
 from .set_aside import has_unreached
-from .shown_keys import shown_offsets
-from .weights import group_index, members, weighed
+from .weights import group_index, group_weights, weighed
 
 FEW = 8  # times as many vertices as were moved: normals of the whole mesh take longer than theirs, one by one
 
@@ -218,7 +218,8 @@ def _pinned(arrays: MeshArrays, mesh: bpy.types.Mesh, group: int | None, options
         return arrays
     touched = np.unique(arrays.corner_vertices[arrays.in_patch[arrays.corner_faces]])
     pinned = arrays.pinned.copy()
-    pins = members(mesh, np.arange(len(pinned)) if options.moves_band else touched, group)
+    pins = np.flatnonzero(group_weights(mesh, group) > 0.0)
+    pins = pins if options.moves_band else np.intersect1d(pins, touched)
     pinned[pins] = True
     if arrays.held_by_angle is not None:
         arrays = replace(arrays, held_by_angle=arrays.held_by_angle & ~np.isin(np.arange(len(pinned)), pins))

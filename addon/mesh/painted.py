@@ -10,8 +10,9 @@ import numpy as np
 
 from ..arrays.types import Floats, Ints
 from ..words.words import said
-from .attributes import FACE_SET, SCULPT_MASK, faces_within, values, write_attribute
+from .columns import FACE_SET, SCULPT_MASK, faces_within, values, write_attribute
 from .live_mesh import LAYER
+from .weights import group_weights
 
 HALF = 0.5  # of the mask, from which on a vertex is masked
 
@@ -86,9 +87,7 @@ def group_faces(obj: bpy.types.Object, name: str) -> Ints:
     """Return the faces with all vertices in a vertex group; raises ValueError where there is none of that name."""
     if name not in obj.vertex_groups:
         raise ValueError(said("no_group", name=name))
-    index = obj.vertex_groups[name].index
-    member = [any(e.group == index and e.weight > 0.0 for e in v.groups) for v in obj.data.vertices]
-    return faces_within(obj.data, np.array(member, dtype=bool))
+    return faces_within(obj.data, group_weights(obj.data, obj.vertex_groups[name].index) > 0.0)
 
 
 def live_faces(mesh: bpy.types.Mesh) -> Ints:

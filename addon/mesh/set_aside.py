@@ -15,9 +15,10 @@ import bmesh
 import bpy
 import numpy as np
 
-from ..arrays.blended import blended, columns
+from ..arrays.harmonic import blended, columns
 from ..arrays.types import Floats, Ints
 from ..words.words import said
+from .columns import has_numbers, layout_of, values_of
 
 _REACHED = {
     "FLOAT": "float",
@@ -29,7 +30,6 @@ _REACHED = {
     "STRING": "string",
 }  # the layers of bmesh by the attributes' types
 _SEQUENCES = {"POINT": "verts", "EDGE": "edges", "FACE": "faces", "CORNER": "loops"}
-_DTYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": np.bool_}  # by the type of the property
 _FLAGS = {
     *(f".{flag}_{of}" for flag in ("select", "hide") for of in ("vert", "edge", "poly")),
     *("sharp_edge", "sharp_face", ".uv_seam"),
@@ -64,7 +64,7 @@ class SetAside:
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         """Read it from a mesh in object mode, or from a copy of one in edit mode."""
         out = [each for each in mesh.attributes if _is_out(each)]
-        self._all = [_Attribute(each.name, each.data_type, each.domain, _values(each)) for each in out]
+        self._all = [_Attribute(each.name, each.data_type, each.domain, values_of(each)) for each in out]
         self.is_numbered = False  # whether the elements of a bmesh have rows
 
     def __bool__(self) -> bool:
@@ -90,15 +90,15 @@ class SetAside:
     def put_back(self, mesh: bpy.types.Mesh) -> None:
         """Add them to a mesh in object mode that was made of the bmesh; new edges get Blender's default."""
         for domain in self._domains:
-            rows = _values(mesh.attributes[ROW + domain])[:, 0]
+            rows = values_of(mesh.attributes[ROW + domain])[:, 0]
             mesh.attributes.remove(mesh.attributes[ROW + domain])
             known = rows > 0
             for each in self._all:
                 if each.domain == domain:
                     attribute = mesh.attributes.new(each.name, each.kind, domain)
-                    values = _values(attribute)
+                    values = values_of(attribute)
                     values[known] = each.values[rows[known] - 1]
-                    attribute.data.foreach_set(_layout(attribute)[0], values.ravel())
+                    attribute.data.foreach_set(layout_of(attribute)[0], values.ravel())
 
     @property
     def _domains(self) -> list[str]:
@@ -150,7 +150,7 @@ def has_unreached(mesh: bpy.types.Mesh) -> bool:
     """
     found = [each for each in mesh.attributes if _is_out(each)]
     for each in found:
-        if _value_property(each).type not in _DTYPES:
+        if not has_numbers(each):
             raise ValueError(said("attribute_lost", name=each.name, type=each.data_type))
     return bool(found)
 
@@ -171,22 +171,3 @@ def _elements(bm: Any, domain: str) -> Iterator[Any]:
     if domain == "CORNER":
         return (corner for face in bm.faces for corner in face.loops)
     return iter(getattr(bm, _SEQUENCES[domain]))
-
-
-def _layout(attribute: Any) -> tuple[str, int, Any]:
-    """Return the name of an attribute's values, how many numbers each is, and their type in numpy."""
-    found = _value_property(attribute)
-    return found.identifier, max(1, found.array_length), _DTYPES[found.type]
-
-
-def _value_property(attribute: Any) -> Any:
-    properties = attribute.bl_rna.properties["data"].fixed_type.properties
-    return next(each for each in properties if each.identifier != "rna_type")
-
-
-def _values(attribute: Any) -> Any:
-    """Return (n, w)."""
-    name, width, dtype = _layout(attribute)
-    values = np.empty(len(attribute.data) * width, dtype=dtype)
-    attribute.data.foreach_get(name, values)
-    return values.reshape(-1, width)

@@ -8,10 +8,10 @@ import bpy
 import numpy as np
 
 from ..arrays.region import MeshArrays
-from ..arrays.types import Floats, Ints, Mask
+from ..arrays.types import Floats, Mask
 from ..options.options import FairOptions
 from ..words.words import said
-from .attributes import SCULPT_MASK, values
+from .columns import SCULPT_MASK, values
 
 
 def group_index(obj: bpy.types.Object | None, name: str, option: str) -> int | None:
@@ -35,15 +35,6 @@ def bone_groups(obj: bpy.types.Object | None) -> list[int]:
     return [int(group.index) for group in obj.vertex_groups if group.name in bones]
 
 
-def members(mesh: bpy.types.Mesh, vertices: Ints, group: int) -> list[int]:
-    """Return those of the vertices that are in the vertex group with a weight above zero."""
-    return [
-        vertex
-        for vertex in vertices.tolist()
-        if any(e.group == group and e.weight > 0.0 for e in mesh.vertices[vertex].groups)
-    ]
-
-
 def weighed(arrays: MeshArrays, mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> MeshArrays:
     """Return the arrays with what vertex groups and the mask say of them; raises what these raise."""
     group = _in_group(mesh, obj, options)
@@ -61,7 +52,7 @@ def _in_group(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairO
     obj: shows the mesh, or what it is a copy of. Raises ValueError where it has no such group.
     """
     group = group_index(obj, options.continuity_group, "continuity_group")
-    return None if group is None else _group_weights(mesh, group) > 0.0
+    return None if group is None else group_weights(mesh, group) > 0.0
 
 
 def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options: FairOptions) -> Floats | None:
@@ -74,7 +65,7 @@ def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options
     parts = np.ones(len(mesh.vertices))
     group = group_index(obj, options.vertex_group, "vertex_group")
     if group is not None:
-        parts *= _group_weights(mesh, group)
+        parts *= group_weights(mesh, group)
     if options.use_mask:
         mask = values(mesh, SCULPT_MASK, np.float32)
         if mask is None:
@@ -83,10 +74,10 @@ def parts_of_the_way(mesh: bpy.types.Mesh, obj: bpy.types.Object | None, options
     return parts
 
 
-def _group_weights(mesh: bpy.types.Mesh, group: int) -> Floats:
+def group_weights(mesh: bpy.types.Mesh, group: int) -> Floats:
+    """Return (n,) the weights of a vertex group, 0 for what is not in it."""
+    found = ((v.index, entry.weight) for v in mesh.vertices for entry in v.groups if entry.group == group)
     weights = np.zeros(len(mesh.vertices))
-    for vertex in mesh.vertices:
-        for entry in vertex.groups:
-            if entry.group == group:
-                weights[vertex.index] = entry.weight
+    for vertex, weight in found:
+        weights[vertex] = weight
     return weights

@@ -11,7 +11,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.pairs import edge_keys
+from ..arrays.places import edge_keys
 from ..arrays.region import MeshArrays, Reflection, free_vertices, reversed_corners, vertices_of
 from ..arrays.types import Floats, Ints, Mask
 from ..verdict.outcome import Fairing, leading_part

@@ -12,7 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from ..arrays.pairs import edge_keys
+from ..arrays.places import edge_keys
 from ..arrays.region import MeshArrays, Patch, Reflection
 from ..arrays.types import Floats, Ints, Mask
 from ..words.words import said

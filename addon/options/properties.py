@@ -36,43 +36,29 @@ def _property(option: Option) -> Any:
     return FloatProperty(**texts, **ranges, step=option.step, precision=option.digits, subtype=subtype)
 
 
-class _Chosen:
-    """What operators with such properties share."""
-
-    chosen: type[Chosen]
-
-
-class FairProperties(_Chosen):
-    """The options of `mesh.fair_region`."""
+class FairProperties:
+    """The options of `mesh.fair_region`; `chosen` is the class that they come to."""
 
     chosen = FairOptions
     __annotations__ = properties_of(FairOptions)
 
 
-class FillProperties(_Chosen):
-    """The options of `mesh.fair_fill`."""
-
+class FillProperties:
     chosen = FillOptions
     __annotations__ = properties_of(FillOptions)
 
 
-class DenoiseProperties(_Chosen):
-    """The options of `mesh.fair_denoise`."""
-
+class DenoiseProperties:
     chosen = DenoiseOptions
     __annotations__ = properties_of(DenoiseOptions)
 
 
-class CurvesProperties(_Chosen):
-    """The options of `mesh.fair_from_curves`."""
-
+class CurvesProperties:
     chosen = CurvesOptions
     __annotations__ = properties_of(CurvesOptions)
 
 
-class FilletProperties(_Chosen):
-    """The options of `mesh.fair_fillet`."""
-
+class FilletProperties:
     chosen = FilletOptions
     __annotations__ = {
         **properties_of(FilletOptions),

@@ -8,7 +8,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.pairs import edge_keys
+from ..arrays.places import edge_keys
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints, Mask
 from ..words.findings import Origin

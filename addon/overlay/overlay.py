@@ -24,7 +24,7 @@ from ..mesh import mesh_io
 from ..options.options import FairOptions
 from ..run import compare
 from ..words.words import said
-from . import legend, lines, signals
+from . import legend, signals
 from .data import Surface, make_surface, sense
 from .shader import make_shader
 
@@ -77,7 +77,7 @@ class Overlay:
         gpu.state.depth_test_set("NONE")
         for surface in self.surfaces:
             if len(surface.boundary):
-                lines.draw_boundary(context, surface.boundary)
+                legend.draw_boundary(context, surface.boundary)
 
     def clear(self) -> None:
         """Drop everything measured."""

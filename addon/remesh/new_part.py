@@ -9,7 +9,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.pairs import pair_keys, places_of
+from ..arrays.places import pair_keys, places_of
 from ..arrays.region import MeshArrays, Patch
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import Problem

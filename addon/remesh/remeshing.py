@@ -15,8 +15,7 @@ from ..fair.engine import Problem, Progress
 from ..fair.solve import pose, reported_by
 from ..mirror.reflected import Whole, with_image
 from ..options.options import FairOptions
-from ..selection.selection import left_out
-from ..selection.tunnels import tunnel_hint
+from ..selection.selection import left_out, tunnel_hint
 from ..verdict import quality
 from ..verdict.evidence import Evidence
 from ..verdict.lost import sunken

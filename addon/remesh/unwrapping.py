@@ -14,8 +14,8 @@ import fairing
 
 from ..arrays.harmonic import harmonic
 from ..arrays.nearest_source import nearest_sources, owners
+from ..arrays.places import sum_at
 from ..arrays.types import Floats, Ints, Mask
-from ..arrays.vectors import sum_at
 from ..verdict.quality import texture_distortion
 from .faces import inner_edges
 

@@ -12,12 +12,14 @@ import bpy
 import numpy as np
 
 from ..arrays.border import Left
-from ..arrays.types import Floats
+from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import REFUSALS
 from ..fair.script import fair_faces
 from ..fill.report import make_fill_report
 from ..fill.script import fill_borders
 from ..fillet.script import fillet_edges
+from ..mesh.columns import column, faces_within
+from ..mesh.weights import group_weights
 from ..options.options import FairOptions
 from ..options.other_options import FillOptions
 from ..verdict.report import Report, make_report, summary
@@ -34,20 +36,17 @@ def _mesh_object(name: str) -> bpy.types.Object:
     return obj
 
 
-def _members(obj: bpy.types.Object, group: str) -> list[bool]:
+def _members(obj: bpy.types.Object, group: str) -> Mask:
     """Return for each vertex whether it is in the vertex group."""
     if group not in obj.vertex_groups:
         raise ValueError(f"--vertex-group: {obj.name} has no vertex group named {group!r}")
-    index = obj.vertex_groups[group].index
-    return [any(e.group == index and e.weight > 0.0 for e in v.groups) for v in obj.data.vertices]
+    return group_weights(obj.data, obj.vertex_groups[group].index) > 0.0
 
 
-def _faces(obj: bpy.types.Object, group: str | None) -> list[int]:
-    polygons = obj.data.polygons
+def _faces(obj: bpy.types.Object, group: str | None) -> Ints:
     if group is None:
-        return [polygon.index for polygon in polygons if polygon.select]
-    member = _members(obj, group)
-    return [polygon.index for polygon in polygons if all(member[v] for v in polygon.vertices)]
+        return np.flatnonzero(column(obj.data.polygons, "select", 1, bool))
+    return faces_within(obj.data, _members(obj, group))
 
 
 def _figures(report: Report, left: Sequence[Left]) -> dict[str, Any]:
@@ -111,7 +110,7 @@ def execute(arguments: list[str]) -> int:
 def _faired(chosen: Any) -> Report:
     options = FairOptions.of(chosen)
     obj = _mesh_object(chosen.object)
-    faces = _faces(obj, chosen.region_group)
+    faces = _faces(obj, chosen.region_group).tolist()
     begin = time.perf_counter()
     outcome = fair_faces(obj.data, faces, _matrix(obj), options, _Progress())
     return make_report([(obj.name, outcome)], options, time.perf_counter() - begin)

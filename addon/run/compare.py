@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ..arrays.types import Floats, Ints
+from ..host.handlers import listen, unlisten
 from ..host.polling import require, require_edit_mode
 from ..mesh import mesh_io, selecting
 from ..mesh.free_normals import free_normals
@@ -168,3 +169,20 @@ class MESH_OT_fair_compare(bpy.types.Operator):
             return {"CANCELLED"}
         self.report({"INFO"}, translated(said("shown_result") if shows_result else said("shown_before")))
         return {"FINISHED"}
+
+
+def _on_step(*_arguments: object) -> None:
+    """After an undo or a redo: see whether the last run still stands."""
+    report = bpy.context.window_manager.fairing_report
+    if report.written:
+        report.undone = is_undone()
+
+
+def register() -> None:
+    listen(bpy.app.handlers.undo_post, _on_step)
+    listen(bpy.app.handlers.redo_post, _on_step)
+
+
+def unregister() -> None:
+    unlisten(bpy.app.handlers.redo_post, _on_step)
+    unlisten(bpy.app.handlers.undo_post, _on_step)

@@ -1,4 +1,4 @@
-"""Selections as people make them: loops of edges, faces left out, boundaries on a fold. Plain numpy, no bpy."""
+"""Selections as people make them: loops of edges, faces left out, boundaries on a fold, tunnels. No bpy."""
 
 from __future__ import annotations
 
@@ -6,11 +6,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+import fairing
+
 from ..arrays.around import numbered, outside_triangles, wound_alike
 from ..arrays.outline import edges_of, two_sided_edges
-from ..arrays.region import MeshArrays, make_patch, nothing
+from ..arrays.region import MeshArrays, Patch, make_patch, nothing
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import Problem
+from ..words.words import said
 
 LEFT_OUT = 4  # faces at most of a hole in a selection that is taken for an oversight
 ROUNDS = 5  # of growing
@@ -132,3 +135,22 @@ def problem_of(mesh: MeshArrays, matrix: Floats) -> Problem:
         patch = make_patch(world)
         vertices, outside = numbered(patch, wound_alike(world, outside_triangles(world, patch)))
     return Problem(patch, world.positions[vertices], np.empty((0, 3)), vertices, outside)
+
+
+def tunnel_hint(patch: Patch) -> tuple[str, ...]:
+    """Return a sentence on the tunnels of the patch, which may be why its surface is no good; none without them."""
+    pieces = fairing.components(patch.triangles, fixed=patch.fixed)
+    count = sum(tunnels(patch.triangles[pieces == piece]) for piece in range(int(pieces.max(initial=-1)) + 1))
+    return (said("tunnels", n=count),) if count else ()
+
+
+def tunnels(triangles: Ints) -> int:
+    """Count the tunnels of connected triangles (m, 3): the genus, by Euler's formula.
+
+    Where their border touches itself in a vertex, it counts as cut there.
+    """
+    edges, _ = fairing.edges_with_uses(triangles)
+    loops = fairing.boundary_loops(triangles)
+    on_border = sum(len(loop) for loop in loops)
+    inner = len(np.setdiff1d(triangles, np.concatenate([np.empty(0, dtype=np.int64), *loops])))
+    return (2 - len(loops) - (inner + on_border - len(edges) + len(triangles))) // 2

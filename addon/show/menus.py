@@ -111,11 +111,25 @@ ENTRIES = (
 )
 
 
+# Entries of the keymap without a key, which Preferences, Keymap binds. Recommended: Alt Shift F.
+_MODES = (("Mesh", "EMPTY"), ("Sculpt", "EMPTY"), ("Object Mode", "EMPTY"))
+_entries: list[tuple[Any, Any]] = []
+
+
 def register() -> None:
     for menu, draw in ENTRIES:
         getattr(bpy.types, menu).append(draw)
+    configuration = bpy.context.window_manager.keyconfigs.addon
+    for mode, space in _MODES if configuration is not None else ():  # Blender has no keymaps in the background
+        keymap = configuration.keymaps.new(name=mode, space_type=space)
+        entry = keymap.keymap_items.new("wm.call_menu_pie", "NONE", "PRESS")
+        entry.properties.name = VIEW3D_MT_fair_pie.__name__
+        _entries.append((keymap, entry))
 
 
 def unregister() -> None:
+    while _entries:
+        keymap, entry = _entries.pop()
+        keymap.keymap_items.remove(entry)
     for menu, draw in reversed(ENTRIES):
         getattr(bpy.types, menu).remove(draw)

@@ -9,16 +9,14 @@ import numpy as np
 
 import fairing
 
-from ..arrays.around import nearby, numbered, wide_outside, wound_alike
+from ..arrays.around import MovedKey, nearby, numbered, wide_outside, wound_alike
 from ..arrays.region import MeshArrays, Patch, nothing, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Problem, Progress, go_on, islands
-from ..fair.moved_keys import MovedKey
 from ..fair.solve import Solved
 from ..mirror.symmetry import mirror_map, symmetrised, with_band
 from ..options.options import FairOptions
-from ..selection.selection import left_out
-from ..selection.tunnels import tunnel_hint
+from ..selection.selection import left_out, tunnel_hint
 from ..words.words import said
 from . import quality
 from .eaten import Eaten, eaten_edges

@@ -11,9 +11,9 @@ import numpy as np
 
 import fairing
 
+from ..arrays.places import area_vectors
 from ..arrays.region import MeshArrays, Patch, nothing
 from ..arrays.types import Floats, Ints
-from ..arrays.vectors import area_vectors
 from ..fair.engine import Problem
 
 LARGE = 50_000  # triangles

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from addon.arrays.blended import blended, columns
-from addon.remesh.limited import limited_like
+from addon.arrays.harmonic import blended, columns, limited_like
 
 HALF = np.array([[0.5, 0.5]])
 

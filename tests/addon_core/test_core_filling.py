@@ -7,9 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from addon.arrays.around import nearby
+from addon.arrays.around import Neighbourhood, nearby
 from addon.arrays.border import BorderRefusal, border_loops
-from addon.arrays.neighbourhood import Neighbourhood
 from addon.arrays.region import MeshArrays, nothing
 from addon.arrays.types import Floats, Ints, Mask
 from addon.fill.filling import fill

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from addon.arrays.pairs import edge_keys, pair_keys, places_of
+from addon.arrays.places import edge_keys, pair_keys, places_of
 
 MANY = np.array([0, 1, 70_000, 2**31 - 1])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from addon.arrays.types import Ints
-from addon.selection.tunnels import tunnels
+from addon.selection.selection import tunnels
 
 from polygon_mesh import grid_quads
 

@@ -15,7 +15,7 @@ from extension import module
 def two_domes() -> list[bpy.types.Object]:
     """In edit mode, the second with shape keys, custom attributes and a group."""
     made = [meshes.domed_grid() for _ in range(2)]
-    obj, faces = made[1]
+    obj = made[1][0]
     for name in ("Basis", "Smile"):
         obj.shape_key_add(name=name)
     obj.data.shape_keys.key_blocks["Smile"].data[3].co.z += 0.5

@@ -154,7 +154,7 @@ def begin_run():
     return part("run.runner").Run(partial(endless, solve))
 
 def begin_search():
-    search = part("live.search")
+    search = part("live.session")
     search.sought = lambda region, points, matrix, progress: endless(partial(region.afresh, points, matrix), progress)
     scene()
     home = part("live.live")

@@ -160,7 +160,7 @@ def test_a_brush_fairs_what_it_went_over_with_its_falloff(sculpted: Any) -> None
         meshes.move(each, points)
     before = meshes.positions(obj)
     weights = np.zeros(len(before))
-    module("fair.brushed").paint(weights, before, pole, 1.2)
+    module("fair.brush").paint(weights, before, pole, 1.2)
     assert 0.0 < np.count_nonzero((weights > 0.0) & (weights < 1.0)) < len(weights)
     scripted.data.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", weights.astype(np.float32))
     bpy.context.view_layer.objects.active = scripted

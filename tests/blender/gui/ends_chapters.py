@@ -48,7 +48,7 @@ class _Held:
 
 
 def _hold_searches() -> None:
-    home = module("live.search")
+    home = module("live.session")
     seek = home.sought
 
     def sought(*arguments: Any) -> Any:
