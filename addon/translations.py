@@ -23,7 +23,6 @@ _CONTEXTS = ("*", "Operator")
 
 
 def languages() -> dict[str, dict[str, str]]:
-    """Return the texts of each language by its code."""
     return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(_FOLDER.glob("*.json"))}
 
 

@@ -77,7 +77,6 @@ def area_vectors(positions: Floats, triangles: Ints) -> Floats:
 
 
 def unit(vectors: Floats) -> Floats:
-    """Return the (k, 3) vectors with length 1; zero vectors stay zero."""
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
     units: Floats = vectors / np.where(lengths > 0.0, lengths, 1.0)
     return units

@@ -91,7 +91,6 @@ class MeshArrays:
 
 
 def nothing() -> Ints:
-    """Return no indices."""
     return np.empty(0, dtype=np.int64)
 
 

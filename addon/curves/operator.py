@@ -30,13 +30,11 @@ class Asked(AskedInEditMode):
         return float((edges / self.options.spacing) ** 2 / 16)
 
     def work(self, progress: Progress) -> list[Spanned]:
-        """Find the surfaces."""
         return job.each_of(
             self.tasks, lambda task, part: span_arrays(task.mesh, task.about, task.matrix, self.options, part), progress
         )
 
     def finish(self, context: bpy.types.Context, outcomes: list[Spanned], say: Say) -> set[str]:
-        """Make their faces."""
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
         clear(context.window_manager.fairing_report)

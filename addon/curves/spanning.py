@@ -43,7 +43,6 @@ class Spanned:
     whole: Whole | None = None  # the mesh with its image, whose numbers these are
 
     def for_half(self, whole: Whole) -> Spanned:
-        """Return what was found for a whole, to be written to its half."""
         return replace(self, whole=whole)
 
     @property

@@ -18,18 +18,14 @@ from .denoising import Denoised, denoise_arrays
 
 @dataclass
 class Asked(AskedInEditMode):
-    """What one run was asked for."""
-
     moves = True
 
     def work(self, progress: Progress) -> list[Denoised]:
-        """Find where vertices go."""
         return job.each_of(
             self.tasks, lambda task, part: denoise_arrays(task.mesh, task.matrix, self.options, part), progress
         )
 
     def finish(self, context: bpy.types.Context, outcomes: list[Denoised], say: Say) -> set[str]:
-        """Move them."""
         last_run.forget()  # Again would fair
         clear(context.window_manager.fairing_report)
         compare.remember(self.tasks, outcomes)

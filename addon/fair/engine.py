@@ -51,7 +51,6 @@ class Problem:
 
     @property
     def origin(self) -> Origin:
-        """Where its vertices and triangles are in the mesh."""
         return Origin(self.vertices, self.patch.triangles, self.patch.faces)
 
     @property
@@ -170,7 +169,6 @@ class RepeatedSolve:
             )
 
     def change(self, options: FairOptions) -> None:
-        """Take these options from the next solve on."""
         self._solver.change(**options.engine_arguments())
 
     def __call__(

@@ -25,14 +25,11 @@ from .engine import Progress
 
 @dataclass
 class Asked(AskedInEditMode):
-    """What one run was asked for."""
-
     notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     way: str = ""  # tried after a run that was not good, and written only where the verdict improves
     moves = True
 
     def work(self, progress: Progress) -> list[Fairing]:
-        """Find the surfaces."""
         return job.solve(self.tasks, self.options, progress)
 
     def work_aside(self, large: bool) -> Work:

@@ -23,12 +23,10 @@ class Memory(Generic[Value]):
         self._lock = Lock()  # a cancelled run may end while the next one has begun
 
     def __contains__(self, key: str) -> bool:
-        """Return whether something is kept for the key."""
         with self._lock:
             return key in self._values
 
     def get(self, key: str) -> Value | None:
-        """Return the value kept for the key, or None."""
         with self._lock:
             if key in self._values:
                 self._values.move_to_end(key)
@@ -48,7 +46,6 @@ class Memory(Generic[Value]):
                 self._values.popitem(last=False)
 
     def clear(self) -> None:
-        """Forget all."""
         with self._lock:
             self._values.clear()
 

@@ -87,38 +87,30 @@ def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
 
 
 class AskedOutside(Asked):
-    """What one run was asked for."""
-
     def __init__(self, task: Task) -> None:
         self.task, self._shown = task, task.before
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the object."""
         return (self.task.object_name,)
 
     @cached_property
     def size(self) -> int:
-        """Free vertices."""
         return int(np.count_nonzero(free_vertices(self.task.mesh)))
 
     def work(self, progress: Progress) -> Fairing:
-        """Find the surface."""
         return solve(self.task, progress)
 
     def is_as_read(self, context: bpy.types.Context) -> bool:
-        """Return whether the mesh is as it was read."""
         return self._is_at(context, self.task.before)
 
     def keep_shown(self, context: bpy.types.Context) -> None:
-        """Remember the mesh as it is now."""
         obj = active_object(context)
         if obj is not None and obj.name == self.task.object_name and obj.mode in MODES:
             with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
                 self._shown = painted.positions(shown.data)
 
     def is_as_shown(self, context: bpy.types.Context) -> bool:
-        """Return whether it still is."""
         return self._is_at(context, self._shown)
 
     def _is_at(self, context: bpy.types.Context, positions: Floats) -> bool:
@@ -131,7 +123,6 @@ class AskedOutside(Asked):
             return renumbered(positions, painted.positions(shown.data)) is not None
 
     def finish(self, context: bpy.types.Context, outcome: Fairing, say: Say) -> set[str]:
-        """Write and report what the run came to; return an operator's status."""
         task, obj = self.task, active_object(context)
         report = make_report([(task.object_name, outcome)], task.options, time.perf_counter() - self.begin)
         report = with_idle(report, task.options)

@@ -28,13 +28,11 @@ class Stroke:
     _at: tuple[float, float] | None = None  # the last place, in pixels of the region
 
     def begin_stroke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin where the pointer is."""
         self._go_to(context, event)
         hear_events(context, self)
         return {"RUNNING_MODAL"}
 
     def follow_stroke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Follow the pointer."""
         if event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}:
             self._go_to(context, event)
         elif event.type == "LEFTMOUSE" and event.value == "RELEASE":

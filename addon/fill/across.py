@@ -27,7 +27,6 @@ class Loose:
 
     @classmethod
     def of(cls, mesh: MeshArrays) -> Loose:
-        """Look for them once, however many holes there are."""
         used = np.zeros(len(mesh.edges), dtype=bool)
         used[mesh.corner_edges] = True
         at_faces = np.zeros(len(mesh.positions), dtype=bool)

@@ -130,13 +130,11 @@ class Local:
     drawn: Ints  # (w, 2) edges that are drawn across, likewise
 
     def numbers(self, vertices: Ints) -> Ints:
-        """Return mesh vertices in local numbers."""
         found: Ints = np.searchsorted(self.vertices, vertices)
         return found
 
     @property
     def origin(self) -> Origin:
-        """Where they are in the mesh."""
         return Origin(self.vertices, self.around, np.zeros(len(self.around), np.int64))
 
 

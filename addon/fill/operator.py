@@ -68,11 +68,9 @@ class Asked(AskedInEditMode):
         return float(new / self.options.spacing**2)
 
     def work(self, progress: Progress) -> list[Filled]:
-        """Find the surfaces."""
         return solve(self.tasks, self.options, progress)
 
     def finish(self, context: bpy.types.Context, outcomes: list[Filled], say: Say) -> set[str]:
-        """Make their faces."""
         named = list(zip(self.names, outcomes, strict=True))
         report = make_fill_report(named, self.options, time.perf_counter() - self.begin)
         last_run.forget()  # there are no faces to fair again, and no two states to compare

@@ -114,7 +114,6 @@ class Filled:
         return replace(self, left=(*left, *self.left))
 
     def for_half(self, whole: Whole) -> Filled:
-        """Return what was found for a whole, to be written to its half."""
         pieces = [replace(piece, verdict=whole.about_half(piece.verdict)) for piece in self.pieces]
         return replace(self, pieces=pieces, left=tuple(each.named(whole.own) for each in self.left), whole=whole)
 

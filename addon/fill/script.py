@@ -26,8 +26,6 @@ from .report import Added, is_written, refuse_unusable
 
 @dataclass(frozen=True)
 class Done:
-    """What was done to one mesh."""
-
     filled: Filled
     added: Added | None  # None: nothing was written
     notes: tuple[str, ...] = ()  # about borders that were left open

@@ -43,7 +43,6 @@ def call_later(function: Callable[[], float | None], seconds: float) -> None:
 
 
 def call_off(function: Callable[[], float | None]) -> None:
-    """Don't call it after all."""
     if bpy.app.timers.is_registered(function):
         bpy.app.timers.unregister(function)
 
@@ -69,7 +68,6 @@ def is_edited(depsgraph: bpy.types.Depsgraph) -> bool:
 
 
 def stop() -> None:
-    """Take all functions back."""
     for events, function in tuple(_listening):
         unlisten(events, function)
     while _clocked:

@@ -29,7 +29,6 @@ def show_following(context: bpy.types.Context, fraction: float) -> None:
 
 
 def hide_following(context: bpy.types.Context) -> None:
-    """Show it no more."""
     context.window_manager.fairing_progress.following = False
     redraw_sidebars(context)
 
@@ -74,7 +73,6 @@ def hide_progress(context: bpy.types.Context) -> None:
 
 
 def redraw_sidebars(context: bpy.types.Context) -> None:
-    """Ask for a redraw of every 3D view's sidebar."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
@@ -84,7 +82,6 @@ def redraw_sidebars(context: bpy.types.Context) -> None:
 
 
 def redraw_views(context: bpy.types.Context) -> None:
-    """Ask for a redraw of every 3D view, sidebars included."""
     for window in context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":

@@ -92,7 +92,6 @@ class Live:
         return answer
 
     def settle(self, obj: bpy.types.Object) -> bool:
-        """Search for the surface of a lost region, and write it once it is found; return whether the search goes on."""
         session = self._current(obj)
         if session is None or not session.lost or session.given_up:
             return False
@@ -233,12 +232,10 @@ def edited_objects() -> Iterator[bpy.types.Object]:
 
 
 def follow(obj: bpy.types.Object) -> bool:
-    """Follow one object; return whether its region was written."""
     return _told(live.follow, obj)
 
 
 def settle(obj: bpy.types.Object) -> bool:
-    """Search for one object's surface; return whether the search goes on."""
     return _told(live.settle, obj)
 
 
@@ -315,7 +312,6 @@ def switched(context: bpy.types.Context) -> None:
 
 
 def start() -> None:
-    """Follow changes from now on."""
     if live.on:
         return
     live.on = True
@@ -326,7 +322,6 @@ def start() -> None:
 
 
 def stop() -> None:
-    """Follow no more."""
     if live.on:
         unlisten(bpy.app.handlers.redo_post, _on_step)
         unlisten(bpy.app.handlers.undo_post, _on_step)

@@ -118,7 +118,6 @@ class LiveRegion:
 
     @property
     def vertices(self) -> Ints:
-        """Mesh indices of the vertices whose positions count, ascending."""
         return self._around.vertices
 
     @property
@@ -129,7 +128,6 @@ class LiveRegion:
 
     @property
     def outline(self) -> Ints:
-        """Mesh indices of the boundary's vertices."""
         patch = self._around.patch
         outline: Ints = self._around.vertices[patch.vertices[patch.outline]]
         return outline

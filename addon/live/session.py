@@ -39,7 +39,6 @@ class Session:
     key: str = ""  # the shape key that the region is in, as mesh_io.writable_key names it
 
     def is_at(self, positions: Floats, matrix: Floats) -> bool:
-        """Return whether everything is still there."""
         return np.array_equal(positions, self.positions) and np.array_equal(matrix, self.matrix)
 
     def moved(self, positions: Floats, matrix: Floats) -> bool:
@@ -144,7 +143,6 @@ class Search:
 
     @property
     def stopped(self) -> bool:
-        """Whether it was asked to end, here or with all other runs."""
         return self._run.cancelled
 
     def stop(self) -> None:

@@ -53,29 +53,23 @@ def solve(candidates: dict[str, Session], progress: Progress) -> list[Found]:
 
 @dataclass
 class AskedLive(Asked):
-    """What one run was asked for."""
-
     candidates: dict[str, Session]
     options: FairOptions
 
     @property
     def size(self) -> int:
-        """Free vertices."""
         return sum(len(session.region.free) for session in self.candidates.values())
 
     def work(self, progress: Progress) -> list[Found]:
-        """Find the first surfaces."""
         return solve(self.candidates, progress)
 
     def is_as_read(self, context: bpy.types.Context) -> bool:
-        """Return whether the meshes are as they were read."""
         objects = objects_in_mode(context)
         return context.mode == "EDIT_MESH" and all(
             name in objects and is_current(objects[name], session) for name, session in self.candidates.items()
         )
 
     def finish(self, context: bpy.types.Context, answers: list[Found], _say: Say) -> set[str]:
-        """Let Live have them."""
         objects = objects_in_mode(context)
         for (name, session), found in zip(self.candidates.items(), answers, strict=True):
             live.take(objects[name], session, self.options, found)

@@ -91,7 +91,6 @@ def has_region(mesh: bpy.types.Mesh) -> bool:
 
 
 def counts(mesh: bpy.types.Mesh) -> tuple[int, int, int]:
-    """Return the numbers of vertices, edges and faces of a mesh in edit mode."""
     bm = bmesh.from_edit_mesh(mesh)
     return len(bm.verts), len(bm.edges), len(bm.faces)
 

@@ -18,7 +18,6 @@ HALF = 0.5  # of the mask, from which on a vertex is masked
 
 
 def positions(mesh: bpy.types.Mesh) -> Floats:
-    """Return the positions (n, 3) of a mesh in object mode."""
     flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
     mesh.vertices.foreach_get("co", flat)
     return flat.reshape(-1, 3).astype(np.float64)
@@ -61,7 +60,6 @@ def masked_by(mesh: bpy.types.Mesh, weights: Floats) -> Iterator[None]:
 
 
 def face_set(mesh: bpy.types.Mesh, number: int) -> Ints:
-    """Return the faces of a face set."""
     sets = values(mesh, FACE_SET, np.int32)
     return np.empty(0, dtype=np.int64) if sets is None else np.flatnonzero(sets == number)
 
@@ -91,6 +89,5 @@ def group_faces(obj: bpy.types.Object, name: str) -> Ints:
 
 
 def live_faces(mesh: bpy.types.Mesh) -> Ints:
-    """Return the faces of the live region."""
     region = values(mesh, LAYER, np.int32)
     return np.empty(0, dtype=np.int64) if region is None else np.flatnonzero(region)

@@ -78,7 +78,6 @@ def select_new_faces(bm: Any, faces: list[Any]) -> None:
 
 
 def face_count(mesh: bpy.types.Mesh) -> int:
-    """Return the number of faces of a mesh in edit mode, at no cost."""
     return len(bmesh.from_edit_mesh(mesh).faces)
 
 
@@ -96,5 +95,4 @@ def places(mesh: bpy.types.Mesh, vertices: Ints) -> Floats | None:
 
 
 def count(mesh: bpy.types.Mesh) -> int:
-    """Return the number of vertices in whichever mode."""
     return len(bmesh.from_edit_mesh(mesh).verts) if mesh.is_editmode else len(mesh.vertices)

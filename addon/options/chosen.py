@@ -22,7 +22,6 @@ def last_chosen(context: bpy.types.Context) -> dict[str, Any]:
 
 
 def shown_value(option: Option, value: Any) -> str:
-    """Return a value as the panel shows it."""
     if isinstance(option.default, bool):
         return "on" if value else "off"
     if option.items:

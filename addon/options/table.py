@@ -66,7 +66,6 @@ class Option:
             raise ValueError(f"{self.name}: expected {least:g} … {most:g}, got {value!r}")
 
     def is_set(self, options: Any) -> bool:
-        """Return whether it is not the default."""
         value = getattr(options, self.name)
         if isinstance(self.default, float):
             return not isclose(value, self.default, rel_tol=SINGLE)
@@ -85,7 +84,6 @@ _tables: dict[type, Table] = {}
 
 
 def table(of: type[Chosen]) -> Table:
-    """Return the options of a class, in its order."""
     if of not in _tables:
         _tables[of] = tuple(replace(each.metadata["option"], name=each.name) for each in fields(of))
     return _tables[of]
@@ -117,7 +115,6 @@ class Chosen:
 
     @classmethod
     def named(cls, given: dict[str, Any]) -> Self:
-        """Take a caller's keyword arguments; raises TypeError for an option that does not exist."""
         _refuse_unknown([each.name for each in table(cls)], given)
         return cls(**given)
 
@@ -144,7 +141,6 @@ def differing(of: type[Chosen], options: Any) -> dict[str, Any]:
 
 
 def named(of: type[Chosen], name: str) -> Option | None:
-    """Return the option of this name."""
     return next((each for each in table(of) if each.name == name), None)
 
 

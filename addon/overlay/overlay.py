@@ -43,7 +43,6 @@ class Overlay:
         self._batches: list[Any] = []
 
     def measure(self, context: bpy.types.Context) -> None:
-        """Measure what the settings ask for."""
         whole = context.mode != "EDIT_MESH" or context.window_manager.fairing_overlay.scope == "OBJECT"
         self.clear()
         self.surfaces = tuple(s for obj in _shown(context) if (s := self._surface(obj, whole)) is not None)
@@ -80,7 +79,6 @@ class Overlay:
                 legend.draw_boundary(context, surface.boundary)
 
     def clear(self) -> None:
-        """Drop everything measured."""
         self.surfaces, self._batches, self.message = (), [], ""
 
     @property
@@ -151,7 +149,6 @@ def _draw_legend() -> None:
 
 
 def settings_changed(context: bpy.types.Context) -> None:
-    """Start or stop drawing, as the settings say."""
     if context.window_manager.fairing_overlay.show:
         overlay.measure(context)
         start()
@@ -161,7 +158,6 @@ def settings_changed(context: bpy.types.Context) -> None:
 
 
 def start() -> None:
-    """Draw from now on, and follow changes."""
     if overlay.handle is None:
         add = bpy.types.SpaceView3D.draw_handler_add
         overlay.handle = add(_draw, (), "WINDOW", "POST_VIEW")
@@ -170,7 +166,6 @@ def start() -> None:
 
 
 def stop() -> None:
-    """Draw no more."""
     if overlay.handle is not None:
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
         for handle in (overlay.handle, overlay.legend):
@@ -193,7 +188,6 @@ def _measure_later() -> None:
 
 
 def refresh() -> None:
-    """Measure what the settings ask for in another file."""
     if bpy.context.window_manager.fairing_overlay.show:
         overlay.measure(bpy.context)
 

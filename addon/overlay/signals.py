@@ -13,17 +13,14 @@ listeners: dict[str, Callable[[Any], None]] = {}
 
 
 def content_changed(_settings: object, context: Any) -> None:
-    """Something else is to be shown."""
     _tell("content", context)
 
 
 def look_changed(_settings: object, context: Any) -> None:
-    """The same is to be shown differently."""
     _tell("look", context)
 
 
 def live_changed(_settings: object, context: Any) -> None:
-    """Live was turned on or off."""
     _tell("live", context)
 
 

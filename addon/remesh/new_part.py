@@ -38,7 +38,6 @@ class Stencil:
 
 
 def no_pairs() -> Ints:
-    """Return none."""
     return np.empty((0, 2), dtype=np.int64)
 
 

@@ -44,7 +44,6 @@ class Remeshed(Fairing):
     whole: Whole | None = None  # the mesh with its image, whose numbers these are but for the verdict's
 
     def for_half(self, whole: Whole) -> Remeshed:
-        """Return what was found for a whole, to be written to its half."""
         return replace(self, whole=whole, verdict=whole.about_half(self.verdict))
 
     def faces(self, kinds: Ints) -> Faces:

@@ -78,19 +78,15 @@ class AskedInEditMode(Asked):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the objects."""
         return tuple(task.object_name for task in self.tasks)
 
     def is_as_read(self, context: bpy.types.Context) -> bool:
-        """Return whether the meshes are as they were read."""
         return job.is_current(context, self.tasks)
 
     def keep_shown(self, context: bpy.types.Context) -> None:
-        """Remember the meshes as they are now."""
         self._shown = job.as_they_are(context, self.tasks)
 
     def is_as_shown(self, context: bpy.types.Context) -> bool:
-        """Return whether they still are."""
         return len(self._shown) > 0 and job.is_current(context, self._shown)
 
     def swap(self, context: bpy.types.Context) -> bool:

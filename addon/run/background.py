@@ -33,7 +33,6 @@ _POINTER_EVENTS = {"LEFTMOUSE", "MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}  # to the bu
 
 
 def has_events(context: bpy.types.Context) -> bool:
-    """Return whether there is a window whose events could watch a run."""
     return not bpy.app.background and context.window is not None
 
 
@@ -64,7 +63,6 @@ class Signs:
         under_way.append(self)
 
     def show_preview(self) -> None:
-        """Show what the run has given to be shown meanwhile."""
         if self.preview is not None:
             self.preview.show()
 

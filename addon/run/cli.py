@@ -37,7 +37,6 @@ def _mesh_object(name: str) -> bpy.types.Object:
 
 
 def _members(obj: bpy.types.Object, group: str) -> Mask:
-    """Return for each vertex whether it is in the vertex group."""
     if group not in obj.vertex_groups:
         raise ValueError(f"--vertex-group: {obj.name} has no vertex group named {group!r}")
     return group_weights(obj.data, obj.vertex_groups[group].index) > 0.0

@@ -35,8 +35,6 @@ class Pair:
 
 
 class _Last:
-    """The pairs of the last run."""
-
     def __init__(self) -> None:
         self.pairs: tuple[Pair, ...] = ()
 
@@ -87,12 +85,10 @@ def positions_before(object_name: str, positions: Floats) -> Floats | None:
 
 
 def forget() -> None:
-    """Drop what was kept."""
     _last.pairs = ()
 
 
 def is_available() -> bool:
-    """Return whether there was a run."""
     return bool(_last.pairs)
 
 

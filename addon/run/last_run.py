@@ -70,7 +70,6 @@ def renumber(written: list[Written | None]) -> None:
 
 
 def forget() -> None:
-    """Drop what was kept."""
     _last.regions = _last.seen = ()
     _last.way = ""
 
@@ -97,12 +96,10 @@ def regions() -> tuple[Region, ...]:
 
 
 def has_regions() -> bool:
-    """Return whether there was a run."""
     return bool(_last.regions)
 
 
 def options() -> FairOptions:
-    """Return what it was asked for."""
     return _last.options
 
 
@@ -112,7 +109,6 @@ def rings() -> int:
 
 
 def has_spots() -> bool:
-    """Return whether there is anything to look at."""
     return any(len(region.spots) for region in _last.regions)
 
 

@@ -25,10 +25,7 @@ class _Shown:
 
 
 class Preview:
-    """Of one run."""
-
     def __init__(self, tasks: list[Task]) -> None:
-        """Nothing is given yet."""
         self._tasks = {task.object_name: task for task in tasks}
         self._given: list[tuple[str, Ints, Floats]] = []
         self._shown: list[_Shown] = []

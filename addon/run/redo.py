@@ -62,7 +62,6 @@ class Following:
         self.run = runner.Run(self.change.work)
 
     def show(self, context: bpy.types.Context) -> None:
-        """Show how far it is."""
         show_following(context, 0.0 if self.run is None else self.run.fraction)
 
     def end(self, reason: str = GIVEN_UP) -> None:

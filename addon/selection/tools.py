@@ -131,5 +131,4 @@ class MESH_OT_fair_select(bpy.types.Operator):
 
 
 def draw_select(layout: Any, what: str, **shown: Any) -> None:
-    """Draw the button for one of these."""
     layout.operator(MESH_OT_fair_select.bl_idname, **{"text": NAMES[what], **shown}).what = what

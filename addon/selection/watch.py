@@ -30,13 +30,11 @@ class Watch:
         self.changed_at = 0.0  # by time.monotonic
 
     def look(self, context: bpy.types.Context) -> None:
-        """Inspect every object in edit mode now."""
         options = last_options(context)
         self.found = tuple(inspect(obj, options) for obj in edited_objects(context))
         self.stale = False
 
     def forget(self) -> None:
-        """Start afresh."""
         self.found, self.stale = (), True
 
 

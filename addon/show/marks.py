@@ -23,8 +23,6 @@ Mark = tuple[Floats, tuple[float, float, float, float]]
 
 
 class _Marks:
-    """The handles that Blender gives for drawing."""
-
     def __init__(self) -> None:
         self.handles: list[Any] = []
 

@@ -57,7 +57,6 @@ def draw_context_menu(menu: Any, context: bpy.types.Context) -> None:
 
 
 def draw_object_menu(menu: Any, context: bpy.types.Context) -> None:
-    """Add to the menu Object what needs no edit mode."""
     if context.active_object is not None and context.active_object.type == "MESH":
         menu.layout.separator()
         menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Vertex Group").source = "VERTEX_GROUP"
@@ -65,13 +64,11 @@ def draw_object_menu(menu: Any, context: bpy.types.Context) -> None:
 
 
 def draw_mask_menu(menu: Any, _context: bpy.types.Context) -> None:
-    """Add Fair Masked to the menu Mask of sculpt mode."""
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_masked.bl_idname).source = "MASK"
 
 
 def draw_face_set_menu(menu: Any, _context: bpy.types.Context) -> None:
-    """Add the same for a face set to the menu Face Sets."""
     menu.layout.separator()
     menu.layout.operator(MESH_OT_fair_masked.bl_idname, text="Fair Face Set").source = "FACE_SET"
 

@@ -53,8 +53,6 @@ class _Tool:
 
 
 class FairLassoTool(_Tool, bpy.types.WorkSpaceTool):
-    """Draws around faces."""
-
     bl_context_mode = "EDIT_MESH"
     bl_idname = "intrinsic_fairing.lasso"
     bl_label = "Fair Lasso"
@@ -67,8 +65,6 @@ class FairLassoTool(_Tool, bpy.types.WorkSpaceTool):
 
 
 class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
-    """Paints over faces."""
-
     bl_context_mode = "EDIT_MESH"
     bl_idname = "intrinsic_fairing.paint"
     bl_label = "Fair Paint"
@@ -86,8 +82,6 @@ class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
 
 
 class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
-    """Drags a fillet out of an edge."""
-
     bl_context_mode = "EDIT_MESH"
     bl_idname = "intrinsic_fairing.fillet"
     bl_label = "Fair Fillet"
@@ -108,8 +102,6 @@ class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
 
 
 class FairBrushTool(_Tool, bpy.types.WorkSpaceTool):
-    """Paints over faces in sculpt mode."""
-
     bl_context_mode = "SCULPT"
     bl_idname = "intrinsic_fairing.brush"
     bl_label = "Fair Brush"
@@ -146,15 +138,11 @@ class _FaceSetTool(_Tool):
 
 
 class FairFaceSetSculptTool(_FaceSetTool, bpy.types.WorkSpaceTool):
-    """Clicks face sets in sculpt mode."""
-
     bl_context_mode = "SCULPT"
     bl_idname = "intrinsic_fairing.face_set"
 
 
 class FairFaceSetObjectTool(_FaceSetTool, bpy.types.WorkSpaceTool):
-    """Clicks face sets in object mode."""
-
     bl_context_mode = "OBJECT"
     bl_idname = "intrinsic_fairing.face_set"
 

@@ -37,7 +37,6 @@ def with_idle(report: Report, options: FairOptions) -> Report:
 
 
 def idle_in(report: Report) -> tuple[str, ...]:
-    """Return what with_idle added."""
     return tuple(check.value for check in report.checks if check.name == IDLE)
 
 

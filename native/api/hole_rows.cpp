@@ -81,6 +81,12 @@ SolvedHole cut_from(const SolvedHole& solved, const HolePatch& patch, const Indi
     }
     made.report.mean_curvature = std::move(curvature);
     made.report.polished = false;
+    for (Diagnostic& warning : made.report.warnings) {  // about the mesh that was solved, whose new vertices are gone
+        if (warning.kind != ElementKind::vertex) continue;
+        const auto is_gone = [&](int v) { return v >= old; };
+        warning.elements.erase(std::remove_if(warning.elements.begin(), warning.elements.end(), is_gone),
+                               warning.elements.end());
+    }
     return made;
 }
 
