@@ -29,7 +29,7 @@ from ..options.options import FairOptions
 from ..overlay import signals
 from ..run.runner import is_free
 from ..words.words import said
-from .region_search import Found
+from .region import Found
 from .session import Search, Session, check_key, fits, is_of, read, session_of, where
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3

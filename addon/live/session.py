@@ -13,8 +13,7 @@ from ..mesh import live_mesh, mesh_io
 from ..options.options import FairOptions
 from ..run.runner import Run
 from ..words.words import said
-from .region import LiveRegion
-from .region_search import Found, sought
+from .region import Found, LiveRegion, sought
 
 BLINK = 0.02  # seconds that a step of a drag waits for a search to stop
 

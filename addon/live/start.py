@@ -20,7 +20,7 @@ from ..run.job import Refused, objects_in_mode, refusing
 from ..selection.inspection import last_options
 from ..translations import translated
 from .live import live
-from .region_search import Found, first
+from .region import Found, first
 from .session import Session, candidate, is_current
 
 

@@ -111,9 +111,7 @@ def check_new_faces(obj: bpy.types.Object | None) -> None:
 
 def edit_positions(mesh: bpy.types.Mesh) -> Floats:
     """Return the (n, 3) positions of a mesh in edit mode."""
-    with snapshot(mesh) as now:
-        positions: Floats = column(now.vertices, "co", 3, np.float32).astype(np.float64)
-        return positions
+    return shape_of(mesh).positions
 
 
 @dataclass(frozen=True)
@@ -137,13 +135,9 @@ def shape_of(mesh: bpy.types.Mesh) -> Shape:
 
 def is_unchanged(mesh: bpy.types.Mesh, before: Shape | MeshArrays) -> bool:
     """Return whether a mesh in edit mode still has the positions and corners that it had."""
-    with snapshot(mesh) as now:
-        if len(now.vertices) != len(before.positions) or len(now.loops) != len(before.corner_vertices):
-            return False
-        positions = column(now.vertices, "co", 3, np.float32)
-        corners = stored(now, ".corner_vert", (now.loops, "vertex_index"))
-        same = np.array_equal(positions, before.positions, equal_nan=True) and len(now.edges) == len(before.edges)
-        return bool(same and np.array_equal(corners, before.corner_vertices))
+    now = shape_of(mesh)
+    same = np.array_equal(now.positions, before.positions, equal_nan=True) and len(now.edges) == len(before.edges)
+    return bool(same and np.array_equal(now.corner_vertices, before.corner_vertices))
 
 
 def read_mesh(mesh: bpy.types.Mesh, faces: Ints, options: FairOptions) -> MeshArrays:

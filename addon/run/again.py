@@ -27,54 +27,44 @@ from ..verdict.verdict import (
 from ..words.words import said
 from . import compare, last_run
 
-# What each button changes in the options.
-CHANGES: dict[str, dict[str, Any]] = {
-    ALL_KEYS: {"all_keys": True},
-    KEEP_DETAIL: {"detail": 1.0},
-    ADD_LEFT_OUT: {},
-    GROW: {},
-    GROW_OVER: {},
-    SMOOTH_OUTLINE: {"smooth_boundary": True},
-    AS_SELECTED: {"smooth_boundary": False},
-    HOLD_BORDER: {"fair_open_borders": False},
-    EVEN_CURVATURE: {"shape": "LEAST_VARIATION"},
-    EVEN_SPREAD: {"inner_fairness": "UNIFORM"},
-    WRITE: {"allow_folds": True},
-}
-_WAYS = (
-    (ALL_KEYS, "All Keys", "Fair every shape key as well, each from its own surroundings"),
-    (KEEP_DETAIL, "Keep Detail", "Fair again, and put the old skin back on the new shape"),
-    (ADD_LEFT_OUT, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
-    (GROW, "Grow by a Ring", "Select one ring of faces more and fair again"),
-    (GROW_OVER, "Grow Past Bump", "Select as many rings of faces more as the slope is wide, and fair again"),
-    (SMOOTH_OUTLINE, "Smooth Boundary", "Smooth the boundary and the two rings around it, and fair again"),
-    (AS_SELECTED, "Boundary As Selected", "Leave the boundary and what is around it where it is, and fair again"),
-    (HOLD_BORDER, "Hold Open Border", "Leave open borders where they are, and fair again"),
-    (EVEN_CURVATURE, "Least Variation", "Fair again with the shape Least Variation, which exists more often"),
-    (EVEN_SPREAD, "Spread Uniformly", "Fair again with edges of equal length, whatever the old mesh was like"),
-    (WRITE, "Apply Anyway", "Write the result as it is, folds and all"),
-)
-# What helps most where several are offered.
-_ORDER = (
-    ALL_KEYS,
-    ADD_LEFT_OUT,
-    GROW_OVER,
-    KEEP_DETAIL,
-    AS_SELECTED,
-    HOLD_BORDER,
-    EVEN_SPREAD,
-    EVEN_CURVATURE,
-    GROW,
-    SMOOTH_OUTLINE,
-    WRITE,
-)
-WAY_NAMES = {identifier: name for identifier, name, _ in _WAYS}
+# Each button, what helps most first: what it changes in the options, its name and its tooltip.
+_WAYS: dict[str, tuple[dict[str, Any], str, str]] = {
+    ALL_KEYS: ({"all_keys": True}, "All Keys", "Fair every shape key as well, each from its own surroundings"),
+    ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
+    GROW_OVER: ({}, "Grow Past Bump", "Select as many rings of faces more as the slope is wide, and fair again"),
+    KEEP_DETAIL: ({"detail": 1.0}, "Keep Detail", "Fair again, and put the old skin back on the new shape"),
+    AS_SELECTED: (
+        {"smooth_boundary": False},
+        "Boundary As Selected",
+        "Leave the boundary and what is around it where it is, and fair again",
+    ),
+    HOLD_BORDER: (
+        {"fair_open_borders": False}, "Hold Open Border", "Leave open borders where they are, and fair again"
+    ),
+    EVEN_SPREAD: (
+        {"inner_fairness": "UNIFORM"},
+        "Spread Uniformly",
+        "Fair again with edges of equal length, whatever the old mesh was like",
+    ),
+    EVEN_CURVATURE: (
+        {"shape": "LEAST_VARIATION"},
+        "Least Variation",
+        "Fair again with the shape Least Variation, which exists more often",
+    ),
+    GROW: ({}, "Grow by a Ring", "Select one ring of faces more and fair again"),
+    SMOOTH_OUTLINE: (
+        {"smooth_boundary": True}, "Smooth Boundary", "Smooth the boundary and the two rings around it, and fair again"
+    ),
+    WRITE: ({"allow_folds": True}, "Apply Anyway", "Write the result as it is, folds and all"),
+}  # fmt: skip
+_ITEMS = tuple((way, name, text) for way, (_, name, text) in _WAYS.items())
+WAY_NAMES = {way: name for way, name, _ in _ITEMS}
 
 
 def best_first(remedies: str) -> list[str]:
     """Return the ways that a report names, what helps most first."""
-    known = {way: k for k, way in enumerate(_ORDER)}
-    return sorted(filter(None, remedies.split(",")), key=lambda way: known.get(way, -1))
+    known = list(_WAYS)
+    return sorted(filter(None, remedies.split(",")), key=lambda way: known.index(way) if way in known else -1)
 
 
 class MESH_OT_fair_again(bpy.types.Operator):
@@ -84,11 +74,11 @@ class MESH_OT_fair_again(bpy.types.Operator):
     bl_label = "Fair Again"
     # No UNDO of its own: the run that it starts has one, and the redo panel.
 
-    way: EnumProperty(name="Change", description="What is changed in the options", items=_WAYS, default=GROW)
+    way: EnumProperty(name="Change", description="What is changed in the options", items=_ITEMS, default=GROW)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:
-        return next(text for identifier, _, text in _WAYS if identifier == properties.way)
+        return _WAYS[properties.way][2]
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -96,7 +86,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select what the last run had, change one thing, run; what is no better than before isn't written."""
-        options = replace(last_run.options(), **{"allow_folds": False, **CHANGES[self.way]})
+        options = replace(last_run.options(), **{"allow_folds": False, **_WAYS[self.way][0]})
         status, goes_back = {"CANCELLED"}, False
         try:
             goes_back = self.way == KEEP_DETAIL and compare.is_shown(context)  # the skin is gone from the result

@@ -32,7 +32,7 @@ from ..words.words import said
 
 Answer = TypeVar("Answer")
 Done = TypeVar("Done")
-Each = TypeVar("Each", bound="Named")
+Each = TypeVar("Each", bound="AsRead")
 
 memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
 solvers: Memory[RepeatedSolve | None] = Memory(2)  # likewise; larger, as they hold factorisations
@@ -151,14 +151,6 @@ def solve(
     return each_of(tasks, solve_one, progress)
 
 
-class Named(Protocol):
-    """What is to be done for one object."""
-
-    @property
-    def object_name(self) -> str:
-        """Its name."""
-
-
 def each_of(
     tasks: Sequence[Each], solve_one: Callable[[Each, Progress | None], Answer], progress: Progress
 ) -> list[Answer]:
@@ -195,8 +187,12 @@ def show_vertices(context: bpy.types.Context, name: str, vertices: Ints) -> None
         selecting.select_vertices(objects_in_mode(context)[name].data, vertices)
 
 
-class AsRead(Named, Protocol):
+class AsRead(Protocol):
     """An object as it was read."""
+
+    @property
+    def object_name(self) -> str:
+        """Its name."""
 
     @property
     def mesh(self) -> mesh_io.Shape | MeshArrays:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from addon.live.region_search import first, sought
+from addon.live.region import first, sought
 
 import fairing
 

@@ -214,7 +214,7 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     meshes.enter(obj, faces)
     options = module("options.options").FairOptions(bulge=0.4)
     session = module("live.session").candidate(obj, options)
-    first = module("live.region_search").first(session.region, session.positions, session.matrix, lambda *_: True)
+    first = module("live.region").first(session.region, session.positions, session.matrix, lambda *_: True)
     live.take(obj, session, options, first)
     switch(True)
     height = now()[:, 2].max()
