@@ -9,11 +9,11 @@ from typing import Any
 
 import bpy
 
-from .fair.held_curves import hard_edges
+from .fair.memory import memory
 from .host.handlers import listen, unlisten
 from .live.live import live
 from .overlay import overlay
-from .run import background, compare, job, last_run
+from .run import background, compare, last_run
 from .selection.watch import watch
 from .verdict import properties as report_properties
 
@@ -26,9 +26,7 @@ def forget() -> None:
     overlay.overlay.clear()
     compare.forget()
     last_run.forget()
-    job.memory.clear()
-    job.solvers.clear()
-    hard_edges.clear()
+    memory.clear()
     report_properties.clear(bpy.context.window_manager.fairing_report)
 
 

@@ -13,7 +13,7 @@ from ..arrays.outline import edges_inside
 from ..arrays.region import MeshArrays, free_vertices, nothing
 from ..arrays.types import Floats, Ints, Mask
 from ..options.options import FairOptions
-from .memory import Memory, digest
+from .memory import EDGES, digest, memory
 
 ALONG = 5  # edges beyond the outline that tell where a hard edge goes
 _COMPARED = 3  # rings around an edge that tell what the mesh bends there anyway
@@ -66,16 +66,13 @@ def none(mesh: MeshArrays) -> Mask:
     return np.zeros(len(mesh.edges), dtype=bool)
 
 
-hard_edges: Memory[Mask] = Memory(4)  # every change in the redo panel reads the same meshes again
-
-
 def _known_by_angle(mesh: MeshArrays) -> Mask:
     """Return what `_hard_by_angle` does, at once for a mesh that was asked about just before."""
     key = digest(mesh.positions, mesh.edges, mesh.triangles, mesh.triangle_faces, mesh.in_patch)
-    known = hard_edges.get(key)
+    known: Mask | None = memory.get(EDGES, key)  # every change in the redo panel reads the same meshes again
     if known is None:
         known = _hard_by_angle(mesh)
-        hard_edges.put(key, known)
+        memory.put(EDGES, key, known)
     return known
 
 

@@ -1,4 +1,4 @@
-"""The last few results by their input, so that the redo panel's factor answers at once."""
+"""What was found for the meshes read lately, so that the redo panel answers at once. One for the whole add-on."""
 
 from __future__ import annotations
 
@@ -7,47 +7,55 @@ from collections import OrderedDict
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from threading import Lock
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import numpy as np
 
-Value = TypeVar("Value")
+# How many of each kind are kept: enough for the objects of one redo panel. Solvers hold factorisations.
+ANSWER, SOLVER, EDGES = "answer", "solver", "hard edges"
+MOST = {ANSWER: 4, SOLVER: 2, EDGES: 4}
 
 
-class Memory(Generic[Value]):
-    """Keeps the `size` values used last."""
+class Memory:
+    """Keeps the values of each kind that were used last, by the digest of what they were found for."""
 
-    def __init__(self, size: int) -> None:
-        self._size = size
-        self._values: OrderedDict[str, Value] = OrderedDict()
+    def __init__(self, most: Mapping[str, int]) -> None:
+        self._most = most
+        self._values: dict[str, OrderedDict[str, Any]] = {kind: OrderedDict() for kind in most}
         self._lock = Lock()  # a cancelled run may end while the next one has begun
 
-    def __contains__(self, key: str) -> bool:
+    def has(self, kind: str, key: str) -> bool:
         with self._lock:
-            return key in self._values
+            return key in self._values[kind]
 
-    def get(self, key: str) -> Value | None:
+    def get(self, kind: str, key: str) -> Any:
+        """Return the value kept for the key, or None."""
         with self._lock:
-            if key in self._values:
-                self._values.move_to_end(key)
-            return self._values.get(key)
+            if key in self._values[kind]:
+                self._values[kind].move_to_end(key)
+            return self._values[kind].get(key)
 
-    def take(self, key: str) -> Value | None:
+    def take(self, kind: str, key: str) -> Any:
         """Return the value kept for the key and keep it no longer: it can't be used twice at a time."""
         with self._lock:
-            return self._values.pop(key, None)
+            return self._values[kind].pop(key, None)
 
-    def put(self, key: str, value: Value) -> None:
-        """Keep a value, and forget the one that was not used for longest."""
+    def put(self, kind: str, key: str, value: Any) -> None:
+        """Keep a value, and forget the one of its kind that was not used for longest."""
         with self._lock:
-            self._values[key] = value
-            self._values.move_to_end(key)
-            while len(self._values) > self._size:
-                self._values.popitem(last=False)
+            values = self._values[kind]
+            values[key] = value
+            values.move_to_end(key)
+            while len(values) > self._most[kind]:
+                values.popitem(last=False)
 
     def clear(self) -> None:
         with self._lock:
-            self._values.clear()
+            for values in self._values.values():
+                values.clear()
+
+
+memory = Memory(MOST)
 
 
 def digest(*inputs: Any) -> str:

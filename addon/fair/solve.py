@@ -25,7 +25,7 @@ from .engine import Progress
 from .feather import band_weights
 from .held_curves import faired_curves
 from .local_pins import pulled, without_lone_pins
-from .memory import Memory, digest
+from .memory import ANSWER, SOLVER, Memory, digest
 
 NO_ANSWER = ("FOLDED", "NOT_CONVERGED")  # codes that are reasons of a verdict
 NO_ACTION = ("SHARP_BOUNDARY",)  # codes that leave nothing to do to whom they are said
@@ -45,8 +45,9 @@ class Solved:
 class Kept:
     """What the redo panel answers from."""
 
-    results: Memory[Solved]  # where nothing but factor and detail changed since a former call
-    solvers: Memory[engine.RepeatedSolve | None]  # where only options changed; None: a mesh that was solved once
+    # Answers where nothing but factor and detail changed since a former call, solvers where only options did; a solver
+    # of None: a mesh that was solved once.
+    memory: Memory
     ahead: bool = False  # make a solver at the first call already, whose start for the next one takes a while
     # Is given the problem and the (p, 3) vertices of its first surface.
     preview: Callable[[engine.Problem, Floats], object] | None = None
@@ -76,13 +77,13 @@ def solve(
     # Of two results for the same input the bits are the same, so that a former one is as good.
     place = digest(mesh, matrix) if kept is not None else ""
     key = digest(place, replace(options, factor=1.0, allow_folds=True))
-    solved = kept.results.get(key) if kept is not None else None
+    solved: Solved | None = kept.memory.get(ANSWER, key) if kept is not None else None
     if solved is None:
         problem, warnings = pose(mesh, matrix, options)
         if kept is not None:
             result = _solve_again(digest(place, problem.patch), problem, options, progress, kept)
             solved = _solved(problem, result, warnings)
-            kept.results.put(key, solved)
+            kept.memory.put(ANSWER, key, solved)
         else:
             solved = _solved(problem, engine.solve(problem, options, progress), warnings)
     return _with_detail(solved, share)
@@ -144,17 +145,17 @@ def _solve_again(
     preview = partial(kept.preview, problem) if kept.preview is not None else None
     if options.reads_surroundings:
         return engine.solve(problem, options, progress, preview)
-    was_here = key in kept.solvers
-    solver = kept.solvers.take(key)
+    was_here = kept.memory.has(SOLVER, key)
+    solver = kept.memory.take(SOLVER, key)
     if not was_here and not kept.ahead:
-        kept.solvers.put(key, None)
+        kept.memory.put(SOLVER, key, None)
         return engine.solve(problem, options, progress, preview)
     solver = solver or engine.RepeatedSolve(problem.patch, options)
     try:
         solver.change(options)
         return solver(problem, progress, preview)
     finally:
-        kept.solvers.put(key, solver)  # errors leave it usable
+        kept.memory.put(SOLVER, key, solver)  # errors leave it usable
 
 
 def _solved(problem: engine.Problem, result: fairing.FairResult, warnings: tuple[str, ...]) -> Solved:

@@ -16,10 +16,10 @@ import numpy as np
 
 from ..arrays.region import MeshArrays, free_vertices, to_local
 from ..arrays.types import Floats, Ints, Mask
-from ..fair.engine import REFUSALS, Problem, Progress, RepeatedSolve, sub_range
+from ..fair.engine import REFUSALS, Problem, Progress, sub_range
 from ..fair.fair_keys import fair_all_keys
-from ..fair.memory import Memory
-from ..fair.solve import Kept, Solved
+from ..fair.memory import memory
+from ..fair.solve import Kept
 from ..host.context import edited_objects
 from ..mesh import all_keys, mesh_io, remeshed, selecting
 from ..mesh.target import restored
@@ -33,9 +33,6 @@ from ..words.words import said
 Answer = TypeVar("Answer")
 Done = TypeVar("Done")
 Each = TypeVar("Each", bound="AsRead")
-
-memory: Memory[Solved] = Memory(4)  # enough for the objects of one redo panel; forgotten at unregistering
-solvers: Memory[RepeatedSolve | None] = Memory(2)  # likewise; larger, as they hold factorisations
 
 
 class Refused(Exception):
@@ -145,7 +142,7 @@ def solve(
     """
 
     def solve_one(task: Task, part: Progress | None) -> Fairing:
-        kept = Kept(memory, solvers, ahead, _preview(task, options, give))
+        kept = Kept(memory, ahead, _preview(task, options, give))
         return fair_all_keys(task.mesh, task.matrix, options, part, kept)
 
     return each_of(tasks, solve_one, progress)

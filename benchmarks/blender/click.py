@@ -102,7 +102,6 @@ def noise(obj: bpy.types.Object, points: meshes.Floats) -> meshes.Floats:
 def forget() -> None:
     """Leave nothing to answer from."""
     module("run.job").memory.clear()
-    module("run.job").solvers.clear()
 
 
 def at_once() -> None:

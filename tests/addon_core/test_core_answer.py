@@ -9,9 +9,8 @@ import pytest
 from addon.arrays.region import MeshArrays, Patch
 from addon.arrays.types import Floats, Ints
 from addon.fair import engine
-from addon.fair.engine import RepeatedSolve
-from addon.fair.memory import Memory
-from addon.fair.solve import Kept, Solved, pose, solve
+from addon.fair.memory import MOST, Memory
+from addon.fair.solve import Kept, pose, solve
 from addon.options.options import FairOptions
 from addon.verdict import quality
 from addon.verdict.outcome import Fairing, outcome
@@ -78,9 +77,7 @@ def test_a_symmetric_mesh_gets_a_symmetric_answer() -> None:
 
 
 def counting_kept(ahead: bool = False) -> Kept:
-    results: Memory[Solved] = Memory(2)
-    solvers: Memory[RepeatedSolve | None] = Memory(2)
-    return Kept(results, solvers, ahead)
+    return Kept(Memory(MOST), ahead)
 
 
 def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.MonkeyPatch) -> None:

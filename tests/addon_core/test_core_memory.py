@@ -10,25 +10,28 @@ from addon.fair.memory import Memory, digest
 from addon.options.options import FairOptions
 
 
-def test_memory_keeps_what_was_used_last() -> None:
-    memory: Memory[int] = Memory(2)
-    memory.put("a", 1)
-    memory.put("b", 2)
-    assert memory.get("a") == 1  # now "b" is the one not used for longest
-    memory.put("c", 3)
-    assert [memory.get(key) for key in "abc"] == [1, None, 3]
+def test_memory_keeps_what_was_used_last_of_each_kind() -> None:
+    memory = Memory({"few": 2, "others": 2})
+    memory.put("others", "a", 0)
+    memory.put("few", "a", 1)
+    memory.put("few", "b", 2)
+    assert memory.get("few", "a") == 1  # now "b" is the one not used for longest
+    memory.put("few", "c", 3)
+    assert [memory.get("few", key) for key in "abc"] == [1, None, 3]
+    assert memory.get("others", "a") == 0
     memory.clear()
-    assert memory.get("a") is None
+    assert memory.get("few", "a") is None
+    assert not memory.has("others", "a")
 
 
 def test_what_is_taken_is_gone() -> None:
-    memory: Memory[int | None] = Memory(2)
-    memory.put("a", 1)
-    assert memory.take("a") == 1
-    assert memory.take("a") is None
-    assert "a" not in memory
-    memory.put("a", None)  # nothing is something to remember
-    assert "a" in memory
+    memory = Memory({"one": 2})
+    memory.put("one", "a", 1)
+    assert memory.take("one", "a") == 1
+    assert memory.take("one", "a") is None
+    assert not memory.has("one", "a")
+    memory.put("one", "a", None)  # nothing is something to remember
+    assert memory.has("one", "a")
 
 
 def test_digest_tells_inputs_apart() -> None:

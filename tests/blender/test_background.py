@@ -93,10 +93,8 @@ def test_redo_with_other_options_starts_from_the_last_answer(monkeypatch: pytest
         {},
     ):
         job.memory.clear()
-        job.solvers.clear()
         (scratch,) = job.solve(tasks, options(**changed), silent)
         job.memory.clear()
-        job.solvers.clear()
         job.solve(tasks, options(), silent, ahead=True)
         job.memory.clear()
         stages: set[str] = set()
@@ -106,4 +104,3 @@ def test_redo_with_other_options_starts_from_the_last_answer(monkeypatch: pytest
         if not changed:
             assert "globalisation" not in stages
     job.memory.clear()
-    job.solvers.clear()

@@ -19,10 +19,8 @@ __all__ = ["go_on"]  # a fixture
 
 def kept() -> dict[str, bool]:
     """Tell what is kept of the last run."""
-    job = module("run.job")
     return {
-        "results": len(job.memory._values) > 0,
-        "solvers": len(job.solvers._values) > 0,
+        **{kind: len(values) > 0 for kind, values in module("run.job").memory._values.items()},
         "pairs": module("run.compare").is_available(),
         "regions": module("run.last_run").has_regions(),
         "report": bool(meshes.report().free_vertices),

@@ -92,7 +92,6 @@ def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None
 
     job = module("run.job")
     job.memory.clear()  # another test may have faired this very mesh: that answer needs no engine
-    job.solvers.clear()
     monkeypatch.setattr(module("fair.engine").fairing, "fair", refuse)
     obj, faces = meshes.domed_grid()
     before = meshes.in_edit_mode_once(obj, faces)
