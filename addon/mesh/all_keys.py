@@ -13,7 +13,6 @@ from ..arrays.around import MovedKey
 from ..arrays.types import Floats
 from ..words.words import said
 from .columns import column
-from .mesh_io import follows
 
 
 def read_keys(obj: bpy.types.Object) -> dict[str, Floats]:
@@ -83,3 +82,14 @@ def shown_offsets(obj: bpy.types.Object) -> Floats | None:
             here, there = (column(block.data, "co", 3, np.float32) for block in (key.relative_key, key))
             offsets += key.value * (there.astype(np.float64) - here)
     return offsets if offsets.any() else None
+
+
+def follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
+    """Return whether a chain of relative keys leads from the block to the basis."""
+    seen = set()
+    while block != basis and block.name not in seen:
+        seen.add(block.name)
+        block = block.relative_key
+        if block == basis:
+            return True
+    return False

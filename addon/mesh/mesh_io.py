@@ -19,7 +19,7 @@ from ..options.options import FairOptions
 from ..selection.selection import enclosed_faces
 from ..verdict.quality import is_spoilt
 from ..words.words import said
-from .all_keys import shown_offsets
+from .all_keys import follows, shown_offsets
 from .columns import column, elements_of, flags, indices, stored
 from .free_normals import put_at, renew_at, renew_mesh
 from .levels import reflections
@@ -330,14 +330,3 @@ def _move_keys(keys: bpy.types.Key, vertices: Ints, offsets: Any, basis: Any) ->
             moved = column(block.data, "co", 3, np.float32)
             moved[vertices] += offsets
             block.data.foreach_set("co", moved.ravel())
-
-
-def follows(block: bpy.types.ShapeKey, basis: bpy.types.ShapeKey) -> bool:
-    """Return whether a chain of relative keys leads from the block to the basis."""
-    seen = set()
-    while block != basis and block.name not in seen:
-        seen.add(block.name)
-        block = block.relative_key
-        if block == basis:
-            return True
-    return False
