@@ -30,7 +30,6 @@ FAR = 50.0  # where a bystander is
 @pytest.fixture(params=EVERY)
 def kind(request: pytest.FixtureRequest) -> Kind:
     module("run.job").memory.clear()
-    module("run.job").solvers.clear()
     return EVERY[request.param]
 
 
@@ -110,7 +109,6 @@ def test_a_cancelled_search_leaves_every_bit(kind: Kind) -> None:
     before = state(obj)
     for last in (0, 1, 3, 9):
         module("run.job").memory.clear()
-        module("run.job").solvers.clear()
         left = iter(range(last))
         with pytest.raises(fairing.Cancelled) if last == 0 else suppress(fairing.Cancelled):
             asked(kind)._asked.work(lambda *_, left=left: next(left, None) is not None)
