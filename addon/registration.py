@@ -66,50 +66,44 @@ _CLASSES: tuple[Any, ...] = (
 for _class in _CLASSES:  # tooltips break their lines by themselves
     _class.bl_description = " ".join((_class.__doc__ or "").split())
 _register_classes, _unregister_classes = bpy.utils.register_classes_factory(_CLASSES)
+_SETTINGS = {
+    "fairing_report": FairReport,
+    "fairing_progress": FairProgress,
+    "fairing_overlay": FairOverlay,
+    "fairing_live": FairLive,
+}  # of the window manager
+_MODULES: tuple[Any, ...] = (
+    redo_panel,
+    menus,
+    handlers,
+    watch,
+    overlay,
+    fillet_preview,
+    brush_preview,
+    live,
+    marks,
+    tools,
+    compare,
+    redo,
+    file_owned,
+    translations,
+)
 _commands: list[Any] = []  # handles that Blender wants back at unregistering
 
 
 def register() -> None:
     _register_classes()
-    bpy.types.WindowManager.fairing_report = bpy.props.PointerProperty(type=FairReport)
-    bpy.types.WindowManager.fairing_progress = bpy.props.PointerProperty(type=FairProgress)
-    bpy.types.WindowManager.fairing_overlay = bpy.props.PointerProperty(type=FairOverlay)
-    bpy.types.WindowManager.fairing_live = bpy.props.PointerProperty(type=FairLive)
-    redo_panel.register()
-    menus.register()
-    handlers.register()
-    watch.register()
-    overlay.register()
-    fillet_preview.register()
-    brush_preview.register()
-    live.register()
-    marks.register()
-    tools.register()
-    compare.register()
-    redo.register()
-    file_owned.register()
-    translations.register()
+    for name, kind in _SETTINGS.items():
+        setattr(bpy.types.WindowManager, name, bpy.props.PointerProperty(type=kind))
+    for module in _MODULES:
+        module.register()
     _commands.append(bpy.utils.register_cli_command("fair", cli.execute))
 
 
 def unregister() -> None:
     bpy.utils.unregister_cli_command(_commands.pop())
-    translations.unregister()
-    file_owned.unregister()
-    redo.unregister()
-    compare.unregister()
-    tools.unregister()
-    marks.unregister()
-    live.unregister()
-    brush_preview.unregister()
-    fillet_preview.unregister()
-    overlay.unregister()
-    watch.unregister()
-    handlers.unregister()
-    menus.unregister()
-    redo_panel.unregister()
-    del bpy.types.WindowManager.fairing_live
-    del bpy.types.WindowManager.fairing_overlay
-    del bpy.types.WindowManager.fairing_progress
-    del bpy.types.WindowManager.fairing_report
+    for module in reversed(_MODULES):
+        module.unregister()
+    for name in reversed(_SETTINGS):
+        delattr(bpy.types.WindowManager, name)
     _unregister_classes()

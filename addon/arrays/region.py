@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -88,6 +89,18 @@ class MeshArrays:
             corner_normals=None if normals is None else normals @ np.linalg.inv(linear),
             mirrored=self.mirrored != mirrored,
         )
+
+
+# The masks and factors of MeshArrays, by what they are of.
+OF_VERTICES = ("pinned", "free_slopes", "continued", "parts", "held_by_angle")
+OF_EDGES = ("creases", "smooth_curves", "sharp", "hard")
+OF_FACES = ("in_patch", "hidden")
+
+
+def chosen_of(mesh: MeshArrays, names: tuple[str, ...], choose: Callable[[Mask], Mask]) -> dict[str, Any]:
+    """Return these masks as `choose` makes them; None stays None."""
+    masks = {name: getattr(mesh, name) for name in names}
+    return {name: None if mask is None else choose(mask) for name, mask in masks.items()}
 
 
 def nothing() -> Ints:

@@ -4,7 +4,6 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import bpy
@@ -21,13 +20,11 @@ from ..options.options import FairOptions
 from ..run.background import Watched
 from ..translations import translated
 from ..words.words import said
+from .brush_preview import show
 from .outside import FairsOutside, Task, check_shown
 from .strokes import Stroke
 
 ABOVE = 0.01  # of the brush's reach, by which what is painted is shown above the surface
-
-# Given places (n, 3) in world space, triangles (t, 3) and weights (n,); no triangles: the end.
-shows: list[Callable[[Floats, Ints, Floats], None]] = []
 
 
 class FairDab(bpy.types.PropertyGroup):
@@ -92,8 +89,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         dab.place, dab.reach = place, reach
         paint(self._weights, self._positions, np.array(place), reach)
         places = (self._positions + ABOVE * reach * self._normals) @ matrix[:3, :3].T + matrix[:3, 3]
-        for show in shows:
-            show(places, self._triangles[self._weights[self._triangles].any(axis=1)], self._weights)
+        show(places, self._triangles[self._weights[self._triangles].any(axis=1)], self._weights)
         context.area.tag_redraw()
 
     def let_go(self, context: bpy.types.Context) -> set[str]:
@@ -126,8 +122,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
 
     @staticmethod
     def _hide() -> None:
-        for show in shows:
-            show(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), np.empty(0))
+        show(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), np.empty(0))
 
 
 INNER = 0.5  # of the radius, within which all is painted

@@ -10,7 +10,6 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..arrays.types import Floats, Ints
-from . import brush
 
 COLOUR = (0.95, 0.62, 0.25)
 FULL = 0.6  # opacity where all is painted
@@ -20,19 +19,18 @@ _handles: list[Any] = []
 
 
 def register() -> None:
-    brush.shows.append(_take)
     if not bpy.app.background:
         _handles.append(bpy.types.SpaceView3D.draw_handler_add(_draw, (), "WINDOW", "POST_VIEW"))
 
 
 def unregister() -> None:
-    brush.shows.remove(_take)
     _batches.clear()
     while _handles:
         bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
 
 
-def _take(places: Floats, triangles: Ints, weights: Floats) -> None:
+def show(places: Floats, triangles: Ints, weights: Floats) -> None:
+    """Show places (n, 3) in world space, triangles (t, 3), weights (n,); no triangles: nothing any more."""
     _batches.clear()
     if _handles and len(triangles):
         colours = np.column_stack([np.tile(COLOUR, (len(weights), 1)), FULL * weights]).astype(np.float32)

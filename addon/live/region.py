@@ -11,7 +11,7 @@ import numpy as np
 import fairing
 
 from ..arrays.around import RINGS, outside_triangles
-from ..arrays.region import MeshArrays, Patch, make_patch, nothing, to_local
+from ..arrays.region import OF_EDGES, OF_FACES, OF_VERTICES, MeshArrays, Patch, chosen_of, make_patch, nothing, to_local
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.boundary import boundary
 from ..fair.engine import Problem, Progress, RepeatedSolve, solve
@@ -62,6 +62,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
     used_edges[mesh.corner_edges[corners]] = True
     vertex, edge, face = _numbers(vertices), _numbers(used_edges), _numbers(faces)
     normals = mesh.corner_normals
+    mesh = replace(mesh, parts=None, sharp=None, held_by_angle=None)
     return replace(
         mesh,
         positions=mesh.positions[vertices],
@@ -71,16 +72,10 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
         corner_faces=face[mesh.corner_faces[corners]],
         triangles=vertex[mesh.triangles[triangles]],
         triangle_faces=face[mesh.triangle_faces[triangles]],
-        in_patch=mesh.in_patch[faces],
-        hidden=None if mesh.hidden is None else mesh.hidden[faces],
-        pinned=mesh.pinned[vertices],
-        creases=None if mesh.creases is None else mesh.creases[used_edges],
-        smooth_curves=None if mesh.smooth_curves is None else mesh.smooth_curves[used_edges],
+        **chosen_of(mesh, OF_VERTICES, lambda mask: mask[vertices]),
+        **chosen_of(mesh, OF_EDGES, lambda mask: mask[used_edges]),
+        **chosen_of(mesh, OF_FACES, lambda mask: mask[faces]),
         corner_normals=None if normals is None else normals[corners],
-        parts=None,
-        sharp=None,
-        hard=None if mesh.hard is None else mesh.hard[used_edges],
-        held_by_angle=None,
     )
 
 

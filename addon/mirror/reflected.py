@@ -12,7 +12,17 @@ import numpy as np
 import fairing
 
 from ..arrays.places import edge_keys
-from ..arrays.region import MeshArrays, Reflection, free_vertices, reversed_corners, vertices_of
+from ..arrays.region import (
+    OF_EDGES,
+    OF_FACES,
+    OF_VERTICES,
+    MeshArrays,
+    Reflection,
+    chosen_of,
+    free_vertices,
+    reversed_corners,
+    vertices_of,
+)
 from ..arrays.types import Floats, Ints, Mask
 from ..verdict.outcome import Fairing, leading_part
 from ..verdict.quality import Join, Quality
@@ -138,7 +148,7 @@ def whole_of(mesh: MeshArrays, touched: Mask | None = None) -> Whole | None:
         if not _ends_there(whole, seam, touched):
             continue
         whole, image = _with_image(whole, reflection, seam)
-        touched = _twice(touched, ~seam)
+        touched = None if touched is None else np.concatenate([touched, touched[~seam]])
         planes.append(reflection)
         copies += [Copy(image[copy.vertices], copy.back @ reflection.matrix) for copy in copies]
     return Whole(mesh, whole, tuple(copies), tuple(planes)) if planes else None
@@ -187,17 +197,9 @@ def _with_image(mesh: MeshArrays, reflection: Reflection, seam: Mask) -> tuple[M
         corner_faces=np.concatenate([mesh.corner_faces, mesh.corner_faces + faces]),
         triangles=np.concatenate([mesh.triangles, image[mesh.triangles[:, ::-1]]]),
         triangle_faces=np.concatenate([mesh.triangle_faces, mesh.triangle_faces + faces]),
-        in_patch=np.tile(mesh.in_patch, 2),
-        hidden=None if mesh.hidden is None else np.tile(mesh.hidden, 2),
-        pinned=np.concatenate([mesh.pinned, mesh.pinned[off]]),
-        free_slopes=_twice(mesh.free_slopes, off),
-        continued=_twice(mesh.continued, off),
-        parts=_twice(mesh.parts, off),
-        creases=_twice(mesh.creases, apart),
-        smooth_curves=_twice(mesh.smooth_curves, apart),
-        sharp=_twice(mesh.sharp, apart),
-        hard=_twice(mesh.hard, apart),
-        held_by_angle=_twice(mesh.held_by_angle, off),
+        **chosen_of(mesh, OF_VERTICES, lambda mask: np.concatenate([mask, mask[off]])),
+        **chosen_of(mesh, OF_EDGES, lambda mask: np.concatenate([mask, mask[apart]])),
+        **chosen_of(mesh, OF_FACES, lambda mask: np.tile(mask, 2)),
         lines={name: np.concatenate([edges, edges[apart]]) for name, edges in mesh.lines.items()},
         shown_offsets=None if offsets is None else np.concatenate([offsets, offsets[off] @ linear.T]),
         corner_normals=normals,
@@ -210,13 +212,6 @@ def _numbers_after(doubled: Mask) -> Ints:
     numbers = np.arange(len(doubled))
     numbers[doubled] = len(doubled) + np.arange(np.count_nonzero(doubled))
     return numbers
-
-
-Values = TypeVar("Values", Floats, Mask)
-
-
-def _twice(values: Values | None, again: Mask) -> Values | None:
-    return None if values is None else np.concatenate([values, values[again]])
 
 
 def _leading_join(join: Join, count: int) -> Join:

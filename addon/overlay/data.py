@@ -8,7 +8,6 @@ import numpy as np
 
 import fairing
 
-from ..arrays.places import edge_keys
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints, Mask
 from ..words.findings import Origin
@@ -79,9 +78,8 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Float
 
 def _edges_around(triangles: Ints) -> Ints:
     """Return the edges (e, 2) of one triangle alone."""
-    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    _, first, counts = np.unique(edge_keys(sides), return_index=True, return_counts=True)
-    around: Ints = sides[first[counts == 1]]
+    edges, uses = fairing.edges_with_uses(triangles)
+    around: Ints = edges[uses == 1]
     return around
 
 
