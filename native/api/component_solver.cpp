@@ -231,8 +231,8 @@ Solution ComponentSolver::solve_tangent(Problem& problem, const std::optional<Ne
     const bool varies = options_.start == Start::given;  // the others are one surface, whatever is asked for
     if (!near && !(chooses_ && varies)) near = from_start(problem, progress);
     if (!near && chooses_) {
-        const auto none = [](const Problem&, const Progress&) { return std::optional<Solution>(); };
-        near = solve_automatically(problem, options_.pin_radius, varies ? Near(from_start) : Near(none), progress);
+        const auto nowhere = [](const Problem&, const Progress&) { return std::optional<Solution>(); };
+        near = solve_automatically(problem, options_.pin_radius, varies ? Near(from_start) : Near(nowhere), progress);
     }
     Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
     if (!keeps()) return solution;
