@@ -231,7 +231,7 @@ private:
                 const double a = height(side_tail(all, exit));
                 const double b = height(side_head(all, exit));
                 const Vector3 tail = mesh_.points.col(side_tail(all, exit));
-                ends.push_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
+                ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
                 if (ends.size() == 2) return std::array{ends[0], ends[1]};
             }
             side = other;
