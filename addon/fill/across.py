@@ -156,4 +156,5 @@ def renumbered(result: fairing.FillResult, old: Ints, new: Ints) -> fairing.Fill
 def _warning(warning: fairing.Diagnostic, number: Ints) -> fairing.Diagnostic:
     if warning.kind != "vertex":
         return warning
-    return replace(warning, elements=number[warning.elements].astype(np.int32))
+    known = warning.elements[warning.elements < len(number)]  # not those of a mesh that was made on the way
+    return replace(warning, elements=number[known].astype(np.int32))

@@ -29,6 +29,7 @@ class Finding:
     kind: str  # "vertex" or "triangle": what the engine named
     named: Ints  # mesh vertices in the order in which they were named; edges are pairs, triangles give their corners
     faces: Ints  # mesh faces of the triangles that were named, ascending; empty for vertices
+    gone: int = 0  # elements of a mesh that was made on the way, which have no place in this one
 
     @property
     def vertices(self) -> Ints:
@@ -38,13 +39,14 @@ class Finding:
     @property
     def count(self) -> int:
         """How many elements of the mesh it is about: faces where the engine named triangles."""
-        return len(self.faces if self.kind == "triangle" else self.vertices)
+        return len(self.faces if self.kind == "triangle" else self.vertices) + self.gone
 
 
 def found(diagnostic: fairing.Diagnostic, origin: Origin) -> Finding:
     """Return the engine's diagnostic in terms of the mesh."""
-    elements: Ints = diagnostic.elements.astype(np.int64)
     of_triangles = diagnostic.kind == "triangle"
+    known = diagnostic.elements < len(origin.triangles if of_triangles else origin.vertices)
+    elements: Ints = diagnostic.elements[known].astype(np.int64)
     corners = origin.triangles[elements].ravel() if of_triangles else elements
     return Finding(
         code=diagnostic.code,
@@ -52,4 +54,5 @@ def found(diagnostic: fairing.Diagnostic, origin: Origin) -> Finding:
         kind=diagnostic.kind,
         named=origin.vertices[corners],
         faces=np.unique(origin.faces[elements]) if of_triangles else elements[:0],
+        gone=int(np.count_nonzero(~known)),
     )

@@ -97,4 +97,5 @@ def _pooled(findings: Sequence[Finding]) -> Finding:
         figures=figures,
         named=np.concatenate([finding.named for finding in findings]),
         faces=np.unique(np.concatenate([finding.faces for finding in findings])),
+        gone=sum(finding.gone for finding in findings),
     )

@@ -168,6 +168,15 @@ def test_triangles_are_counted_by_their_faces_and_cases_told_by_their_figures(gi
     assert reported(given) == (text,)
 
 
+@pytest.mark.parametrize("kind", ["vertex", "triangle"])
+def test_elements_of_a_mesh_made_on_the_way_are_counted_and_not_looked_up(kind: str) -> None:
+    """A coarser mesh that was solved for another one has vertices and triangles of its own."""
+    ends = np.array([0, 1, 10_000], dtype=np.int32)
+    finding = found(fairing.Diagnostic("SELF_INTERSECTION", "", ends, kind), ORIGIN)
+    assert finding.gone == 1
+    assert finding.count == 1 + len(finding.faces if kind == "triangle" else finding.vertices)
+
+
 def test_edges_have_the_meshs_vertices() -> None:
     edge = refusal(found(diagnostic("NONMANIFOLD_EDGE", [4, 1, 0, 2], edges=2.0), ORIGIN))
     assert "the edge 50–20" in str(edge)
