@@ -9,6 +9,7 @@ import numpy as np
 
 import fairing
 
+from ..arrays.pairs import edge_keys
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints
 from ..remesh.faces import Faces, faces_in_rows, faces_of
@@ -48,6 +49,7 @@ def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
     touched = np.unique(mesh.triangles[np.isin(mesh.triangle_faces, gone_faces)])
     sources = mesh.triangles[result.origin[0]]
     numbered = number[triangles]
+    cut, cut_from = _pieces_of_edges(mesh, result, triangles, outside)
     part = NewPart(
         stay=stay,
         fixed_count=len(stay),
@@ -59,10 +61,34 @@ def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
         faces=mesh.triangle_faces[parents],
         gone_faces=gone_faces,
         gone_vertices=_without_faces(mesh, gone_faces, np.setdiff1d(touched, stay)),
+        cut=number[cut],
+        cut_from=cut_from,
     )
     polygons, first = _merged(mesh, numbered[:outside], parents, result.quads is not None)
     faces = _joined(polygons, _new_faces(numbered, result, outside))
     return RoundedPart(part, _wound(faces, mesh.mirrored), first)
+
+
+def _pieces_of_edges(
+    mesh: MeshArrays, result: fairing.FilletResult, triangles: Ints, outside: int
+) -> tuple[Ints, Ints]:
+    """Return the (c, 2) sides of triangles, but within the fillet, that are pieces of an edge, and (c, 2) its ends."""
+    count = len(mesh.positions)
+    corners, weights = mesh.triangles[result.origin[0]], result.origin[1]
+    rows, beside = np.arange(len(corners)), weights.argmin(axis=1)
+    ends = np.column_stack([corners[rows, (beside + 1) % 3], corners[rows, (beside + 2) % 3]])
+    ends[(weights <= _ON_SIDE).sum(axis=1) != 1] = -1
+    ends = np.concatenate([np.column_stack([np.arange(count)] * 2), np.sort(ends, axis=1)])
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    first = np.unique(edge_keys(sides), return_index=True)[1]  # those outside come first
+    first = first[sides[first, 1] >= count]
+    sides, is_outside = sides[first], first < 3 * outside
+    of = ends[sides[:, 1]]
+    within = (ends[sides[:, 0]][:, :, None] == of[:, None]).any(axis=2).all(axis=1) & (of[:, 0] >= 0)
+    keys = edge_keys(np.maximum(of, 0))
+    at_end = np.isin(sides, result.fixed).all(axis=1)  # of the fillet: at walls, if it is not outside, too
+    known = within & (is_outside | at_end) & np.isin(keys, edge_keys(mesh.edges))
+    return sides[known], of[known]
 
 
 def _without_faces(mesh: MeshArrays, gone_faces: Ints, vertices: Ints) -> Ints:

@@ -61,6 +61,7 @@ class _Old:
     moved: list[Any]  # of these
     sources: list[Any]  # vertices that new ones are made of,
     examples: list[Any]  # and those that each is like
+    cut: list[Any]  # edges of which there are pieces
     new: FaceData
 
 
@@ -83,6 +84,7 @@ def _read(target: Target, outcome: Remeshed | Rounded) -> _Old:
         moved=stay[part.fixed_count :],
         sources=elements_of(vertices, np.unique(part.vertices.sources)),
         examples=elements_of(vertices, part.vertices.heaviest),
+        cut=[bm.edges.get(elements_of(vertices, ends)) for ends in part.cut_from],
         new=new,
     )
 
@@ -102,6 +104,11 @@ def _written(target: Target, outcome: Remeshed | Rounded, old: _Old) -> Written:
     for vertex, place in zip(old.moved, outcome.positions.tolist(), strict=True):
         vertex.co = place
     faces = make_faces(target, vertices, old.new)
+    table = [*old.stay, *vertices]
+    for (a, b), edge in zip(outcome.part.cut.tolist(), old.cut, strict=True):
+        piece = bm.edges.get((table[a], table[b]))
+        if piece is not None:  # diagonals of polygons are none
+            piece.copy_from(edge)
     _delete(bm, old)
     pieces = set(faces[: outcome.unselected])
     vertices, faces = target.mirror.kept([(vertices, faces)])

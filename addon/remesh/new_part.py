@@ -56,6 +56,8 @@ class NewPart:
     gone_faces: Ints
     gone_vertices: Ints
     pairs: Ints = field(default_factory=no_pairs)  # (q, 2) triangles that are the halves of a quad in a row
+    cut: Ints = field(default_factory=no_pairs)  # (c, 2) edges that are pieces of old ones,
+    cut_from: Ints = field(default_factory=no_pairs)  # (c, 2) the ends of each of these, vertices of the mesh
 
 
 def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, lines: Mask) -> NewPart:

@@ -78,3 +78,24 @@ def test_a_seam_that_ends_where_its_face_turns_in_gets_blocks_around_its_end() -
     around = np.bincount([v for polygon in new for v in polygon])
     inner = [int(around[v]) for v in set(np.concatenate(new).tolist()) - border]
     assert (inner.count(3), set(inner)) == (2, {3, 4})
+
+
+@pytest.mark.parametrize(("sides", "length"), [(4, 3.2), (6, 4.8)])
+@pytest.mark.parametrize("quads", [True, False])
+def test_pieces_of_cut_edges_know_their_edge(sides: int, length: float, quads: bool) -> None:
+    """The rim of a lid: edges from below end at the fillet."""
+    mesh = prism(sides)
+    seam = (mesh.positions[mesh.edges][..., 2] > 0.5).all(axis=1)
+    result = round_arrays(mesh, seam, ALL, FilletOptions(width=0.2, quads=quads))
+    places = np.concatenate([mesh.positions[result.part.stay], result.new_positions])
+    polygons = result.polygons.polygons
+    drawn = {tuple(sorted(side)) for each in polygons for side in zip(each, [*each[1:], each[0]], strict=True)}
+    found: dict[tuple[int, ...], float] = {}
+    for pair, ends in zip(result.part.cut.tolist(), result.part.cut_from.tolist(), strict=True):
+        low, high = mesh.positions[ends]
+        np.testing.assert_allclose(np.cross(places[pair] - low, high - low), 0.0, atol=1e-9)
+        if tuple(sorted(pair)) in drawn:
+            found[tuple(ends)] = found.get(tuple(ends), 0.0) + float(np.linalg.norm(places[pair[0]] - places[pair[1]]))
+    upright = mesh.edges[np.ptp(mesh.positions[mesh.edges][..., 2], axis=1) > 0.5]
+    assert set(found) == set(map(tuple, np.sort(upright, axis=1).tolist()))
+    assert sum(found.values()) == pytest.approx(length, abs=1e-6)

@@ -98,6 +98,27 @@ def test_an_edge_of_a_cube_becomes_an_arc_and_its_faces_stay_polygons() -> None:
     assert all(len(polygon.vertices) == 3 for polygon in obj.data.polygons if polygon.select)
 
 
+@pytest.mark.parametrize("quads", [True, False])
+def test_marks_of_edges_that_are_cut_stay(quads: bool) -> None:
+    """Those of the four upright edges, from which all edges around the top take their upper ends."""
+    obj = cube()
+    mesh = obj.data
+    mesh.attributes.new("mine", "INT", "EDGE")
+    mesh.attributes.new("crease_edge", "FLOAT", "EDGE")
+    beside = edge_mask(obj, lambda ends: np.ptp(ends[:, 2]) > 1.0)
+    for edge, on in zip(mesh.edges, beside, strict=True):
+        edge.use_edge_sharp = edge.use_seam = bool(on)
+        mesh.attributes["mine"].data[edge.index].value = 7 * int(on)
+        mesh.attributes["crease_edge"].data[edge.index].value = 0.5 * int(on)
+    assert run(obj, edge_mask(obj, lambda ends: (ends[:, 2] > 0.9).all()), quads=quads) == {"FINISHED"}
+    pieces = edge_mask(obj, lambda ends: np.ptp(ends[:, 2]) > 1.0)
+    assert pieces.sum() == 4
+    for edge, on in zip(obj.data.edges, pieces, strict=True):
+        marks = (edge.use_edge_sharp, edge.use_seam, obj.data.attributes["mine"].data[edge.index].value == 7)
+        assert set(marks) == {bool(on)}
+        assert obj.data.attributes["crease_edge"].data[edge.index].value == 0.5 * on
+
+
 def test_all_hard_edges_of_selected_faces_are_rounded() -> None:
     obj = cube()
     meshes.enter(obj, np.ones(6, dtype=bool))
