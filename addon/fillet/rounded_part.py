@@ -9,7 +9,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.pairs import edge_keys
+from ..arrays.places import edge_keys
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints
 from ..remesh.faces import Faces, faces_in_rows, faces_of
