@@ -18,8 +18,8 @@ namespace fairing {
 namespace {
 
 constexpr int solved_count = 1000;  // free vertices of the mesh that is solved; coarser wishes are cut from its surface
-// Holes that take fewer new vertices than that are cut from a coarser mesh: of 40 on real meshes and five in balls,
-// 100, 400 and 1,000 vertices were as near to what was there, most of the seconds went with them.
+// Holes that take fewer new vertices than that are solved on a mesh of the fan around their middle: of 40 on real
+// meshes and five in balls, 100 and 1,000 vertices were as near to what was there.
 constexpr double few = 30.0;
 constexpr int few_solved = 100;
 
@@ -222,12 +222,15 @@ FairResult HoleJob::solved(const HolePatch& patch, Start start, Otherwise otherw
     return report;
 }
 
-std::optional<SolvedHole> HoleJob::fan(const Progress& progress) const {
+// One surface through nothing, that only has to meet the slopes around.
+bool HoleJob::is_plain() const {
     const Equation equation = options_.fair.solver.equation;
-    const bool is_plain = equation == Equation::harmonic || equation == Equation::automatic;
-    if (options_.bridge || options_.in_rows || options_.spacing > 0.0 || !is_plain || options_.joins_curvature ||
-        split_.count() != split_.old_count)
-        return std::nullopt;
+    const bool is_usual = equation == Equation::harmonic || equation == Equation::automatic;
+    return is_usual && !options_.bridge && !options_.in_rows && !options_.joins_curvature;
+}
+
+std::optional<SolvedHole> HoleJob::fan(const Progress& progress) const {
+    if (!is_plain() || options_.spacing > 0.0 || split_.count() != split_.old_count) return std::nullopt;
     const LoopShape& shape = loops_[0].shape;
     const Vector3 hub = shape.points.rowwise().mean();
     if (!takes_hub(shape, hub)) return std::nullopt;
@@ -239,15 +242,51 @@ std::optional<SolvedHole> HoleJob::fan(const Progress& progress) const {
     return SolvedHole{std::move(patch), std::move(report)};
 }
 
+std::optional<SolvedHole> HoleJob::from_fan(const Progress& progress) const {
+    const LoopShape& shape = loops_[0].shape;
+    const Vector3 hub = shape.points.rowwise().mean();
+    const double own = fairing::flat_count({&shape, 1}, 0.0, false);
+    if (!is_plain() || !(std::max(own, flat_count()) < few) || !is_star(shape, hub)) return std::nullopt;
+    const HolePatch patch{joined(split_.parted, hub), fairing::fan(split_.loops[0], split_.count()), split_.fixed(),
+                          normals()};
+    const SolvedHole made =
+        on_mesh(patch, {options_.spacing, few_solved, options_.spread}, Start::given, Otherwise::stop, progress);
+    const bool is_broken = std::any_of(made.report.warnings.begin(), made.report.warnings.end(), [](const auto& each) {
+        return each.code == Code::folded || each.code == Code::flipped_triangles ||
+               each.code == Code::self_intersection;
+    });
+    return made.report.converged && !is_broken ? std::optional(made) : std::nullopt;
+}
+
+SolvedHole HoleJob::on_mesh(const HolePatch& patch, const WantedLengths& wanted, Start start, Otherwise otherwise,
+                            const Progress& progress) const {
+    HolePatch fine = meshed(patch, split_.count(), wanted, held(), progress.range(0.0, 0.3));
+    fine.vertices.leftCols(split_.count()) = split_.placed;
+    refuse_doubles(fine.triangles, local_.triangles);
+    SolvedHole made{fine, solved(fine, start, otherwise, progress.range(0.3, 1.0))};
+    made.patch.vertices = made.report.vertices;
+    const Diagnostics slopes = not_tangent(made.report, split_.loops, local_, mesh_);
+    made.report.warnings.insert(made.report.warnings.end(), slopes.begin(), slopes.end());
+    return made;
+}
+
+SolvedHole HoleJob::coarser(const SolvedHole& solved, const Progress& progress) const {
+    NewMesh mesh;
+    const HolePatch coarse =
+        meshed(solved.patch, split_.count(), {options_.spacing, 0, options_.spread}, held(), progress, &mesh);
+    return cut_from(solved, coarse, mesh.triangle, mesh.weights);
+}
+
 SolvedHole HoleJob::surface(const Progress& progress) const {
     const SolverOptions& solver = options_.fair.solver;
     const double flat = flat_count();
     const Limit most = Limit::of(flat, options_.max_vertices);
     const Indices boundary = vertices_of(hole_);
     most.check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), boundary);
+    if (const auto made = from_fan(progress.range(0.0, 0.1))) return coarser(*made, progress.range(0.9, 1.0));
     Stopwatch watch;
     const NewSurface first =
-        first_over(loops_, split_.loops, split_.parted, first_equation(options_), progress.range(0.0, 0.2));
+        first_over(loops_, split_.loops, split_.parted, first_equation(options_), progress.range(0.1, 0.2));
     const double first_seconds = watch.lap();
     HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals()};
     if (solver.equation == Equation::soap_film) patch.normals = std::nullopt;
@@ -255,18 +294,10 @@ SolvedHole HoleJob::surface(const Progress& progress) const {
     const double count = expected_remesh_count(patch.input({}), wanted);
     most.check(count, boundary, first.converged);
     const bool is_coarse = count < 0.9 * solved_count;
-    wanted.least_count = count < few && !options_.in_rows && !options_.joins_curvature ? few_solved : solved_count;
-    HolePatch fine = meshed(patch, split_.count(), wanted, held(), progress.range(0.2, 0.4));
-    fine.vertices.leftCols(split_.count()) = split_.placed;
-    const double mesh_seconds = watch.lap();
-    refuse_doubles(fine.triangles, local_.triangles);
+    wanted.least_count = solved_count;
     const Otherwise otherwise = first.converged ? solver.otherwise : Otherwise::stop;  // it was sought in vain once
-    SolvedHole made{fine, solved(fine, start_after(first.provenance, solver), otherwise,
-                                 progress.range(0.4, is_coarse ? 0.9 : 1.0))};
-    watch.lap();
-    const Diagnostics slopes = not_tangent(made.report, split_.loops, local_, mesh_);
-    made.report.warnings.insert(made.report.warnings.end(), slopes.begin(), slopes.end());
-    made.patch.vertices = made.report.vertices;
+    SolvedHole made = on_mesh(patch, wanted, start_after(first.provenance, solver), otherwise,
+                              progress.range(0.2, is_coarse ? 0.9 : 1.0));
     if (options_.in_rows) {
         const auto again = [&](const HolePatch& rows) {
             return solved(rows, Start::given, Otherwise::stop, progress.range(0.9, 1.0));
@@ -274,14 +305,9 @@ SolvedHole HoleJob::surface(const Progress& progress) const {
         made = fairing::in_rows(std::move(made), static_cast<int>(loops_.size()), split_.count(), again,
                                 progress.range(0.9, 1.0));
     } else if (is_coarse) {
-        wanted.least_count = 0;
-        NewMesh mesh;
-        const HolePatch coarse = meshed(made.patch, split_.count(), wanted, held(), progress.range(0.9, 1.0), &mesh);
-        made = cut_from(made, coarse, mesh.triangle, mesh.weights);
+        made = coarser(made, progress.range(0.9, 1.0));
     }
     made.report.seconds["first"] = first_seconds;
-    made.report.seconds["mesh"] = mesh_seconds;
-    made.report.seconds["coarser"] = watch.lap();
     return made;
 }
 

@@ -44,6 +44,11 @@ private:
     [[nodiscard]] std::optional<SolvedHole> fan(const Progress& progress) const;
     [[nodiscard]] std::optional<FilledHole> along(const CurvesThrough& through, const Progress& progress) const;
     [[nodiscard]] SolvedHole surface(const Progress& progress) const;
+    [[nodiscard]] std::optional<SolvedHole> from_fan(const Progress& progress) const;
+    [[nodiscard]] SolvedHole on_mesh(const HolePatch& patch, const WantedLengths& wanted, Start start,
+                                     Otherwise otherwise, const Progress& progress) const;
+    [[nodiscard]] SolvedHole coarser(const SolvedHole& solved, const Progress& progress) const;
+    [[nodiscard]] bool is_plain() const;
     [[nodiscard]] FilledHole finished(SolvedHole solved, const SplitBoundary& split) const;
     [[nodiscard]] FairResult solved(const HolePatch& patch, Start start, Otherwise otherwise,
                                     const Progress& progress) const;

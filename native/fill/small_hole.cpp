@@ -74,19 +74,29 @@ VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face) {
     return angles;
 }
 
+bool is_star(const LoopShape& loop, const Vector3& hub) {
+    constexpr double flat_enough = 0.5;  // length of the mean normal: 0 at the end of a tube, where a fan faces nowhere
+    const Vector3 normal = loop.normals.rowwise().sum();
+    if (!(normal.norm() > flat_enough * loop.size())) return false;
+    for (int k = 0; k < loop.size(); ++k) {
+        const Vector3 next = loop.points.col((k + 1) % loop.size()) - hub;
+        if (!((loop.points.col(k) - hub).cross(next).dot(normal) > 0.0)) return false;
+    }
+    return true;
+}
+
 bool takes_hub(const LoopShape& loop, const Vector3& hub) {
     constexpr int fewest = 5;               // below, the hole is one face
     constexpr int most = 8;                 // beyond, a fan's angles fall below 40°
     constexpr double longest_spoke = 1.45;  // of the mean edge: 1.31 in a regular octagon, 1.41 in a square of 8 edges
-    if (loop.size() < fewest || loop.size() > most) return false;
-    const Vector3 normal = loop.normals.rowwise().sum();
+    if (loop.size() < fewest || loop.size() > most || !is_star(loop, hub)) return false;
     const double mean = loop.perimeter() / loop.size();
     for (int k = 0; k < loop.size(); ++k) {
         const Vector3 spoke = loop.points.col(k) - hub;
         const Vector3 next = loop.points.col((k + 1) % loop.size()) - hub;
         const Vector3 area = spoke.cross(next);
         const double edge = (next - spoke).norm();
-        if (!(spoke.norm() <= longest_spoke * mean) || !(area.dot(normal) > 0.0)) return false;
+        if (!(spoke.norm() <= longest_spoke * mean)) return false;
         const double largest = std::max({spoke.norm() * next.norm(), edge * next.norm(), edge * spoke.norm()});
         if (!(area.norm() >= std::sin(bad_angle * degree) * largest)) return false;
     }
