@@ -32,6 +32,8 @@ def wide_outside(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> Ints:
     """
     outside = _usable(mesh)
     ends = np.union1d(patch.vertices[patch.fixed], np.flatnonzero(joined_by_weight(mesh, patch)))
+    if not len(ends):  # a closed piece: nothing holds it, as its solve says
+        return outside[:0]
     rim = mesh.positions[ends]
     low, high = rim.min(axis=0), rim.max(axis=0)
     # No island is larger than twice the diagonal, as the engine measures its size.

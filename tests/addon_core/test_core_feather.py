@@ -14,7 +14,7 @@ from addon.options.options import FairOptions
 from addon.verdict.outcome import Fairing, outcome
 
 import fairing
-from polygon_mesh import grid, on_sphere
+from polygon_mesh import grid, on_sphere, polygon_mesh
 
 EYE = np.eye(4)
 SIZE, HALF = 24, 0.4
@@ -141,3 +141,13 @@ def test_feather_and_weights_are_multiplied() -> None:
     both = fair(replace(mesh, parts=left), falloff=WIDTH, **BY_GROUP)
     whole = fair(mesh, falloff=WIDTH)
     assert np.array_equal(both.vertices, whole.vertices[left[whole.vertices] > 0.0])
+
+
+@pytest.mark.parametrize("options", [{"falloff": 0.2}, {"detail": 1.0}], ids=str)
+def test_a_closed_piece_is_refused_for_what_it_is(options: dict[str, float]) -> None:
+    """With a band or its old skin, too: there is no boundary that could say how far around to look."""
+    corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+    sides = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    mesh = polygon_mesh(corners, sides, np.ones(6, dtype=bool))
+    with pytest.raises(ValueError, match=r"nothing (is left )?to hold"):
+        fair(mesh, **options)
