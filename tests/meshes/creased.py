@@ -74,6 +74,20 @@ def _plane(axis: int) -> Distance:
     return lambda points: np.abs(points[:, axis])
 
 
+def fading_fold(n: int, seed: int = 0, *, steep: float = 0.6) -> Creased:
+    """z = −steep |s| (1 − 2 t)² up to t = ½, flat beyond: the curve is the fold, which ends in the middle."""
+    s, t = (x.ravel() for x in np.meshgrid(np.linspace(-1, 1, 2 * n + 1), np.linspace(0, 1, n + 1), indexing="ij"))
+    outline = (np.abs(s) > 1 - 1e-9) | (t < 1e-9) | (t > 1 - 1e-9)
+    curve = (np.abs(s) < 1e-9) & (t <= 0.5 + 1e-9)
+    st, triangles = _grid(np.column_stack([s, t]), (2 * n + 1, n + 1), outline | curve, seed)
+    s, t = st.T
+    fold = np.maximum(1 - 2 * t, 0.0)
+    vertices = np.column_stack([s, t, -steep * np.abs(s) * fold**2])
+    slope = np.column_stack([steep * np.sign(s) * fold**2, -4 * steep * np.abs(s) * fold, np.ones_like(s)])
+    normals = slope / np.linalg.norm(slope, axis=1)[:, None]
+    return Creased(vertices, triangles, np.flatnonzero(outline), np.flatnonzero(curve), normals, (s > 0).astype(int))
+
+
 def box_edge(n: int, seed: int = 0, *, cut: float = 1.0) -> Creased:
     """Two squares of n × n cells at a right angle; the curve is their common edge, or the share `cut` of it."""
     s, t = (x.ravel() for x in np.meshgrid(np.linspace(-1, 1, 2 * n + 1), np.linspace(0, 1, n + 1), indexing="ij"))

@@ -165,7 +165,7 @@ def test_a_loose_end_of_a_wire_changes_nothing() -> None:
 
 def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
     """Its outline runs along a box edge: flat to roundoff, where normals from beyond the edge make a bulge."""
-    box = creased.creased.box_edge(12, 1)
+    box = creased.box_edge(12, 1)
     flat = (np.abs(box.vertices[box.triangles][:, :, 0]) < 1e-12).all(axis=1)
     near = (np.linalg.norm(box.vertices - [0.0, 0.5, 0.0], axis=1) < 0.33)[box.triangles].all(axis=1)
     kept = box.triangles[~(flat & near)]
@@ -220,7 +220,7 @@ def _flat_area(loop: FloatArray) -> float:
 
 def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:
     """A box edge that fades out within the hole's outline: only one end comes to it."""
-    fold = creased.creased.fading_fold(16, 1, steep=1.2)
+    fold = creased.fading_fold(16, 1, steep=1.2)
     hole = creased.cut_out(
         fold.vertices, fold.triangles, np.linalg.norm(fold.vertices[:, :2] - [0.0, 0.5], axis=1) < 0.33, ()
     )
