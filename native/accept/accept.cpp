@@ -1,19 +1,15 @@
 #include "accept/accept.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
-#include "base/difference.h"
+#include "base/columns.h"
 #include "base/parallel.h"
-#include "geometry/averages.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
 #include "geometry/limits.h"
-#include "geometry/outline_angles.h"
+#include "geometry/neighbourhood.h"
 #include "geometry/self_intersection.h"
-#include "mesh/corners.h"
-#include "pins/sharp_pins.h"
+#include "geometry/vertex_normal.h"
+#include "mesh/loops.h"
+#include "pins/spread_pins.h"
 #include "placement/tears.h"
 #include "problem/surface_state.h"
 #include "shape/limits.h"

@@ -1,8 +1,6 @@
 // A mesh put together from parts.
 #pragma once
 
-#include <span>
-
 #include "base/columns.h"
 
 namespace fairing {

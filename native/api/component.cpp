@@ -1,7 +1,5 @@
 #include "api/component.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <Eigen/Geometry>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "api/fair.h"
-#include "api/fixed_normals.h"
+#include "api/input.h"
 
 namespace fairing {
 

@@ -1,20 +1,16 @@
 #include "api/component_solver.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "accept/accept.h"
 #include "api/diagnose.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
-#include "base/text.h"
 #include "boundary/fair_border.h"
 #include "continuity/joined.h"
-#include "detail/relaid.h"
+#include "detail/skin.h"
 #include "geometry/flips.h"
 #include "geometry/surface_fit.h"
+#include "method/direct.h"
 #include "method/nested.h"
-#include "method/pinned.h"
 #include "method/solve.h"
 #include "problem/free_slopes.h"
 #include "start/swept_start.h"

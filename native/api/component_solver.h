@@ -3,8 +3,6 @@
 
 #include "api/kept_skin.h"
 #include "problem/solution.h"
-#include "reuse/near_start.h"
-#include "reuse/outline_move.h"
 #include "reuse/warm_start.h"
 
 namespace fairing {

@@ -1,22 +1,15 @@
 #include "api/diagnose.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include <Eigen/Geometry>
 
 #include "api/component.h"
-#include "base/text.h"
 #include "continuity/joined.h"
-#include "geometry/angle.h"
 #include "geometry/face_geometry.h"
 #include "geometry/flips.h"
-#include "geometry/outline_angles.h"
 #include "geometry/self_intersection.h"
-#include "method/traits.h"
-#include "pins/sharp_pins.h"
+#include "geometry/triangle.h"
+#include "geometry/vertex_normal.h"
+#include "method/plan.h"
 #include "pins/spread_pins.h"
 #include "shape/limits.h"
 

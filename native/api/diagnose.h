@@ -1,8 +1,8 @@
 // Diagnostics of a patch before and after its solve.
 #pragma once
 
-#include "base/diagnostic.h"
-#include "base/view.h"
+#include "base/errors.h"
+#include "base/types.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -40,7 +40,7 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
 // PINS_NOT_SPREAD with the pins that act in a point although a radius was asked for. Another one, with the figure
-// "tips", names those at which the surface forms a spike (pins/sharp_pins).
+// "tips", names those at which the surface forms a spike (pins/spread_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a loft "loft", 1, for

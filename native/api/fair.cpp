@@ -1,18 +1,15 @@
 #include "api/fair.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "accept/accept.h"
 #include "api/diagnose.h"
+#include "api/fair_solver.h"
 #include "api/measure.h"
-#include "api/prepared_mesh.h"
 #include "api/shape.h"
 #include "base/errors.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "geometry/outline_angles.h"
+#include "geometry/vertex_normal.h"
 #include "shape/visible_join.h"
 
 namespace fairing {

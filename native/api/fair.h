@@ -1,8 +1,6 @@
 // The whole call: checks, patches, one solve for each component, result.
 #pragma once
 
-#include <functional>
-
 #include "api/input.h"
 #include "base/progress.h"
 #include "paper/paper_solver.h"

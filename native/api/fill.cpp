@@ -1,6 +1,5 @@
 #include "api/fill.h"
 
-#include <algorithm>
 #include <atomic>
 
 #include "api/hole_job.h"

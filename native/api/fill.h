@@ -2,8 +2,6 @@
 // depend on which others are filled, nor on the number of threads.
 #pragma once
 
-#include <optional>
-
 #include "api/fair.h"
 #include "api/holes.h"
 #include "fill/edge_lengths.h"

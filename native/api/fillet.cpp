@@ -1,17 +1,14 @@
 #include "api/fillet.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include <Eigen/Geometry>
 
 #include "api/prepared_fillet.h"
-#include "base/progress.h"
 #include "fillet/limits.h"
-#include "geometry/angle.h"
-#include "geometry/turned_caps.h"
+#include "geometry/flips.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

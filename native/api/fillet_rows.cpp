@@ -1,12 +1,8 @@
 #include "api/fillet_rows.h"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numeric>
 #include <set>
 
-#include "api/old_surface.h"
+#include "api/kept_skin.h"
 #include "api/prepared_fillet.h"
 #include "fillet/limits.h"
 #include "fillet/row_cut.h"

@@ -1,8 +1,6 @@
 // Quads in rows along the seams of a fillet.
 #pragma once
 
-#include <optional>
-
 #include "api/fillet.h"
 #include "fillet/row_mesh.h"
 

@@ -1,7 +1,6 @@
-#include <algorithm>
 
-#include "api/coarse_surface.h"
 #include "api/hole_job.h"
+#include "api/remesh.h"
 #include "base/stopwatch.h"
 #include "fill/loop_check.h"
 #include "fill/short_edges.h"

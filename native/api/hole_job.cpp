@@ -1,9 +1,5 @@
 #include "api/hole_job.h"
 
-#include <algorithm>
-#include <numeric>
-
-#include "api/coarse_surface.h"
 #include "api/remesh.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"

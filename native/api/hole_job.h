@@ -1,8 +1,6 @@
 // How one hole is filled: by curves, one face, a fan, or a surface with several vertices inside.
 #pragma once
 
-#include <functional>
-
 #include "api/fill.h"
 #include "api/remesh.h"
 #include "fill/split_boundary.h"

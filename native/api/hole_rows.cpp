@@ -1,8 +1,7 @@
-#include <algorithm>
 
 #include "api/hole_job.h"
-#include "api/old_surface.h"
-#include "api/quad_mesh.h"
+#include "api/kept_skin.h"
+#include "api/remesh.h"
 #include "base/columns.h"
 #include "base/errors.h"
 #include "fill/quads.h"

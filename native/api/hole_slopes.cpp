@@ -1,14 +1,9 @@
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "api/hole_job.h"
 #include "base/columns.h"
-#include "base/direction.h"
 #include "boundary/boundary_fit.h"
-#include "geometry/area_vector.h"
+#include "geometry/triangle.h"
 #include "shape/limits.h"
 
 namespace fairing {

@@ -1,18 +1,14 @@
 #include "api/holes.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 
 #include "api/loops_meant.h"
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "base/text.h"
 #include "boundary/surrounding_fit.h"
 #include "fill/loop_check.h"
 #include "fill/short_edges.h"
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 #include "mesh/hole_loops.h"
 
 namespace fairing {
@@ -205,7 +201,7 @@ HoledMesh::HoledMesh(BorderedMesh mesh)
     : mesh_(std::move(mesh)), stars_(mesh_.triangles, static_cast<int>(mesh_.vertices.cols())) {}
 
 LocalMesh HoledMesh::around(const Indices& vertices, Indices also) const {
-    constexpr int rings = 8;  // that slopes and the hard edges around them depend on (boundary/sided_fits)
+    constexpr int rings = 8;  // that slopes and the hard edges around them depend on (boundary/surrounding_fit)
     Indices near = stars_.around(vertices, rings);
     std::erase_if(near, [&](int t) { return !mesh_.vertices(Eigen::all, mesh_.triangles.col(t)).allFinite(); });
     also.insert(also.end(), vertices.begin(), vertices.end());

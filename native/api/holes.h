@@ -1,10 +1,10 @@
 // The boundary loops of a mesh that are to be filled, each with its surroundings, and those that can't be.
 #pragma once
 
-#include "base/view.h"
+#include "base/types.h"
 #include "fill/loop_sides.h"
 #include "geometry/hard_edges.h"
-#include "mesh/stars.h"
+#include "mesh/fans.h"
 
 namespace fairing {
 

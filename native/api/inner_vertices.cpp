@@ -1,7 +1,5 @@
 #include "api/inner_vertices.h"
 
-#include <algorithm>
-#include <numeric>
 #include <set>
 
 #include "api/measure.h"

@@ -1,8 +1,6 @@
 // Vertices inside a patch of few large faces, none of whose own is free: a new mesh begins with these.
 #pragma once
 
-#include <optional>
-
 #include "geometry/hard_edges.h"
 
 namespace fairing {

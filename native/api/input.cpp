@@ -1,14 +1,9 @@
 #include "api/input.h"
 
-#include <algorithm>
-#include <limits>
-#include <string>
-
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
+#include "base/columns.h"
 #include "base/errors.h"
-#include "base/text.h"
 #include "mesh/memory_order.h"
 
 namespace fairing {

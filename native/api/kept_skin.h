@@ -1,13 +1,10 @@
 // The detail of one component's old patch, kept between calls, and the boundary without detail that both bases meet.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <utility>
-
 #include "api/component.h"
 #include "base/progress.h"
 #include "detail/skin.h"
+#include "fill/edge_lengths.h"
 
 namespace fairing {
 
@@ -57,5 +54,23 @@ private:
     double seconds_ = 0.0;
     Diagnostics warnings_;
 };
+
+// In units of D. The arguments must outlive it.
+struct OldSurface {
+    OldSurface(const MeshInput& input, const CheckedMesh& mesh, const Patch& component);
+
+    [[nodiscard]] VectorX lengths(const WantedLengths& wanted, const KeptEdges& kept = {}) const;
+
+    const Patch& patch;
+    Normalisation unit;
+    Points points;
+    Points normals;
+
+private:
+    void fit_at_creases(const std::vector<char>& free_slope);
+};
+
+// Those with free vertices. Throws NO_FREE_VERTICES where there are none.
+std::vector<Patch> patches_with_vertices(const CheckedMesh& mesh);
 
 }  // namespace fairing

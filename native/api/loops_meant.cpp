@@ -1,6 +1,5 @@
 #include "api/loops_meant.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <set>
 

@@ -1,19 +1,18 @@
 #include "api/measure.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include <Eigen/Geometry>
 
 #include "api/component.h"
 #include "api/diagnose.h"
-#include "base/direction.h"
+#include "base/columns.h"
+#include "base/errors.h"
+#include "fairness/harmonic_values.h"
 #include "geometry/flips.h"
 #include "geometry/mean_curvature.h"
-#include "geometry/one_ring_buffer.h"
+#include "geometry/one_ring.h"
 #include "geometry/surface_fit.h"
 #include "mesh/pieces.h"
+#include "paper/hierarchy.h"
 
 namespace fairing {
 
@@ -55,8 +54,7 @@ public:
     void add(const Patch& patch, Points local, NormalKind kind, NormalsAtBoundary boundary) {
         const double scale = scale_to_one((local.rowwise().maxCoeff() - local.rowwise().minCoeff()).maxCoeff());
         local *= scale;
-        FaceGeometry faces;
-        faces.update(local, patch.triangles);
+        FaceGeometry faces(local, patch.triangles);
         const Points at_fixed = normals_at_fixed(patch, local, normals_, boundary);
         const Points normals = vertex_normals(patch, local, faces, at_fixed, kind);
         const VectorX H = patch_curvature(patch, local, std::move(faces), normals, kind).mean;
@@ -84,9 +82,48 @@ Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
         const int first = static_cast<int>(3 * t);
         own.col(t) << first, first + 1, first + 2;
     }
-    FaceGeometry faces;
-    faces.update(corners, own);
+    FaceGeometry faces(corners, own);
     return faces.cotangents;
+}
+
+// Of `values` (a row for each vertex of the mesh), at these vertices.
+Eigen::MatrixXd rows_at(const Eigen::MatrixXd& values, std::span<const int> vertices) {
+    Eigen::MatrixXd result(static_cast<Eigen::Index>(vertices.size()), values.cols());
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+        result.row(static_cast<Eigen::Index>(k)) = values.row(vertices[k]);
+    return result;
+}
+
+using Corners = std::vector<int>;
+
+void append(Corners& corners, const Triangles& triangles, const Indices& numbers) {
+    for (int v : triangles.reshaped()) corners.push_back(numbers[v]);
+}
+
+Indices compose(const Indices& first, const Indices& then) {
+    Indices result;
+    for (int v : first) result.push_back(then[v]);
+    return result;
+}
+
+// Triangles of one piece on each of its levels, coarse to fine, in input numbers.
+std::vector<Corners> piece_levels(const Patch& patch, const View<Points>& points, int levels) {
+    const Hierarchy hierarchy = build_hierarchy(patch, gather(points, patch.to_input), levels);
+    std::vector<Corners> result;
+    for (const Patch& level : hierarchy.patches) {
+        append(result.emplace_back(), level.triangles, compose(level.to_input, patch.to_input));
+    }
+    append(result.emplace_back(), patch.triangles, patch.to_input);
+    return result;
+}
+
+MeshLevel make_level(const Corners& corners) {
+    MeshLevel level;
+    level.triangles = Eigen::Map<const Triangles>(corners.data(), 3, static_cast<Eigen::Index>(corners.size() / 3));
+    level.vertices = corners;
+    std::sort(level.vertices.begin(), level.vertices.end());
+    level.vertices.erase(std::unique(level.vertices.begin(), level.vertices.end()), level.vertices.end());
+    return level;
 }
 
 }  // namespace
@@ -131,8 +168,7 @@ Points vertex_normals(const MeshInput& input, NormalKind kind) {
     const CheckedMesh mesh = check_mesh(input);
     Points sum = Points::Zero(3, input.vertices.cols());
     for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points& local) {
-        FaceGeometry faces;
-        faces.update(local, patch.triangles);
+        FaceGeometry faces(local, patch.triangles);
         const Points boundary = kind == NormalKind::fitted ? one_sided_normals(patch, local)
                                                            : Points(3, patch.vertex_count() - patch.free_count);
         Points normals = vertex_normals(patch, local, faces, boundary, kind);
@@ -195,6 +231,40 @@ VectorX conformal_distortion(const Points& reference, const Points& points, cons
         ratio[t] = std::isfinite(value) ? value : std::numeric_limits<double>::infinity();
     }
     return ratio;
+}
+
+Eigen::MatrixXd interpolate(const MeshInput& input, const Eigen::MatrixXd& given) {
+    const CheckedMesh mesh = check_mesh(input);
+    Eigen::MatrixXd values = Eigen::MatrixXd::Zero(input.vertices.cols(), given.cols());
+    for (Eigen::Index k = 0; k < given.rows(); ++k) values.row((*input.fixed)[static_cast<int>(k)]) = given.row(k);
+    for (const Patch& patch : make_patches(mesh.cut, mesh.roles)) {
+        const Points points = gather(input.vertices, patch.to_input);
+        const auto inside = harmonic_values(patch, points, rows_at(values, fixed_vertices(patch)));
+        if (!inside) throw SolverError("the values could not be continued: the mesh has triangles without area");
+        for (int v = 0; v < patch.free_count; ++v) values.row(patch.to_input[v]) = inside->row(v);
+    }
+    return values;
+}
+
+std::vector<MeshLevel> mesh_hierarchy(const MeshInput& input, int levels) {
+    const CheckedMesh mesh = check_mesh(input);
+    std::vector<std::vector<Corners>> pieces;
+    std::size_t depth = 1;
+    const Pieces parts(mesh.cut, mesh.roles);
+    for (int k = 0; k < parts.size(); ++k) {
+        pieces.push_back(piece_levels(parts.patch(k), input.vertices, levels));
+        depth = std::max(depth, pieces.back().size());
+    }
+    std::vector<MeshLevel> result;
+    for (std::size_t finer = depth; finer-- > 0;) {
+        Corners corners;
+        for (const auto& piece : pieces) {
+            const Corners& part = piece[piece.size() - 1 - std::min(finer, piece.size() - 1)];
+            corners.insert(corners.end(), part.begin(), part.end());
+        }
+        result.push_back(make_level(corners));
+    }
+    return result;
 }
 
 }  // namespace fairing

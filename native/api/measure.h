@@ -44,4 +44,21 @@ Indices flipped_triangles(const MeshInput& input);
 // one of them is degenerate.
 VectorX conformal_distortion(const Points& reference, const Points& points, const Triangles& triangles);
 
+// Rows: the mesh's vertices; columns as those of `given`, whose rows belong to `input.fixed`. Harmonic at the other
+// vertices (fairness/harmonic_values); zero where no component holds a fixed vertex. Border vertices that are not fixed
+// stay zero, too: a mesh whose border is not all fixed has no use for this. Throws what check_mesh throws, and
+// SolverError.
+Eigen::MatrixXd interpolate(const MeshInput& input, const Eigen::MatrixXd& given);
+
+// One level in the input's own vertex numbers.
+struct MeshLevel {
+    Indices vertices;     // ascending: those that its triangles use
+    Triangles triangles;  // wound as the cut mesh is
+};
+
+// The levels that method "paper" works on, coarse to fine; the last one is the mesh itself. Fixed and border vertices
+// are on every level. Components without free vertices stay whole; those with fewer levels stay at their coarsest.
+// Throws what check_mesh throws.
+std::vector<MeshLevel> mesh_hierarchy(const MeshInput& input, int levels);
+
 }  // namespace fairing

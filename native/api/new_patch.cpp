@@ -1,7 +1,5 @@
 #include "api/new_patch.h"
 
-#include <algorithm>
-#include <limits>
 #include <set>
 #include <tuple>
 

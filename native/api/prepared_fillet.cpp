@@ -1,13 +1,11 @@
 #include "api/prepared_fillet.h"
 
-#include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "fillet/limits.h"
 #include "fillet/seam_sides.h"
-#include "geometry/turned_caps.h"
+#include "geometry/flips.h"
 
 namespace fairing {
 

@@ -1,7 +1,5 @@
 #include "api/shape.h"
 
-#include <algorithm>
-
 #include "api/component.h"
 #include "api/diagnose.h"
 #include "geometry/surface_fit.h"

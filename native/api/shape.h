@@ -5,7 +5,6 @@
 #include "shape/flank.h"
 #include "shape/girth.h"
 #include "shape/knobs.h"
-#include "shape/sunken.h"
 
 namespace fairing {
 

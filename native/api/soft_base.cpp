@@ -1,10 +1,8 @@
 #include "api/soft_base.h"
 
-#include <algorithm>
-
 #include "api/component.h"
 #include "api/diagnose.h"
-#include "detail/old_base.h"
+#include "detail/skin.h"
 #include "mesh/pieces.h"
 
 namespace fairing {
@@ -25,21 +23,13 @@ Points without(BaseFilter& filter, const Points& surface, double wavelength, con
     return std::move(*smooth);
 }
 
-Stiffness stiffness_of(const Patch& patch, const Points& places) {
-    FaceGeometry faces;
-    faces.update(places, patch.triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, patch);
-    return stiffness;
-}
-
 void soften(const FairedSurface& surface, const Patch& patch, const SoftBaseSizes& sizes, const Progress& progress,
             SoftBase& result) {
     const Normalisation unit{gather(surface.mesh.vertices, patch.to_input).rowwise().mean(), sizes.diameter};
     const Points places = unit.to_unit(gather(surface.mesh.vertices, patch.to_input));
     if (!places.allFinite() || has_collapsed_fan(patch, places)) return;
     const double detail = sizes.detail > 0.0 ? sizes.detail : detail_wavelength(patch, places);
-    const Stiffness stiffness = stiffness_of(patch, places);
+    const Stiffness stiffness(patch, places);
     BaseFilter filter(patch, stiffness, {places, places.rightCols(places.cols() - patch.free_count)}, detail);
     Points base = without(filter, places, detail, progress);
     const Points fair = unit.to_unit(gather(surface.base, patch.to_input));

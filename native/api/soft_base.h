@@ -20,7 +20,7 @@ struct SoftBaseSizes {
 
 // 3 × vertices; where a vertex is fixed, and in patches without area, its place.
 struct SoftBase {
-    Points base;  // where faired the fair surface, elsewhere the low-pass surface (detail/old_base)
+    Points base;  // where faired the fair surface, elsewhere the low-pass surface (detail/skin)
     Points soft;  // that without what repeats within less than two widths or D/2: its join is round
 };
 

@@ -2,10 +2,8 @@
 
 #include <utility>
 
-#include "base/background_work.h"
-#include "base/progress.h"
+#include "base/parallel.h"
 #include "base/spin_wait.h"
-#include "base/thread_team.h"
 
 namespace fairing {
 

@@ -1,8 +1,6 @@
 // Two numbers in one SIMD register, for the same work on two vertices.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "base/types.h"

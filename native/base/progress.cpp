@@ -1,10 +1,7 @@
 #include "base/progress.h"
 
-#include <algorithm>
 #include <exception>
-#include <string>
 #include <thread>
-#include <utility>
 
 #include "base/errors.h"
 

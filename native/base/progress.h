@@ -2,15 +2,33 @@
 // outside. Only the thread that made the Progress calls back; every thread sees the flag.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <concepts>
 #include <functional>
 #include <memory>
 #include <string_view>
 
-#include "base/stop_flag.h"
-
 namespace fairing {
+
+// Stays raised. A flag inside another one counts as raised where that is, and must not outlive it.
+class StopFlag {
+public:
+    explicit StopFlag(const StopFlag* outer = nullptr) noexcept : outer_(outer) {}
+    StopFlag(const StopFlag&) = delete;
+    StopFlag& operator=(const StopFlag&) = delete;
+    ~StopFlag() = default;
+
+    // Nothing else is passed on by the flag: no order of memory is needed.
+    void raise() noexcept { raised_.store(true, std::memory_order_relaxed); }
+    [[nodiscard]] bool is_raised() const noexcept {
+        return raised_.load(std::memory_order_relaxed) || (outer_ && outer_->is_raised());
+    }
+
+private:
+    std::atomic<bool> raised_ = false;
+    const StopFlag* outer_;
+};
 
 // Receives the finished fraction in [0, 1] and the name of the stage; returning false asks to stop. Anything that can
 // be called so converts to it. It is not called again once it has returned false or thrown.

@@ -2,42 +2,28 @@
 
 #include "api/fair_solver.h"
 #include "base/errors.h"
+#include "bindings/bind.h"
 #include "bindings/fair_options.h"
-#include "bindings/python_run.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
 #include "problem/solution.h"
 
 namespace fairing::bindings {
 
-namespace {
-
-// Rows (i, j, λ).
-std::vector<DirectedWeight> to_directed(const DoubleArray& rows) {
-    std::vector<DirectedWeight> result;
-    result.reserve(static_cast<std::size_t>(rows.shape(0)));
-    for (py::ssize_t k = 0; k < rows.shape(0); ++k) {
-        result.push_back({static_cast<int>(rows.at(k, 0)), static_cast<int>(rows.at(k, 1)), rows.at(k, 2)});
-    }
-    return result;
-}
-
-}  // namespace
-
 py::dict to_dict(const FairResult& result) {
-    py::list warnings;
-    for (const Diagnostic& warning : result.warnings) warnings.append(from_diagnostic(warning));
     py::list ways;
     for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
+    py::list levels;
+    for (const int count : result.levels) levels.append(count);
     py::dict dict;
     dict["equation"] = equation_of(result);
     dict["provenance"] = provenance_words.word(result.provenance);
-    dict["vertices"] = from_points(result.vertices);
-    dict["base"] = result.base.cols() > 0 ? from_points(result.base) : dict["vertices"];
-    dict["fixed"] = from_indices(result.fixed);
-    dict["mean_curvature"] = from_vector(result.mean_curvature);
-    dict["boundary_angle"] = from_vector(result.boundary_angle);
-    dict["join"] = from_vector(result.join);
+    dict["vertices"] = result.vertices;
+    dict["base"] = result.base.cols() > 0 ? py::cast(result.base) : py::object(dict["vertices"]);
+    dict["fixed"] = result.fixed;
+    dict["mean_curvature"] = result.mean_curvature;
+    dict["boundary_angle"] = result.boundary_angle;
+    dict["join"] = result.join;
     dict["girth"] = py::none();
     if (result.girth) dict["girth"] = py::make_tuple(result.girth->least, result.girth->largest);
     dict["continuity"] = result.joins_curvature ? "G2" : "G1";
@@ -47,23 +33,19 @@ py::dict to_dict(const FairResult& result) {
     dict["iterations"] = result.iterations;
     dict["residual"] = result.residual;
     dict["initial_residual"] = result.initial_residual;
-    dict["levels"] = py::tuple(py::cast(result.levels));
+    dict["levels"] = py::tuple(levels);
     dict["seconds"] = py::cast(result.seconds);
     dict["way"] = py::tuple(ways);
-    dict["warnings"] = py::tuple(warnings);
+    dict["warnings"] = py::tuple(py::cast(result.warnings));
     return dict;
 }
 
 namespace {
 
-void set_neighbours(Options& options, const IntArray& edges) {
-    const Indices flat = to_indices(edges);
-    auto& neighbours = options.fair.neighbours.emplace();
-    for (std::size_t k = 0; k + 1 < flat.size(); k += 2) neighbours.push_back({flat[k], flat[k + 1]});
-}
-
-void set_weights(Options& options, const DoubleArray& rows) {
-    options.fair.custom = to_directed(rows);
+// Rows (i, j, λ).
+void set_weights(Options& options, const Points& rows) {
+    for (const auto row : rows.colwise())
+        options.fair.custom.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), row[2]});
     options.fair.inner_fairness = InnerFairness::custom;
 }
 
@@ -74,24 +56,19 @@ void set_paper(Options& options, const PaperOptions& paper) {
 
 Preview shown_by(PythonRun& run, const py::object& preview) {
     if (preview.is_none()) return {};
-    return [&](const Points& vertices) { run.give(preview, [&] { return from_points(vertices); }); };
+    return [&](const Points& vertices) { run.give(preview, [&] { return py::cast(vertices); }); };
 }
 
-py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, const std::optional<IntArray>& fixed,
-                     const std::optional<DoubleArray>& fixed_normals,
-                     const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
-                     const std::optional<IntArray>& outside, const Options& options, const py::object& callback,
-                     const py::object& preview) {
+py::dict fair_arrays(const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed,
+                     const MaybePoints& fixed_normals, const std::optional<VectorX>& fixed_curvatures,
+                     const MaybePoints& reference, const std::optional<Triangles>& outside, const Options& options,
+                     const py::object& callback, const py::object& preview) {
     PythonRun run(callback);
-    MeshInput input{view_points(vertices),
-                    to_triangles(IntArray::ensure(triangles)),
-                    to_optional(fixed, to_indices),
-                    to_optional(fixed_normals, to_points),
-                    to_optional(fixed_curvatures, to_vector),
-                    outside ? to_triangles(*outside) : Triangles(3, 0),
-                    options.held};
-    const auto m0 = to_optional(reference, view_points);
     return to_dict(run.without_gil([&](const ProgressCallback& progress) {
+        MeshInput input{vertices,      triangles,        fixed,
+                        fixed_normals, fixed_curvatures, outside.value_or(Triangles(3, 0)),
+                        options.held};
+        const std::optional<View<Points>> m0 = reference ? std::optional<View<Points>>(*reference) : std::nullopt;
         return fair(std::move(input), m0, options.fair, progress, shown_by(run, preview));
     }));
 }
@@ -99,26 +76,22 @@ py::dict fair_arrays(const DoubleArray& vertices, const py::array& triangles, co
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
 class PythonSolver {
 public:
-    PythonSolver(const IntArray& triangles, const std::optional<IntArray>& fixed, const Options& options)
-        : solver_(to_triangles(triangles), to_optional(fixed, to_indices), options.held, options.fair) {}
+    PythonSolver(const Triangles& triangles, const MaybeIndices& fixed, const Options& options)
+        : solver_(triangles, fixed, options.held, options.fair) {}
 
     void change(const Options& options) {
         const Hold hold(busy_);
         solver_.change(options.fair);
     }
 
-    py::dict solve(const DoubleArray& vertices, const std::optional<DoubleArray>& fixed_normals,
-                   const std::optional<DoubleArray>& fixed_curvatures, const std::optional<DoubleArray>& reference,
+    py::dict solve(const Points& vertices, const MaybePoints& fixed_normals,
+                   const std::optional<VectorX>& fixed_curvatures, const MaybePoints& reference,
                    const py::object& callback, const py::object& preview) {
         PythonRun run(callback);
         const Hold hold(busy_);
-        Points points = to_points(vertices);
-        auto normals = to_optional(fixed_normals, to_points);
-        auto curvatures = to_optional(fixed_curvatures, to_vector);
-        const auto m0 = to_optional(reference, view_points);
         return to_dict(run.without_gil([&](const ProgressCallback& progress) {
-            return solver_.solve(std::move(points), std::move(normals), std::move(curvatures), m0, progress,
-                                 shown_by(run, preview));
+            const std::optional<View<Points>> m0 = reference ? std::optional<View<Points>>(*reference) : std::nullopt;
+            return solver_.solve(vertices, fixed_normals, fixed_curvatures, m0, progress, shown_by(run, preview));
         }));
     }
 
@@ -191,7 +164,7 @@ void bind_options(py::module_& module) {
     add(options, "smooth_curves", +[](Options& o) -> Indices& { return o.held.smooth_curves; });
     add(options, border_words, +[](Options& o) -> bool& { return o.held.fair_border; });
     add(options, "pin_radius", +[](Options& o) -> double& { return o.fair.pin_radius; });
-    options.def_property("neighbours", nullptr, &set_neighbours);
+    add(options, "neighbours", +[](Options& o) -> decltype(o.fair.neighbours)& { return o.fair.neighbours; });
     options.def_property("weights", nullptr, &set_weights);
     options.def_property("paper", nullptr, &set_paper);
 }
@@ -226,8 +199,8 @@ void bind_fair(py::module_& module) {
     bind_paper_options(module);
     bind_options(module);
     py::class_<PythonSolver>(module, "Solver", py::module_local())
-        .def(py::init<const IntArray&, const std::optional<IntArray>&, const Options&>(), py::arg("triangles"),
-             py::arg("fixed"), py::arg("options"))
+        .def(py::init<const Triangles&, const MaybeIndices&, const Options&>(), py::arg("triangles"), py::arg("fixed"),
+             py::arg("options"))
         .def("change", &PythonSolver::change, py::arg("options"))
         .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
              py::arg("reference"), py::arg("progress"), py::arg("preview"));

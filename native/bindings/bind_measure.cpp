@@ -1,87 +1,78 @@
 #include "api/measure.h"
-#include "bindings/convert.h"
+#include "bindings/bind.h"
 #include "bindings/topics.h"
 #include "bindings/words.h"
 #include "geometry/nearest_point.h"
+#include "geometry/segments.h"
 #include "geometry/self_intersection.h"
 #include "mesh/loops.h"
-#include "mesh/turned.h"
+#include "mesh/twins.h"
 
 namespace fairing::bindings {
 
-namespace {
-
-py::array mean_curvature_array(const DoubleArray& vertices, const IntArray& triangles,
-                               const std::optional<IntArray>& fixed, const std::optional<DoubleArray>& fixed_normals,
-                               const std::string& normals) {
-    const MeshInput input{view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices),
-                          to_optional(fixed_normals, to_points)};
-    return from_vector(mean_curvature(input, normal_words.value(normals)));
-}
-
-py::array vertex_normals_array(const DoubleArray& vertices, const IntArray& triangles, const std::string& normals) {
-    return from_points(
-        vertex_normals({view_points(vertices), to_triangles(triangles), {}, {}}, normal_words.value(normals)));
-}
-
-py::tuple cotan_laplacian_arrays(const DoubleArray& vertices, const IntArray& triangles) {
-    const MatrixEntries entries = cotan_laplacian(to_points(vertices), to_triangles(triangles));
-    const VectorX values =
-        Eigen::Map<const VectorX>(entries.values.data(), static_cast<Eigen::Index>(entries.values.size()));
-    return py::make_tuple(from_indices(entries.rows), from_indices(entries.columns), from_vector(values));
-}
-
-py::list boundary_loop_arrays(const IntArray& triangles) {
-    const Triangles list = to_triangles(triangles);
-    const int count = list.size() > 0 ? list.maxCoeff() + 1 : 0;
-    py::list loops;
-    for (const Indices& loop : boundary_loops(list, count)) loops.append(from_indices(loop));
-    return loops;
-}
-
-py::array turned_array(const IntArray& triangles, int vertex_count) {
-    return from_indices(turned_triangles(to_triangles(triangles), vertex_count));
-}
-
-py::array component_array(const IntArray& triangles, const std::optional<IntArray>& fixed, int vertex_count) {
-    return from_indices(component_of_triangles(to_triangles(triangles), to_optional(fixed, to_indices), vertex_count));
-}
-
-py::array flipped_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& fixed) {
-    return from_indices(
-        flipped_triangles({view_points(vertices), to_triangles(triangles), to_optional(fixed, to_indices), {}}));
-}
-
-py::array crossing_array(const DoubleArray& vertices, const IntArray& triangles, const std::optional<IntArray>& near) {
-    const Triangles list = to_triangles(triangles);
-    const Points points = to_points(vertices);
-    return from_indices(near ? crossings_with(list, points, to_indices(*near)) : crossing_triangles(list, points));
-}
-
-py::array conformal_distortion_array(const DoubleArray& reference, const DoubleArray& vertices,
-                                     const IntArray& triangles) {
-    return from_vector(conformal_distortion(to_points(reference), to_points(vertices), to_triangles(triangles)));
-}
-
-py::array signed_distance_array(const DoubleArray& at, const DoubleArray& reference, const IntArray& triangles) {
-    return from_vector(signed_distances(to_points(at), to_points(reference), to_triangles(triangles)));
-}
-
-}  // namespace
-
 void bind_measure(py::module_& module) {
-    module.def("mean_curvature", &mean_curvature_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("normals"));
-    module.def("vertex_normals", &vertex_normals_array, py::arg("vertices"), py::arg("triangles"), py::arg("normals"));
-    module.def("cotan_laplacian", &cotan_laplacian_arrays, py::arg("vertices"), py::arg("triangles"));
-    module.def("components", &component_array, py::arg("triangles"), py::arg("fixed"), py::arg("vertex_count"));
-    module.def("boundary_loops", &boundary_loop_arrays, py::arg("triangles"));
-    module.def("turned_triangles", &turned_array, py::arg("triangles"), py::arg("vertex_count"));
-    module.def("flipped_triangles", &flipped_array, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"));
-    module.def("self_intersections", &crossing_array, py::arg("vertices"), py::arg("triangles"), py::arg("near"));
-    module.def("conformal_distortion", &conformal_distortion_array, py::arg("reference"), py::arg("vertices"),
-               py::arg("triangles"));
-    module.def("signed_distances", &signed_distance_array, py::arg("at"), py::arg("reference"), py::arg("triangles"));
+    bind(module, "mean_curvature", {"vertices", "triangles", "fixed", "fixed_normals", "normals"},
+         [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed,
+            const MaybePoints& fixed_normals, const std::string& normals) {
+             return mean_curvature({vertices, triangles, fixed, fixed_normals}, normal_words.value(normals));
+         });
+    bind(module, "vertex_normals", {"vertices", "triangles", "normals"},
+         [](const Points& vertices, const Triangles& triangles, const std::string& normals) {
+             return vertex_normals({vertices, triangles, {}, {}}, normal_words.value(normals));
+         });
+    bind(
+        module, "cotan_laplacian", {"vertices", "triangles"},
+        [](const Points& vertices, const Triangles& triangles) { return cotan_laplacian(vertices, triangles); },
+        [](const MatrixEntries& entries) {
+            const auto count = static_cast<Eigen::Index>(entries.values.size());
+            return py::make_tuple(entries.rows, entries.columns,
+                                  VectorX(Eigen::Map<const VectorX>(entries.values.data(), count)));
+        });
+    bind(module, "components", {"triangles", "fixed", "vertex_count"},
+         [](const Triangles& triangles, const MaybeIndices& fixed, int vertex_count) {
+             return component_of_triangles(triangles, fixed, vertex_count);
+         });
+    bind(module, "boundary_loops", {"triangles"}, [](const Triangles& triangles) {
+        return boundary_loops(triangles, triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0);
+    });
+    bind(module, "turned_triangles", {"triangles", "vertex_count"},
+         [](const Triangles& triangles, int vertex_count) { return turned_triangles(triangles, vertex_count); });
+    bind(module, "flipped_triangles", {"vertices", "triangles", "fixed"},
+         [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed) {
+             return flipped_triangles({vertices, triangles, fixed, {}});
+         });
+    bind(module, "self_intersections", {"vertices", "triangles", "near"},
+         [](const Points& vertices, const Triangles& triangles, const MaybeIndices& near) {
+             return near ? crossings_with(triangles, vertices, *near) : crossing_triangles(triangles, vertices);
+         });
+    bind(module, "conformal_distortion", {"reference", "vertices", "triangles"},
+         [](const Points& reference, const Points& vertices, const Triangles& triangles) {
+             return conformal_distortion(reference, vertices, triangles);
+         });
+    bind(module, "signed_distances", {"at", "reference", "triangles"},
+         [](const Points& at, const Points& reference, const Triangles& triangles) {
+             return signed_distances(at, reference, triangles);
+         });
+    bind(module, "interpolate", {"vertices", "triangles", "fixed", "values"},
+         [](const Points& vertices, const Triangles& triangles, const Indices& fixed, const Eigen::MatrixXd& values) {
+             return interpolate({vertices, triangles, fixed, {}}, values);
+         });
+    bind(module, "crossing_edges", {"edges", "vertices"},
+         [](const VertexPairs& edges, const Points& vertices) { return crossing_edges(edges, vertices); });
+    bind(
+        module, "touching_edges", {"edges", "vertices"},
+        [](const VertexPairs& edges, const Points& vertices) { return touching_edges(edges, vertices); },
+        [](const Touches& found) { return py::make_tuple(found.on_edges, found.pairs); });
+    bind(
+        module, "hierarchy", {"vertices", "triangles", "fixed", "levels"},
+        [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed, int levels) {
+            return mesh_hierarchy({vertices, triangles, fixed, {}}, levels);
+        },
+        [](const std::vector<MeshLevel>& levels) {
+            py::list list;
+            for (const MeshLevel& level : levels) list.append(py::make_tuple(level.vertices, level.triangles));
+            return list;
+        });
 }
 
 }  // namespace fairing::bindings

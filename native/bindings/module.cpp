@@ -13,11 +13,9 @@ PYBIND11_MODULE(_core, module) {
     fairing::bindings::bind_fair(module);
     fairing::bindings::bind_fill(module);
     fairing::bindings::bind_fillet(module);
-    fairing::bindings::bind_hierarchy(module);
     fairing::bindings::bind_holes(module);
     fairing::bindings::bind_measure(module);
     fairing::bindings::bind_meshing(module);
     fairing::bindings::bind_outline(module);
-    fairing::bindings::bind_quads(module);
     fairing::bindings::bind_shape(module);
 }

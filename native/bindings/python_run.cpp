@@ -1,11 +1,8 @@
 #include "bindings/python_run.h"
 
-#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
-#include <vector>
 
 namespace fairing::bindings {
 

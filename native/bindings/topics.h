@@ -8,12 +8,10 @@ namespace fairing::bindings {
 void bind_fair(pybind11::module_& module);
 void bind_fill(pybind11::module_& module);
 void bind_fillet(pybind11::module_& module);
-void bind_hierarchy(pybind11::module_& module);
 void bind_holes(pybind11::module_& module);
 void bind_measure(pybind11::module_& module);
 void bind_meshing(pybind11::module_& module);
 void bind_outline(pybind11::module_& module);
-void bind_quads(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);
 
 }  // namespace fairing::bindings

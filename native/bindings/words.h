@@ -1,9 +1,7 @@
 // The words that callers use for the engine's enumerations: here and nowhere else.
 #pragma once
 
-#include <array>
 #include <stdexcept>
-#include <string>
 
 #include "api/fair.h"
 #include "problem/solution.h"

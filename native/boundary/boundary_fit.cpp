@@ -1,12 +1,8 @@
 #include "boundary/boundary_fit.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "base/progress.h"
-#include "boundary/sided_fits.h"
-#include "geometry/angle.h"
-#include "mesh/collapsed.h"
+#include "geometry/triangle.h"
+#include "mesh/twins.h"
 
 namespace fairing {
 

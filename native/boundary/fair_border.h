@@ -11,4 +11,14 @@ namespace fairing {
 // that noise goes and a shape of many vertices stays. Runs shorter than 6 stay as they are.
 void fair_border(const Indices& loop, const std::vector<char>& marked, Points& points);
 
+// Beyond its first vertex.
+struct ChainEnd {
+    Vector3 direction;  // unit, out of the chain
+    Vector3 curvature;  // of the circle, to its centre, length⁻¹; zero where two vertices are known
+};
+
+// The circle through the first column that fits the others best. Exact on circles and straight lines.
+// Precondition: two different columns or more, all different from the first.
+ChainEnd end_of_chain(const Points& chain);
+
 }  // namespace fairing

@@ -1,11 +1,6 @@
 #include "boundary/feather.h"
 
-#include <algorithm>
-#include <array>
-#include <iterator>
-#include <limits>
 #include <map>
-#include <vector>
 
 #include "geometry/neighbourhood.h"
 #include "mesh/nearest_first.h"

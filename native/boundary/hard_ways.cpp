@@ -1,7 +1,5 @@
 #include "boundary/hard_ways.h"
 
-#include <algorithm>
-#include <limits>
 #include <set>
 
 #include "mesh/nearest_first.h"

@@ -1,7 +1,7 @@
 // Ways over a patch's edges between the ends of hard edges of its surroundings.
 #pragma once
 
-#include "base/view.h"
+#include "base/types.h"
 #include "geometry/hard_edges.h"
 
 namespace fairing {

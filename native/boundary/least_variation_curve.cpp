@@ -1,10 +1,6 @@
 #include "boundary/least_variation_curve.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <complex>
-#include <numbers>
 #include <stdexcept>
 
 #include <Eigen/Geometry>

@@ -1,13 +1,12 @@
 #include "boundary/low_passed_boundary.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/SparseCholesky>
 
+#include "fairness/harmonic_values.h"
 #include "geometry/limits.h"
+#include "geometry/neighbourhood.h"
 #include "linear/elimination.h"
+#include "mesh/fans.h"
 
 namespace fairing {
 
@@ -82,6 +81,34 @@ OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, 
         result.points(Eigen::all, loop) = points;
         result.normals(Eigen::all, loop) = across(points, normals, given);
     }
+    return result;
+}
+
+Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held) {
+    const VertexAdjacency around(triangles, static_cast<int>(points.cols()));
+    InnerWeights edges;
+    for (int v = 0; v < static_cast<int>(points.cols()); ++v) {
+        for (int k = around.begin[v]; k < around.begin[v + 1]; ++k) {
+            if (around.neighbours[k] < v) edges.push_back({v, around.neighbours[k], 1.0});
+        }
+    }
+    const auto found = harmonic_values({edges, held, points}, points.transpose());
+    return found ? Points(found->transpose()) : points;
+}
+
+BrokenSurface broken_along(const Triangles& triangles, int vertex_count, const std::vector<std::array<int, 2>>& edges) {
+    const EdgeTable table = make_edges(triangles, vertex_count);
+    std::vector<char> cut(table.size(), 0);
+    for (const auto& [a, b] : edges) {
+        const std::array wanted{std::min(a, b), std::max(a, b)};
+        const auto found = std::lower_bound(table.ends.begin(), table.ends.end(), wanted);
+        if (found != table.ends.end() && *found == wanted)
+            cut[static_cast<std::size_t>(found - table.ends.begin())] = 1;
+    }
+    const Fans fans = join_corners(triangles, twins_across(table, cut));
+    BrokenSurface result{Triangles(3, triangles.cols()), fans.input_vertex};
+    for (Eigen::Index c = 0; c < triangles.size(); ++c)
+        result.triangles(c % 3, c / 3) = fans.of_corner[static_cast<std::size_t>(c)];
     return result;
 }
 

@@ -1,6 +1,7 @@
 // Boundary loops too jagged to be met, and the low-passed ones that replace them.
 #pragma once
 
+#include "base/types.h"
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -20,5 +21,19 @@ double outline_variation(const Patch& patch, const OutlineData& outline);
 // halves waves of `wave` vertices, and normals are then at right angles to it. Loops of no more than `wave` vertices
 // and what lies on no loop stay.
 OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, double wave);
+
+// Every vertex of the triangles that is not held at the mean of its neighbours: discs over flat loops are flat.
+// Vertices that hang together with no held one stay.
+Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held);
+
+// Surroundings that are broken along creases.
+struct BrokenSurface {
+    Triangles triangles;   // of copies
+    Indices input_vertex;  // copy → vertex
+};
+
+// The triangles taken apart along edges: a vertex has one copy for each fan that is left at it.
+// Precondition: three different vertices in each triangle.
+BrokenSurface broken_along(const Triangles& triangles, int vertex_count, const std::vector<std::array<int, 2>>& edges);
 
 }  // namespace fairing

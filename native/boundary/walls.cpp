@@ -1,14 +1,10 @@
 #include "boundary/walls.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 
-#include "base/direction.h"
-#include "boundary/closing.h"
-#include "geometry/angle.h"
-#include "geometry/area_vector.h"
+#include "base/columns.h"
+#include "boundary/low_passed_boundary.h"
+#include "geometry/triangle.h"
 #include "mesh/edges.h"
 #include "mesh/union_find.h"
 

@@ -1,9 +1,6 @@
 // Where the surroundings of a patch end in an edge, so that its surface does not go on with their slope.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "geometry/hard_edges.h"
 #include "geometry/slope_fit.h"
 

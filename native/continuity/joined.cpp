@@ -1,14 +1,15 @@
 #include "continuity/joined.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
-
 #include "accept/accept.h"
 #include "base/stopwatch.h"
-#include "continuity/curvature_join.h"
 #include "geometry/surface_fit.h"
+#include "linear/anderson.h"
+#include "linear/conjugate_gradients.h"
+#include "linear/gmres.h"
+#include "linear/limits.h"
+#include "linear/shrinking_steps.h"
+#include "problem/surface_state.h"
+#include "tangential/tangential_step.h"
 
 namespace fairing {
 
@@ -80,6 +81,89 @@ void inherit(Solution& found, Solution tangent, const KnownCurvature& known) {
     if (tangent.pins != Pins::absent) found.pins = Pins::curvature_met;
 }
 
+// With 0.02 patches of 30k vertices need nine iterations instead of five, with a tenth of it none less.
+constexpr double relative_tolerance = 0.004;
+
+class CurvatureJoin {
+public:
+    CurvatureJoin(const Problem& problem, const KnownCurvature& known, const Points& start, int vertices_per_wave,
+                  const Progress& progress)
+        : problem_(problem),
+          patch_(problem.patch),
+          known_(known),
+          progress_(progress),
+          modes_(known.curves, problem.fixed_points, vertices_per_wave),
+          operator_(problem.patch, problem.fixed_points, modes_, start.leftCols(problem.patch.free_count)),
+          tangential_(make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here())),
+          anderson_(history_depth),
+          coefficients_(VectorX::Zero(modes_.count())) {
+        state_.points = start;
+    }
+
+    Solution run() {
+        const int most = std::min(nearby.steps, problem_.options.max_iterations);
+        solution_.termination = Termination::iteration_limit;
+        for (int k = 0; k < most; ++k) {
+            progress_.report(static_cast<double>(k) / most, "curvature");
+            if (!measure()) return failed();
+            const Points d = step();
+            const double largest = largest_length(d);
+            solution_.iterations = k + 1;
+            solution_.last_step = largest;
+            if (k == 0) solution_.first_step = largest;
+            if (largest <= problem_.options.tolerance) {
+                solution_.termination = Termination::converged;
+                break;
+            }
+            if (!std::isfinite(largest) || steps_.in_vain(largest) > nearby.in_vain) return failed();
+            anderson_.move(state_.points, d, longest_step);
+        }
+        solution_.points = state_.points;
+        solution_.mean_curvature = state_.curvature.mean;
+        return std::move(solution_);
+    }
+
+private:
+    Solution failed() {
+        solution_.termination = Termination::stalled;
+        solution_.points = state_.points;
+        return std::move(solution_);
+    }
+
+    // False where the surface has degenerated.
+    bool measure() {
+        state_.measure_faces(patch_);
+        state_.measure_curvature(problem_);
+        if (!state_.curvature.mean.allFinite()) return false;
+        if (!operator_.update(state_.stiffness, progress_.here())) return false;
+        const VectorX mass = state_.stiffness.mass.head(patch_.free_count);
+        residual_ = harmonic_residual(problem_, state_) - mass.cwiseProduct(operator_.harmonic(coefficients_));
+        solution_.residual = residual_.cwiseAbs().cwiseQuotient(2.0 * mass).maxCoeff();
+        return std::isfinite(solution_.residual);
+    }
+
+    Points step() {
+        const VectorX H = state_.curvature.mean.tail(problem_.fixed_points.cols());
+        const JoinOperator::Step step = operator_.solve(residual_, known_.missing(H));
+        coefficients_ += step.coefficients;
+        return state_.moves(tangential_->displacement(state_.points, state_.normals), step.heights);
+    }
+
+    const Problem& problem_;
+    const Patch& patch_;
+    const KnownCurvature& known_;
+    const Progress& progress_;
+    OutlineModes modes_;
+    JoinOperator operator_;
+    std::unique_ptr<TangentialStep> tangential_;
+    Anderson anderson_;
+    VectorX coefficients_;  // of the multipliers
+    SurfaceState state_;
+    VectorX residual_;
+    ShrinkingSteps steps_;
+    Solution solution_;
+};
+
 }  // namespace
 
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress) {
@@ -107,6 +191,75 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     if (!found) return with_join(std::move(tangent), Join::not_found);
     inherit(*found, std::move(tangent), known);
     return std::move(*found);
+}
+
+JoinOperator::JoinOperator(const Patch& patch, const Points& fixed_points, const OutlineModes& modes, Points layout)
+    : modes_(modes),
+      laplace_(patch, std::move(layout)),
+      coupling_(patch),
+      outline_(patch, fixed_points),
+      free_mass_(patch.free_count),
+      fixed_mass_(fixed_points.cols()) {}
+
+bool JoinOperator::update(const Stiffness& stiffness, const Progress& progress) {
+    coupling_.update(stiffness);
+    free_mass_ = 4.0 * stiffness.mass.head(free_mass_.size());
+    fixed_mass_ = 4.0 * stiffness.mass.tail(fixed_mass_.size());
+    if (!outline_.update(fixed_mass_) || !laplace_.update(stiffness, progress)) return false;
+    beside_ = laplace_.factor().reach(coupling_.beside());
+    return true;
+}
+
+VectorX JoinOperator::lifted(const VectorX& outline) const {
+    return laplace_.factor().solve_vector(coupling_.spread(outline.transpose()), beside_);
+}
+
+VectorX JoinOperator::turned(const VectorX& field) const {
+    const VectorX u = laplace_.factor().solve_vector(free_mass_.cwiseProduct(field), FrontReach(), beside_);
+    return coupling_.gather(u).transpose();
+}
+
+VectorX JoinOperator::harmonic(const VectorX& coefficients) const { return -lifted(modes_.multipliers(coefficients)); }
+
+// Rows: the change of H at the fixed vertices by the first equation, then its modes.
+VectorX JoinOperator::applied(const VectorX& unknowns) const {
+    const VectorX change = unknowns.head(fixed_mass_.size());
+    const VectorX kappa = lifted(modes_.multipliers(unknowns.tail(modes_.count())));
+    const VectorX source = coupling_.spread(change.transpose()) + 0.25 * free_mass_.cwiseProduct(kappa);
+    const VectorX first = fixed_mass_.cwiseProduct(change) + turned(laplace_.factor().solve_vector(source));
+    VectorX rows(unknowns.size());
+    rows << outline_.approximate_inverse(first.transpose()).transpose(), modes_.projected(change);
+    return rows;
+}
+
+// As if Ĝ were G and the multipliers of a mode changed that mode alone.
+VectorX JoinOperator::preconditioned(const VectorX& rows) const {
+    const VectorX first = rows.head(fixed_mass_.size());
+    const VectorX coefficients = modes_.projected(first) - rows.tail(modes_.count());
+    VectorX unknowns(rows.size());
+    unknowns << first - modes_.combined(coefficients), coefficients;
+    return unknowns;
+}
+
+JoinOperator::Step JoinOperator::solve(const VectorX& residual, const VectorX& missing) const {
+    const SparseCholesky& factor = laplace_.factor();
+    const VectorX inner = factor.solve_vector(residual);
+    VectorX rhs(fixed_mass_.size() + modes_.count());
+    rhs << -outline_.approximate_inverse(turned(inner).transpose()).transpose(), modes_.projected(missing);
+    const VectorX unknowns =
+        gmres([&](const VectorX& v) { return applied(v); }, [&](const VectorX& v) { return preconditioned(v); }, rhs,
+              relative_tolerance, most_cycles);
+    Step step{{}, unknowns.tail(modes_.count())};
+    const VectorX change = unknowns.head(fixed_mass_.size());
+    const VectorX source =
+        coupling_.spread(change.transpose()) - 0.25 * free_mass_.cwiseProduct(harmonic(step.coefficients));
+    step.heights = factor.solve_vector(free_mass_.cwiseProduct(inner + factor.solve_vector(source)));
+    return step;
+}
+
+Solution join_curvatures(const Problem& problem, const KnownCurvature& known, const Points& start,
+                         int vertices_per_wave, const Progress& progress) {
+    return CurvatureJoin(problem, known, start, vertices_per_wave, progress).run();
 }
 
 }  // namespace fairing

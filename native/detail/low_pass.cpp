@@ -1,17 +1,14 @@
 #include "detail/low_pass.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
-#include "base/progress.h"
+#include "base/columns.h"
+#include "base/errors.h"
 #include "geometry/face_geometry.h"
 #include "geometry/limits.h"
 #include "geometry/neighbourhood.h"
 #include "geometry/surface_fit.h"
+#include "operators/bending.h"
 
 namespace fairing {
 
@@ -153,6 +150,9 @@ std::optional<Mean> mean_at(const Vector3& here, const std::vector<Anchor>& anch
     return Mean{sum.place / weights, direction(sum.normal)};
 }
 
+// l⁴. Two passes leave 1 − (q/(1 + q))² of a wave, q = (2π l/wavelength)⁴: all but 1 % at q = 1/9.
+double bending_weight(double size) { return std::pow(size / (2.0 * std::numbers::pi), 4) / 9.0; }
+
 }  // namespace
 
 LowPass low_pass(const Points& points, const Triangles& triangles, const Indices& vertices, double wavelength) {
@@ -166,6 +166,20 @@ LowPass low_pass(const Points& points, const Triangles& triangles, const Indices
         result.normals.col(static_cast<Eigen::Index>(k)) = mean->normal;
         result.found[k] = 1;
     }
+    return result;
+}
+
+// (K + A) u = −K x, and what the second pass puts back, −(K + A)⁻¹ A u.
+Points denoised(const NoisySurface& surface, const VectorX& sizes, const Progress& progress) {
+    const Points& points = surface.points;
+    Bending bending(points, surface.triangles, surface.fixed, sizes.unaryExpr(&bending_weight));
+    const Indices& free = bending.free();
+    if (free.empty()) return points;
+    if (!bending.factorise(VectorX::Ones(static_cast<Eigen::Index>(free.size())), "denoise", progress))
+        throw SolverError("the roughness could not be taken away: the mesh has triangles without area");
+    const Points once = bending.solve(-bending.force(points));
+    Points result = points;
+    result(Eigen::all, free) += once - bending.solve(once * bending.free_areas().asDiagonal());
     return result;
 }
 

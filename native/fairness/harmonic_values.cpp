@@ -1,9 +1,7 @@
 #include "fairness/harmonic_values.h"
 
-#include <algorithm>
-
-#include "geometry/cotangent.h"
 #include "geometry/face_geometry.h"
+#include "geometry/triangle.h"
 #include "linear/sparse_cholesky.h"
 #include "mesh/union_find.h"
 
@@ -67,10 +65,7 @@ std::optional<Eigen::MatrixXd> harmonic_values(const HarmonicProblem& problem, E
 }
 
 InnerWeights harmonic_weights(const Patch& patch, const Points& points) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, patch);
+    Stiffness stiffness(patch, points);
     InnerWeights edges;
     for (int e = 0; e < patch.edge_count(); ++e) {
         const auto [a, b] = patch.edge_ends[e];

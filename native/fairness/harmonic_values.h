@@ -1,8 +1,6 @@
 // Values that are known at some vertices, continued harmonically.
 #pragma once
 
-#include <optional>
-
 #include "fairness/inner_weights.h"
 
 namespace fairing {

@@ -1,8 +1,6 @@
 // Inner fairness: how vertices sit in the surface (paper §7.3).
 #pragma once
 
-#include <optional>
-
 #include "mesh/patch.h"
 
 namespace fairing {

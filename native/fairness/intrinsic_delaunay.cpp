@@ -1,7 +1,5 @@
 #include "fairness/intrinsic_delaunay.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "base/progress.h"

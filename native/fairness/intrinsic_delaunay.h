@@ -1,8 +1,6 @@
 // Intrinsic Delaunay triangulation of a surface: flips change edges, never the geometry.
 #pragma once
 
-#include <array>
-
 #include "fairness/inner_weights.h"
 
 namespace fairing {

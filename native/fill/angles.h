@@ -1,9 +1,7 @@
 // Angles of single triangles, in degrees.
 #pragma once
 
-#include <algorithm>
-
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,11 +1,10 @@
 #include "fill/ball_start.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
-#include "base/direction.h"
+#include "base/columns.h"
 #include "fairness/harmonic_values.h"
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,8 +1,6 @@
 // An initial surface for patches that bulge out far beyond their boundary.
 #pragma once
 
-#include <optional>
-
 #include "mesh/patch.h"
 
 namespace fairing {

@@ -1,6 +1,5 @@
 #include "fill/conformal_map.h"
 
-#include <array>
 #include <complex>
 
 #include <Eigen/Geometry>
@@ -8,7 +7,7 @@
 
 #include "base/errors.h"
 #include "base/limits.h"
-#include "geometry/cotangent.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,9 +1,5 @@
 #include "fill/edge_lengths.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "base/progress.h"
 #include "fairness/harmonic_values.h"
 #include "geometry/face_geometry.h"
@@ -119,8 +115,7 @@ VectorX lengths_inside(const Patch& patch, const Points& points, const WantedLen
 }  // namespace
 
 double expected_count(const Patch& patch, const Points& points, const VectorX& lengths) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
+    FaceGeometry faces(points, patch.triangles);
     double count = 0.0;
     for (int t = 0; t < patch.triangle_count(); ++t) {
         double inverse = 0.0;

@@ -1,9 +1,6 @@
 #include "fill/equal_edge_mesh.h"
 
-#include <algorithm>
-#include <cmath>
 #include <queue>
-#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -11,7 +8,7 @@
 #include "base/progress.h"
 #include "fill/angles.h"
 #include "fill/limits.h"
-#include "geometry/area_vector.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,12 +1,8 @@
 // A mesh of nearly equilateral triangles on a surface that is known.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <span>
-
 #include "fill/edge_lengths.h"
-#include "geometry/edge_flip.h"
+#include "geometry/flips.h"
 #include "geometry/target_surface.h"
 #include "mesh/surface_mesh.h"
 

@@ -1,9 +1,5 @@
 #include "fill/first_surface.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numeric>
 #include <set>
 
 #include "accept/accept.h"
@@ -13,13 +9,13 @@
 #include "fill/joined_loops.h"
 #include "fill/limits.h"
 #include "fill/tube_start.h"
-#include "geometry/area_vector.h"
 #include "geometry/face_geometry.h"
+#include "geometry/triangle.h"
 #include "method/solve.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_mesh.h"
-#include "reuse/near_start.h"
-#include "stand_in/lofted.h"
+#include "reuse/warm_start.h"
+#include "stand_in/stand_in.h"
 
 namespace fairing {
 
@@ -91,8 +87,7 @@ Meshed meshed(const EqualEdgeMesh& mesh, const Points& outline) {
 
 // With a vertex in the middle of the largest triangle, where no vertex is free: between chords at sharp corners.
 Meshed with_free_vertex(const Triangles& triangles, const Points& outline) {
-    FaceGeometry faces;
-    faces.update(outline, triangles);
+    FaceGeometry faces(outline, triangles);
     Eigen::Index largest = 0;
     faces.areas.maxCoeff(&largest);
     Triangles fan(3, triangles.cols() + 2);
@@ -124,8 +119,7 @@ Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverO
 }
 
 VectorX equal_lengths(const Patch& patch, const Points& points) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
+    FaceGeometry faces(points, patch.triangles);
     return edge_lengths(patch, points,
                         {std::sqrt(vertices_per_square * faces.areas.sum() / first_count), 0, Spread::equal});
 }

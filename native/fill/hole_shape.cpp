@@ -1,14 +1,9 @@
 #include "fill/hole_shape.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include <Eigen/Dense>
 
-#include "base/direction.h"
-#include "geometry/angle.h"
+#include "base/columns.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

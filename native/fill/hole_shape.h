@@ -1,8 +1,6 @@
 // Which border loops are holes, and how much surface a loop asks for.
 #pragma once
 
-#include <span>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,13 +1,8 @@
 #include "fill/joined_loops.h"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
-
 #include <Eigen/Geometry>
 
 #include "base/columns.h"
-#include "base/direction.h"
 #include "fill/triangulation.h"
 
 namespace fairing {

@@ -1,10 +1,8 @@
 #include "fill/loop_check.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 
-#include "base/errors.h"
 #include "fill/loop_sides.h"
 #include "geometry/segments.h"
 

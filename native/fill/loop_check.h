@@ -1,9 +1,8 @@
 // What stops a boundary from bounding a surface. Each function throws MeshError.
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/errors.h"
 #include "base/types.h"
-#include "base/view.h"
 
 namespace fairing {
 

@@ -1,12 +1,8 @@
 #include "fill/loop_sides.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
-#include "base/errors.h"
+#include "base/columns.h"
 
 namespace fairing {
 

@@ -1,9 +1,7 @@
 // On which side of its loop a surface lies: by the loop's direction and the normals there, the surface on its left.
 #pragma once
 
-#include <optional>
-
-#include "base/diagnostic.h"
+#include "base/errors.h"
 #include "fill/hole_shape.h"
 
 namespace fairing {

@@ -1,9 +1,6 @@
 #include "fill/proportion.h"
 
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <string>
 
 #include "base/errors.h"
 #include "fill/hole_shape.h"

@@ -1,12 +1,8 @@
 #include "fill/quads.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <optional>
 
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 #include "mesh/edges.h"
 
 namespace fairing {

@@ -1,8 +1,6 @@
 // Triangles paired into quads.
 #pragma once
 
-#include <array>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,8 +1,4 @@
 // How bad the triangles of some vertices are, and moves and flips among them.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 

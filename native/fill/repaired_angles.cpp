@@ -1,8 +1,4 @@
 // Small angles that moving and flipping can't mend: a vertex more or less there may.
-#include <algorithm>
-#include <array>
-#include <functional>
-#include <optional>
 
 #include "base/progress.h"
 #include "fill/angles.h"

@@ -1,10 +1,6 @@
 #include "fill/short_edges.h"
 
-#include <algorithm>
-
 #include "base/columns.h"
-#include "base/direction.h"
-#include "base/median.h"
 
 namespace fairing {
 

@@ -1,8 +1,6 @@
 // Boundaries with edges far shorter than those around: what the first, coarse surface does without.
 #pragma once
 
-#include <array>
-
 #include "fill/loop_sides.h"
 
 namespace fairing {

@@ -1,13 +1,7 @@
 #include "fill/small_hole.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-
 #include "fill/limits.h"
-#include "geometry/angle.h"
-#include "geometry/area_vector.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

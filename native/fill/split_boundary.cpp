@@ -1,12 +1,8 @@
 #include "fill/split_boundary.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include <Eigen/Geometry>
 
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,9 +1,6 @@
 #include "fill/triangulation.h"
 
-#include <algorithm>
-#include <limits>
 #include <map>
-#include <utility>
 
 #include <Eigen/Geometry>
 

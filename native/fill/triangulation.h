@@ -1,8 +1,6 @@
 // The cheapest triangulation of a closed polygon in space.
 #pragma once
 
-#include <vector>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,9 +1,5 @@
 #include "fill/tube_start.h"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "base/columns.h"
 
 namespace fairing {

@@ -1,9 +1,6 @@
 #include "fill/wire_cells.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include "base/columns.h"

@@ -2,10 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <numeric>
 #include <set>
 
 #include "base/errors.h"

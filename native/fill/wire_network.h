@@ -3,8 +3,8 @@
 
 #include <map>
 
-#include "base/diagnostic.h"
-#include "base/view.h"
+#include "base/errors.h"
+#include "base/types.h"
 #include "geometry/hard_edges.h"
 
 namespace fairing {

@@ -1,7 +1,5 @@
 #include "fillet/cut_mesh.h"
 
-#include <algorithm>
-#include <array>
 #include <set>
 
 #include "base/columns.h"

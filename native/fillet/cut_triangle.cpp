@@ -1,8 +1,5 @@
 #include "fillet/cut_triangle.h"
 
-#include <algorithm>
-#include <limits>
-
 namespace fairing {
 
 namespace {

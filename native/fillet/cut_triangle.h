@@ -1,9 +1,7 @@
 // One triangle with points and edges in it.
 #pragma once
 
-#include <array>
 #include <map>
-#include <optional>
 
 #include "fillet/seam_mesh.h"
 

@@ -1,6 +1,5 @@
 #include "fillet/eaten_parts.h"
 
-#include <algorithm>
 #include <map>
 #include <set>
 

@@ -1,10 +1,8 @@
 #include "fillet/first_mesh.h"
 
-#include <algorithm>
-#include <numeric>
 #include <set>
 
-#include "geometry/area_vector.h"
+#include "geometry/triangle.h"
 #include "mesh/edges.h"
 #include "mesh/loops.h"
 

@@ -3,8 +3,6 @@
 // were outside.
 #pragma once
 
-#include <array>
-
 #include "base/types.h"
 
 namespace fairing {

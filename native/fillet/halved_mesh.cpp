@@ -1,8 +1,5 @@
 #include "fillet/halved_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/progress.h"
 
 namespace fairing {

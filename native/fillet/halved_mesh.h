@@ -1,7 +1,6 @@
 // The triangles near a fillet's end, halved until they are small there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <unordered_map>
 

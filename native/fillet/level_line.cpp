@@ -1,7 +1,5 @@
 #include "fillet/level_line.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 

@@ -1,12 +1,9 @@
 // Points on seams and walls, which bound the triangles of a new mesh.
-#include <algorithm>
-#include <cmath>
 #include <set>
-#include <utility>
 
 #include "fillet/level_line.h"
 #include "fillet/limits.h"
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

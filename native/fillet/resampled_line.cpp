@@ -1,11 +1,9 @@
 // Fewer points on a line that was found on small triangles.
-#include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "fillet/level_line.h"
 #include "fillet/limits.h"
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,8 +1,5 @@
 #include "fillet/row_cut.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include <Eigen/Geometry>

@@ -1,8 +1,5 @@
 #include "fillet/row_line.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace fairing {
 
 namespace {

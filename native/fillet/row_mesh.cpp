@@ -1,11 +1,5 @@
 #include "fillet/row_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <numbers>
-
 #include "base/progress.h"
 #include "geometry/nearest_point.h"
 

@@ -1,8 +1,6 @@
 // Quads in rows over a fillet: strips along its seams, blocks where they meet, caps where they fade out.
 #pragma once
 
-#include <functional>
-
 #include "fillet/row_line.h"
 
 namespace fairing {

@@ -1,8 +1,5 @@
 #include "fillet/row_strips.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
 namespace fairing {

@@ -1,11 +1,5 @@
 #include "fillet/seam_distance.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-
 #include "base/progress.h"
 
 namespace fairing {

@@ -1,9 +1,6 @@
 // Exact distances along the surface from seams, less the width there.
 #pragma once
 
-#include <functional>
-#include <vector>
-
 #include "fillet/seam_mesh.h"
 
 namespace fairing {

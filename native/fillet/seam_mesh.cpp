@@ -1,8 +1,5 @@
 #include "fillet/seam_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
 namespace fairing {

@@ -1,8 +1,6 @@
 // The triangles around seams, as half-edges that know where walls and borders end the surface.
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 
 #include "base/types.h"

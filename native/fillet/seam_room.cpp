@@ -1,10 +1,8 @@
 #include "fillet/seam_room.h"
 
-#include <algorithm>
-#include <limits>
 #include <map>
 
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

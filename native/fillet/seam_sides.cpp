@@ -1,8 +1,6 @@
 #include "fillet/seam_sides.h"
 
-#include <cmath>
 #include <map>
-#include <numeric>
 
 namespace fairing {
 

@@ -1,8 +1,6 @@
 #include "fillet/seam_walk.h"
 
-#include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace fairing {
 

@@ -1,14 +1,10 @@
 #include "fillet/side_normals.h"
 
-#include <cmath>
-#include <limits>
-
 #include <Eigen/Geometry>
 
-#include "boundary/creased.h"
+#include "boundary/low_passed_boundary.h"
 #include "boundary/surrounding_fit.h"
-#include "geometry/angle.h"
-#include "geometry/area_vector.h"
+#include "geometry/triangle.h"
 #include "mesh/edges.h"
 
 namespace fairing {

@@ -1,8 +1,5 @@
 #include "fillet/solid_sides.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
 #include "base/progress.h"

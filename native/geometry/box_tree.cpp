@@ -1,8 +1,6 @@
 #include "geometry/box_tree.h"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdint>
 
 #include "base/limits.h"

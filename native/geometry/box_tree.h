@@ -1,10 +1,6 @@
 // A tree of the boxes around triangles, for the pairs of them that may cross.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <span>
-
 #include "base/types.h"
 
 namespace fairing {

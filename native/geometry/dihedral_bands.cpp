@@ -1,15 +1,10 @@
 #include "geometry/dihedral_bands.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
+#include "base/columns.h"
 #include "base/parallel.h"
-#include "geometry/angle.h"
-#include "geometry/area_vector.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,8 +1,6 @@
 // Dihedral angles of a triangle list and what is usual among them near a place.
 #pragma once
 
-#include <optional>
-
 #include "mesh/edges.h"
 
 namespace fairing {

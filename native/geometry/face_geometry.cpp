@@ -1,13 +1,8 @@
 #include "geometry/face_geometry.h"
 
-#include <algorithm>
-#include <numbers>
-
 #include <Eigen/Geometry>
 
-#include "base/parallel.h"
-#include "geometry/area_vector.h"
-#include "geometry/cotangent.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -17,6 +17,8 @@ struct FaceGeometry {
     VectorX areas;
     Points normals;
 
+    FaceGeometry() = default;
+    FaceGeometry(const Points& points, const Triangles& triangles) { update(points, triangles); }
     void update(const Points& points, const Triangles& triangles);
 
 private:
@@ -30,6 +32,8 @@ struct Stiffness {
     VectorX weights;
     VectorX mass;
 
+    Stiffness() = default;
+    Stiffness(const Patch& patch, const Points& points) { update({points, patch.triangles}, patch); }
     void update(const FaceGeometry& faces, const Patch& patch);
 
     // S_ii

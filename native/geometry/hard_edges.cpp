@@ -1,14 +1,11 @@
 #include "geometry/hard_edges.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "base/direction.h"
+#include "base/columns.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "geometry/dihedral_bands.h"
-#include "geometry/turned_caps.h"
-#include "mesh/collapsed.h"
+#include "geometry/flips.h"
+#include "mesh/twins.h"
 #include "mesh/union_find.h"
 
 namespace fairing {

@@ -1,8 +1,6 @@
 // The edges at which a surface is broken: where a mesh bends far more than it does around there.
 #pragma once
 
-#include <array>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,15 +1,11 @@
 #include "geometry/mean_curvature.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
 #include "geometry/limits.h"
-#include "geometry/one_ring_buffer.h"
-#include "geometry/virtual_points.h"
+#include "geometry/one_ring.h"
+#include "geometry/shape_operator.h"
 
 namespace fairing {
 

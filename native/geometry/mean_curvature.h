@@ -1,10 +1,8 @@
 // Moreton–Séquin mean curvature (paper §6).
 #pragma once
 
-#include <span>
-
-#include "geometry/frame.h"
-#include "geometry/normal_equations.h"
+#include "geometry/surface_fit.h"
+#include "geometry/triangle.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {

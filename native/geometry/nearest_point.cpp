@@ -1,16 +1,12 @@
 #include "geometry/nearest_point.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
 
-#include "base/direction.h"
-#include "geometry/area_vector.h"
+#include "base/columns.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,9 +1,6 @@
 // Nearest points of one triangle, and of many.
 #pragma once
 
-#include <array>
-#include <memory>
-
 #include "base/types.h"
 
 namespace fairing {

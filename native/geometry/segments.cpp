@@ -1,8 +1,5 @@
 #include "geometry/segments.h"
 
-#include <algorithm>
-#include <limits>
-#include <numeric>
 #include <set>
 
 #include "base/progress.h"

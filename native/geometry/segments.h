@@ -1,9 +1,7 @@
 // Edges in space that touch or cross each other, and vertices that lie on edges or on each other.
 #pragma once
 
-#include <array>
-
-#include "base/view.h"
+#include "base/types.h"
 #include "geometry/hard_edges.h"
 
 namespace fairing {

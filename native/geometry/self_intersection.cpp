@@ -1,17 +1,13 @@
 #include "geometry/self_intersection.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <cmath>
-#include <span>
 
 #include <Eigen/Geometry>
 #include <unsupported/Eigen/BVH>
 
 #include "base/parallel.h"
-#include "geometry/area_vector.h"
 #include "geometry/box_tree.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,13 +1,10 @@
 #include "geometry/slope_fit.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Eigenvalues>
 
-#include "geometry/frame.h"
 #include "geometry/limits.h"
-#include "geometry/tall_system.h"
+#include "geometry/surface_fit.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -1,9 +1,6 @@
 // The tangent plane of a surface at one of its points, from points around it.
 #pragma once
 
-#include <optional>
-#include <span>
-
 #include "base/types.h"
 
 namespace fairing {

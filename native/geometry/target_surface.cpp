@@ -1,14 +1,9 @@
 #include "geometry/target_surface.h"
 
-#include <algorithm>
-#include <array>
-#include <limits>
-#include <utility>
-
 #include <Eigen/Geometry>
 
-#include "geometry/area_vector.h"
 #include "geometry/nearest_point.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 

@@ -3,10 +3,9 @@
 #include <Eigen/Geometry>
 
 #include "base/parallel.h"
-#include "geometry/frame.h"
-#include "geometry/normal_equations.h"
-#include "geometry/one_ring_buffer.h"
-#include "geometry/virtual_points.h"
+#include "geometry/shape_operator.h"
+#include "geometry/surface_fit.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 
@@ -161,6 +160,11 @@ void complete_small_rings(const Patch& patch, const Points& points, const FaceGe
     for (std::size_t k = 0; k < small.size(); ++k) normals.col(small[k]) = completed.col(k);
 }
 
+bool touches_free(const Patch& patch, int vertex) {
+    const auto ring = patch.ring(vertex).vertices;
+    return std::any_of(ring.begin(), ring.end(), [&](int v) { return patch.is_free(v); });
+}
+
 }  // namespace
 
 Vector3 averaged_normal(const OneRing& ring) { return averaged_normal_of(ring); }
@@ -184,6 +188,16 @@ Points vertex_normals(const Patch& patch, const Points& points, const FaceGeomet
         computed_normals(patch, points, prescribed, [](const auto& ring) { return first_fitted_normal(ring); });
     complete_small_rings(patch, points, faces, normals);
     return normals;
+}
+
+VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed) {
+    VectorX angles = VectorX::Zero(prescribed.cols());
+    for (int k = 0; k < prescribed.cols(); ++k) {
+        const int v = patch.free_count + k;
+        if (patch.pin[v] || !touches_free(patch, v)) continue;
+        angles[k] = degrees_between(prescribed.col(k), actual.col(k));
+    }
+    return angles;
 }
 
 }  // namespace fairing

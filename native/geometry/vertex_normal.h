@@ -1,10 +1,9 @@
 // Vertex normals: averaged (paper §6), Max's, and fitted ones (consistent with the curvature fit).
 #pragma once
 
-#include <span>
-
 #include "geometry/face_geometry.h"
 #include "geometry/one_ring.h"
+#include "mesh/patch.h"
 
 namespace fairing {
 
@@ -29,5 +28,9 @@ Points vertex_normals(const Patch& patch, const Points& points, const FaceGeomet
 
 // Max's normals at the free vertices and pins, prescribed ones elsewhere: cheap and robust, for the first stages.
 Points max_normals(const Patch& patch, const Points& points, const Points& prescribed);
+
+// Degrees between the prescribed normals and the surface's own (3 × fixed count, local order); zero at pins and where
+// no free vertex is adjacent.
+VectorX boundary_angles(const Patch& patch, const Points& actual, const Points& prescribed);
 
 }  // namespace fairing

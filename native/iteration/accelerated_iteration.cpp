@@ -1,10 +1,6 @@
 #include "iteration/accelerated_iteration.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "iteration/reaction.h"
+#include "iteration/continuation.h"
 #include "linear/anderson.h"
 #include "linear/limits.h"
 #include "linear/shrinking_steps.h"
@@ -48,8 +44,7 @@ public:
           work_(work),
           progress_(progress),
           own_history_(history_depth),
-          anderson_(work.keeps_factor ? kept_history() : own_history_),
-          unfinished_before_(work.normal->unfinished()) {}
+          anderson_(work.keeps_factor ? kept_history() : own_history_) {}
 
     Solution run(Points start) {
         state_.points = std::move(start);
@@ -98,7 +93,6 @@ public:
             move(std::move(d));
         }
         store_best();
-        solution_.unfinished_solves = work_.normal->unfinished() - unfinished_before_;
         return std::move(solution_);
     }
 
@@ -244,7 +238,6 @@ private:
     const Progress& progress_;
     Anderson own_history_;
     Anderson& anderson_;
-    const int unfinished_before_;
     SurfaceState state_;
     VectorX outer_;
     double residual_ = 0.0;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "operators/workspace.h"
+#include "operators/normal_operator.h"
 #include "problem/solution.h"
 
 namespace fairing {

@@ -1,8 +1,6 @@
 #include "linear/elimination.h"
 
-#include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 #include <Eigen/OrderingMethods>
 

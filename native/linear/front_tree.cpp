@@ -1,7 +1,5 @@
 #include "linear/front_tree.h"
 
-#include <algorithm>
-
 #include "base/parallel.h"
 
 namespace fairing {

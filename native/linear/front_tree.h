@@ -2,8 +2,6 @@
 // other (Liu 1992).
 #pragma once
 
-#include <span>
-
 #include "linear/elimination.h"
 
 namespace fairing {

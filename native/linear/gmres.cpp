@@ -1,8 +1,5 @@
 #include "linear/gmres.h"
 
-#include <cmath>
-#include <vector>
-
 #include <Eigen/Jacobi>
 #include <Eigen/LU>
 

@@ -1,8 +1,6 @@
 // Generalised minimal residuals for operators that are not symmetric (Saad & Schultz 1986).
 #pragma once
 
-#include <functional>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,10 +1,6 @@
 #include "linear/nested_dissection.h"
 
-#include <algorithm>
-#include <array>
 #include <atomic>
-#include <numeric>
-#include <span>
 
 #include "base/limits.h"
 #include "base/parallel.h"

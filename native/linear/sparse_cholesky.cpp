@@ -1,14 +1,11 @@
 #include "linear/sparse_cholesky.h"
 
-#include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <limits>
 #include <thread>
 #include <type_traits>
 
 #include "base/parallel.h"
-#include "linear/dense_front.h"
 #include "linear/limits.h"
 #include "linear/nested_dissection.h"
 

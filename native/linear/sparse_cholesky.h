@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/progress.h"
-#include "linear/dense_front.h"
 #include "linear/front_tree.h"
 #include "linear/panel_solve.h"
 #include "linear/tree_solve.h"

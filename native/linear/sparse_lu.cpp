@@ -1,6 +1,5 @@
 #include "linear/sparse_lu.h"
 
-#include <algorithm>
 #include <atomic>
 
 #include "base/parallel.h"

@@ -1,7 +1,5 @@
 #include "mesh/edges.h"
 
-#include <algorithm>
-
 #include "base/limits.h"
 #include "base/progress.h"
 

@@ -1,8 +1,6 @@
 // The edges of a triangle list and the triangle sides on each of them; any number of sides, any winding.
 #pragma once
 
-#include <array>
-
 #include "base/types.h"
 
 namespace fairing {

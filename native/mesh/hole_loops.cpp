@@ -1,15 +1,11 @@
 #include "mesh/hole_loops.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
-#include "mesh/collapsed.h"
 #include "mesh/edges.h"
+#include "mesh/twins.h"
 
 namespace fairing {
 

@@ -1,10 +1,7 @@
 // The loops around holes, also where borders touch each other or themselves (pinches).
 #pragma once
 
-#include <array>
-
 #include "base/types.h"
-#include "base/view.h"
 
 namespace fairing {
 

@@ -1,10 +1,6 @@
 #include "mesh/loops.h"
 
-#include <algorithm>
-#include <string>
-
 #include "base/errors.h"
-#include "base/text.h"
 #include "mesh/topology.h"
 
 namespace fairing {
@@ -46,6 +42,31 @@ void check_windings(const Triangles& triangles, const EdgeTable& edges, const In
                           ElementKind::triangle, "triangles"));
 }
 
+// Marks of the vertices that so many edges reach.
+std::vector<char> reached(const Patch& patch, const Indices& seeds, int edges) {
+    std::vector<char> marks(patch.vertex_count(), 0);
+    for (const int v : seeds) marks[v] = 1;
+    Indices front = seeds;
+    for (int k = 0; k < edges; ++k) {
+        Indices next;
+        for (const int v : front) {
+            for (const int u : patch.ring(v).vertices) {
+                if (marks[u]) continue;
+                marks[u] = 1;
+                next.push_back(u);
+            }
+        }
+        front = std::move(next);
+    }
+    return marks;
+}
+
+Indices each_once(Indices numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    return numbers;
+}
+
 }  // namespace
 
 std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
@@ -73,6 +94,57 @@ std::vector<Indices> boundary_loops(const Triangles& input, int vertex_count) {
     }
     std::sort(loops.begin(), loops.end());
     return loops;
+}
+
+PatchStrip strip_around(const Patch& patch, const Indices& seeds, int edges) {
+    const std::vector<char> near = reached(patch, seeds, edges);
+    Indices kept;
+    PatchStrip strip;
+    strip.local.assign(near.size(), none);
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        const auto corners = patch.triangles.col(t);
+        if (!near[corners[0]] && !near[corners[1]] && !near[corners[2]]) continue;
+        kept.push_back(t);
+        for (const int v : corners) strip.local[v] = v;
+    }
+    for (int& place : strip.local) {
+        if (place == none) continue;
+        strip.vertices.push_back(place);
+        place = static_cast<int>(strip.vertices.size()) - 1;
+    }
+    strip.triangles = patch.triangles(Eigen::all, kept);
+    for (int& v : strip.triangles.reshaped()) v = strip.local[v];
+    return strip;
+}
+
+Indices corners_of(const Patch& patch, const Indices& triangles) {
+    Indices corners;
+    corners.reserve(3 * triangles.size());
+    for (const int t : triangles) {
+        for (const int v : patch.triangles.col(t)) corners.push_back(v);
+    }
+    return each_once(std::move(corners));
+}
+
+Indices triangles_at(const Patch& patch, const Indices& vertices) {
+    Indices triangles;
+    for (const int v : vertices) {
+        for (const int edge : patch.ring(v).spokes) {
+            for (const int t : patch.edge_triangles[edge]) {
+                if (t != none) triangles.push_back(t);
+            }
+        }
+    }
+    return each_once(std::move(triangles));
+}
+
+bool has_free_corner(const Patch& patch, int triangle) {
+    return patch.triangles.col(triangle).minCoeff() < patch.free_count;
+}
+
+Indices with_free_corner(const Patch& patch, Indices triangles) {
+    std::erase_if(triangles, [&](int t) { return !has_free_corner(patch, t); });
+    return triangles;
 }
 
 }  // namespace fairing

@@ -1,13 +1,9 @@
 #include "mesh/memory_order.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <numeric>
-#include <utility>
 
-#include "base/order.h"
+#include "base/columns.h"
 #include "base/progress.h"
 
 namespace fairing {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <queue>
-#include <utility>
 
 #include "base/progress.h"
 #include "base/types.h"

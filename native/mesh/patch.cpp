@@ -1,8 +1,6 @@
 #include "mesh/patch.h"
 
-#include <algorithm>
 #include <atomic>
-#include <iterator>
 
 #include "base/errors.h"
 #include "base/limits.h"

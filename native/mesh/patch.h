@@ -1,9 +1,6 @@
 // One connected piece of the cut mesh, with flat adjacency arrays for the numerics.
 #pragma once
 
-#include <array>
-#include <span>
-
 #include "mesh/topology.h"
 #include "mesh/twins.h"
 

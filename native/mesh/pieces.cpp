@@ -1,6 +1,6 @@
 #include "mesh/pieces.h"
 
-#include "base/order.h"
+#include "base/columns.h"
 #include "base/progress.h"
 #include "mesh/memory_order.h"
 

@@ -1,13 +1,7 @@
 #include "mesh/topology.h"
 
-#include <algorithm>
-#include <iterator>
-#include <string>
-
 #include "base/background_task.h"
-#include "base/errors.h"
 #include "base/progress.h"
-#include "base/text.h"
 #include "mesh/fans.h"
 #include "mesh/union_find.h"
 

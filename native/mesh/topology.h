@@ -1,7 +1,7 @@
 // From a triangle list and its fixed vertices to consistently wound pieces that end in their fixed curves.
 #pragma once
 
-#include "base/diagnostic.h"
+#include "base/errors.h"
 #include "mesh/twins.h"
 
 namespace fairing {

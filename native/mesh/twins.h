@@ -1,8 +1,7 @@
 // Which sides of triangles lie on each other. Side 3 t + k runs from corner k to corner k + 1 of triangle t.
 #pragma once
 
-#include <optional>
-
+#include "base/types.h"
 #include "mesh/edges.h"
 
 namespace fairing {
@@ -21,5 +20,13 @@ Misfit join_borders(const Triangles& triangles, Twins& twins);
 
 // Of a list of triangles, from the vertices alone.
 Misfit find_twins(const Triangles& triangles, int vertex_count, Twins& twins);
+
+// Triangles that are wound against most of those which edges of two triangles connect them with; ascending. None in a
+// piece that has one side only. Precondition: as for make_edges.
+Indices turned_triangles(const Triangles& triangles, int vertex_count);
+
+// Triangles that name a vertex twice.
+// The others, in their order.
+Triangles without_collapsed(const Triangles& triangles);
 
 }  // namespace fairing

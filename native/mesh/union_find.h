@@ -1,9 +1,6 @@
 // Disjoint sets with an optional parity between members (used for windings).
 #pragma once
 
-#include <numeric>
-#include <utility>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,12 +1,9 @@
 #include "method/coarse_own_mesh.h"
 
-#include <algorithm>
-
 #include "base/limits.h"
 #include "method/levels.h"
-#include "placement/disc_placement.h"
 #include "placement/first_placement.h"
-#include "placement/folds.h"
+#include "placement/tears.h"
 #include "placement/untangle.h"
 #include "tangential/slide.h"
 

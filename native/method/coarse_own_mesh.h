@@ -2,8 +2,8 @@
 // by level.
 #pragma once
 
-#include "method/on_own_mesh.h"
-#include "method/traits.h"
+#include "method/own_mesh.h"
+#include "method/plan.h"
 
 namespace fairing {
 

@@ -17,4 +17,18 @@ Solution try_directly(const Problem& problem, const Progress& progress);
 // Whether the surface of `a` has less Willmore energy than that of `b`; no number counts as most.
 bool less_bent(const Problem& problem, const Solution& a, const Solution& b);
 
+// Places of the isolated pins that may have a radius among the fixed vertices: none where nothing else holds the patch,
+// or for equations that are not of fourth order.
+Indices pins_to_spread(const Problem& problem);
+
+// The surface without pins, lifted to them over `radius` (units of D), on the patch's own mesh or else step by step.
+// Nothing where it is not accepted. `guess`: 3 × local vertices of a surface with the pins.
+std::optional<Solution> lift_pins(const Problem& problem, double radius, std::optional<Points> guess,
+                                  const Progress& progress);
+
+// `sharp`: the answer in which pins act in a point. It comes back where there are none, and, with the reason in
+// `pins`, where no surface with a `radius` is found or accepted, from it or from the surface without pins. Least
+// variation and soap films stay as they are.
+Solution with_spread_pins(const Problem& problem, double radius, Solution sharp, const Progress& progress);
+
 }  // namespace fairing

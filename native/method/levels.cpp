@@ -1,7 +1,5 @@
 #include "method/levels.h"
 
-#include <utility>
-
 #include "problem/surface_state.h"
 
 namespace fairing {

@@ -3,10 +3,10 @@
 
 #include "base/background_task.h"
 #include "base/progress.h"
-#include "method/traits.h"
+#include "method/plan.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
-#include "operators/workspace.h"
+#include "operators/normal_operator.h"
 #include "problem/problem.h"
 
 namespace fairing {

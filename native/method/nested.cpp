@@ -1,8 +1,5 @@
 #include "method/nested.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "accept/accept.h"
 #include "base/background_task.h"
 #include "base/stopwatch.h"
@@ -12,8 +9,8 @@
 #include "method/direct.h"
 #include "method/levels.h"
 #include "problem/surface_state.h"
+#include "start/loft.h"
 #include "start/quick_surface.h"
-#include "start/several_outlines.h"
 #include "tangential/slide.h"
 
 namespace fairing {

@@ -1,10 +1,8 @@
 // From coarse to fine over the user's own connectivity.
 #pragma once
 
-#include <optional>
-
 #include "base/progress.h"
-#include "method/traits.h"
+#include "method/plan.h"
 #include "problem/solution.h"
 
 namespace fairing {

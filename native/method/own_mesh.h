@@ -2,13 +2,15 @@
 // solved on the user's mesh where that carries it.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <vector>
-
+#include "accept/accept.h"
 #include "base/progress.h"
-#include "method/traits.h"
+#include "base/stopwatch.h"
+#include "method/plan.h"
+#include "operators/normal_operator.h"
+#include "placement/place.h"
 #include "problem/solution.h"
+#include "problem/surface_state.h"
+#include "proxy/proxy_solver.h"
 
 namespace fairing {
 
@@ -41,5 +43,58 @@ std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& 
 // of vertices next to them follow where they lie beside that surface. Nothing where no surface is found.
 std::optional<Solution> solve_low_passed(const Problem& problem, const Traits& traits, Attempts& attempts,
                                          const Progress& progress);
+
+// A surface of the problem's own connectivity that another step has left, positions of all vertices.
+struct OwnSurface {
+    Points points;
+    bool solved;  // the equation holds there
+
+    // Whether a mesh of the engine's own may begin from it.
+    [[nodiscard]] bool is_start(const Problem& problem) const;
+};
+
+// The user's vertices as they were placed on a proxy (`target`), with its H and normals; `folded` where no placement
+// without folds was found on a surface that is one.
+Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const TargetSurface& target,
+                         const Placed& placed);
+
+// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Gives that
+// solution where it converges, agrees with that surface and is accepted, `placed` itself otherwise. `work` belongs to
+// the problem.
+Solution polished(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
+                  const Progress& progress);
+
+// The proxy's surface, for that comparison.
+SolvedSurface surface_of(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement);
+
+// Whether the equation is solved on the user's mesh, too, where that carries it. Unwanted: nothing comes back where no
+// mesh of the engine's own carries it.
+enum class Polish { wanted, unwanted };
+
+class OnOwnMesh {
+public:
+    OnOwnMesh(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
+    virtual ~OnOwnMesh() = default;
+    OnOwnMesh(const OnOwnMesh&) = delete;
+    OnOwnMesh& operator=(const OnOwnMesh&) = delete;
+
+    // `guess`: of the problem's patch.
+    std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish);
+
+protected:
+    // What the mesh is made from: the problem, or a coarse level of it, whose membrane and columns these are.
+    [[nodiscard]] virtual const Problem& source() const = 0;
+    [[nodiscard]] virtual Points membrane() const = 0;
+    [[nodiscard]] virtual Points on_source(const Points& points) const = 0;
+    virtual SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) = 0;
+    // The user's vertices; `own`: the guess, of the source.
+    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) = 0;
+    // Whether the user's mesh may carry the equation, and its solution there.
+    [[nodiscard]] virtual bool may_polish(const Placed& placed) const = 0;
+    virtual Solution on_users_mesh(Solution placed, const SolvedSurface& surface) = 0;
+
+    const Problem& problem_;
+    const Progress& progress_;
+};
 
 }  // namespace fairing

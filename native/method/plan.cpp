@@ -1,12 +1,42 @@
 #include "method/plan.h"
 
+#include "accept/accept.h"
+#include "boundary/low_passed_boundary.h"
 #include "fairness/inner_weights.h"
 #include "pins/spread_pins.h"
-#include "start/several_outlines.h"
+#include "problem/surface_state.h"
+#include "proxy/proxy_solver.h"
+#include "shape/girth.h"
+#include "start/loft.h"
 
 namespace fairing {
 
 namespace {
+
+// Half of these waves of the loops is left. Eight vertices left regions of an ear and a cheek with turned triangles,
+// 32 moved more.
+constexpr double wave = 16.0;  // vertices
+// Variation along the boundary (boundary/low_passed_boundary). Least variation was found over loops of pipes up to 6e3,
+// never from 4e4 on; regions of scans with noise of a quarter edge have 4e6 to 2e9.
+constexpr double smallest_jagged = 3e4;
+// Of 60 regions of scans with 10,000 to 100,000 vertices surfaces met boundaries of up to 1.7e9, a rim of 2,048 edges
+// around half a sphere was met at 8e9; the 14 regions from here to 2.5e10 had none.
+constexpr double largest_reached = 1e10;
+// Free vertices from which levels pay between smooth loops.
+constexpr int smallest_smooth = 500;
+
+OutlineData boundary_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
+
+// 3 × local vertices, of which the fixed ones count.
+Points fixed_alone(const Problem& problem) {
+    Points points = Points::Zero(3, problem.patch.vertex_count());
+    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
+    return points;
+}
+
+bool is_short(const Problem& problem) {
+    return straight_length_between(problem.patch, fixed_alone(problem)) <= longest_single;
+}
 
 // Large moves wrinkle a fine mesh, and a coarse mesh of the engine's own makes them for less (hemispheres: 1.2 times
 // slower at 20,000, 1.4 times faster at 40,000; at 100,000 it alone gets there).
@@ -21,7 +51,7 @@ std::vector<Step> on_the_users_mesh(const Problem& problem, const Traits& traits
     return goes_on ? std::vector{Step::levels, Step::direct} : std::vector{Step::levels};
 }
 
-// Between real loops whose membrane is poor the old shape nearly always decides (method/traits).
+// Between real loops whose membrane is poor the old shape nearly always decides (method/plan).
 bool has_little_chance(const Traits& traits) {
     constexpr double most_poor = 0.02;  // of its triangles
     return traits.has_old_shape && traits.is_jagged && traits.poor_share_of_membrane() > most_poor;
@@ -63,6 +93,32 @@ std::string text_of(const std::vector<Step>& steps) {
 }
 
 }  // namespace
+
+Traits::Traits(const Problem& problem)
+    : is_large(problem.options.nested && problem.patch.free_count > smallest_large),
+      is_tube(problem.patch.loop_count() == 2),
+      is_between_tubes(fairing::is_between_tubes(problem.patch, fixed_alone(problem), problem.fixed_normals)),
+      has_old_shape(joins_outlines(problem) && problem.before->cols() == problem.patch.vertex_count()),
+      poor_share_([&problem] { return share_of_poor_triangles(problem.patch, proxy_membrane(problem, Progress())); }),
+      low_passed_([&problem] { return fairing::low_passed(problem); }) {
+    const double roughness = outline_variation(problem.patch, boundary_of(problem));
+    is_jagged = roughness > smallest_jagged;
+    is_beyond_reach = roughness > largest_reached;
+    begins_small = problem.patch.loop_count() <= 2 && !is_jagged && is_short(problem);
+    has_levels = is_large || (problem.options.nested && problem.patch.free_count > smallest_smooth && begins_small);
+}
+
+Problem low_passed(const Problem& problem) {
+    const OutlineData outline = low_passed_boundary(problem.patch, boundary_of(problem), wave);
+    Problem result = problem;
+    result.fixed_points = outline.points;
+    result.fixed_normals = outline.normals;
+    return result;
+}
+
+double distance_of_low_passed(const Problem& problem) {
+    return largest_length(problem.fixed_points - low_passed(problem).fixed_points);
+}
 
 const char* name_of(Step step) {
     switch (step) {

@@ -1,8 +1,5 @@
 #include "method/solve.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "accept/accept.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
@@ -11,13 +8,9 @@
 #include "method/direct.h"
 #include "method/nested.h"
 #include "method/own_mesh.h"
-#include "method/pinned.h"
-#include "method/plan.h"
-#include "problem/solution_at.h"
 #include "problem/surface_state.h"
 #include "shape/girth.h"
-#include "stand_in/lofted.h"
-#include "stand_in/smoothed.h"
+#include "stand_in/stand_in.h"
 #include "variation/least_variation.h"
 
 namespace fairing {

@@ -1,11 +1,8 @@
 // method="global": the steps of a patch's plan, one after the other, and the one judge that ends them.
 #pragma once
 
-#include <functional>
-#include <optional>
-
 #include "base/progress.h"
-#include "method/traits.h"
+#include "method/plan.h"
 #include "problem/solution.h"
 
 namespace fairing {

@@ -1,7 +1,6 @@
 #include "multigrid/coarsening.h"
 
 #include <deque>
-#include <iterator>
 
 #include "base/background_task.h"
 

@@ -1,8 +1,6 @@
 // The levels of the global method's multigrid: the user's connectivity, ever coarser.
 #pragma once
 
-#include <memory>
-
 #include "multigrid/transfer.h"
 
 namespace fairing {

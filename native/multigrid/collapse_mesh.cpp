@@ -1,11 +1,5 @@
 #include "multigrid/collapse_mesh.h"
 
-#include <algorithm>
-#include <array>
-#include <numeric>
-#include <span>
-#include <utility>
-
 #include "base/parallel.h"
 #include "base/progress.h"
 

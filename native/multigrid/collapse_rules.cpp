@@ -1,6 +1,4 @@
 // Which half-edge collapses of a CollapseMesh are legal, and what they cost.
-#include <algorithm>
-#include <cmath>
 
 #include "multigrid/collapse_mesh.h"
 

@@ -1,8 +1,5 @@
 #include "multigrid/ring_matrix.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/progress.h"
 
 namespace fairing {

@@ -1,9 +1,7 @@
 #include "multigrid/tangential_multigrid.h"
 
-#include <algorithm>
-
 #include "linear/conjugate_gradients.h"
-#include "tangential/across.h"
+#include "tangential/slide.h"
 
 namespace fairing {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "base/progress.h"
-#include "multigrid/restriction.h"
 #include "multigrid/ring_matrix.h"
+#include "multigrid/transfer.h"
 #include "tangential/symmetric_step.h"
 
 namespace fairing {

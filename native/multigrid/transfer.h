@@ -1,8 +1,6 @@
 // Fields between a level and the next coarser one.
 #pragma once
 
-#include <cmath>
-
 #include "geometry/shape_operator.h"
 #include "multigrid/collapse_mesh.h"
 
@@ -56,5 +54,27 @@ LiftedMean lifted_mean(const BentPoints& points, const int* vertices, const floa
 
 // The weighted mean of those shape operators that are known; NaN where none is.
 Eigen::Vector<float, 6> mean_shape(const ShapeOperators& shapes, const int* vertices, const float* weights, int count);
+
+// The transpose of Transfer::prolong, stored by target vertex so that several threads can apply it. Takes eight bytes
+// for each weight beside the interpolation's own.
+class Restriction {
+public:
+    // Refers to it.
+    explicit Restriction(const Transfer& transfer);
+
+    // coarse ← scale · Pᵀ fine; nothing arrives at fixed vertices. `sums`: scratch of the size of `fine`, `coarse` in
+    // the right size.
+    void apply(const SingleField& fine, float scale, SingleField& sums, SingleField& coarse) const;
+
+    [[nodiscard]] const Transfer& transfer() const { return transfer_; }
+
+private:
+    [[nodiscard]] Eigen::Vector4f arrived(int row, const Eigen::Vector4f& own, const SingleField& sums) const;
+
+    const Transfer& transfer_;
+    Indices begin_;  // of each row: the removed vertices in the order of their removal, then the coarse free ones
+    Indices from_;   // removals
+    std::vector<float> weights_;
+};
 
 }  // namespace fairing

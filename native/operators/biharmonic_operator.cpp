@@ -1,8 +1,5 @@
 #include "operators/biharmonic_operator.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "base/parallel.h"
 
 namespace fairing {

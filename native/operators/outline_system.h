@@ -1,7 +1,8 @@
 // An approximate inverse of the boundary system that Woodbury's identity leaves of the biharmonic operator.
 #pragma once
 
-#include "linear/half_order.h"
+#include "geometry/face_geometry.h"
+#include "linear/panel_solve.h"
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -40,6 +41,36 @@ private:
     VectorX length_;  // ℓ; 0 where no edge between fixed vertices ends
     Row scale_;       // (c ℓ)^-½
     HalfOrder half_order_;
+};
+
+// A value for each fixed vertex, counted from the first one.
+using OutlineRow = Eigen::RowVectorXd;
+
+class OutlineCoupling {
+public:
+    explicit OutlineCoupling(const Patch& patch);
+
+    void update(const Stiffness& stiffness);
+
+    // C b, a value for each free vertex.
+    [[nodiscard]] VectorX spread(const OutlineRow& outline) const;
+    // Cᵀ a of a value for each free vertex.
+    [[nodiscard]] OutlineRow gather(const VectorX& field) const;
+    // Free vertices beside the boundary, with repetitions.
+    [[nodiscard]] Indices beside() const;
+
+private:
+    // C_ij = −w of an edge.
+    struct Entry {
+        int i;  // free
+        int j;  // fixed, counted from the first one
+        int edge;
+        double weight;  // w
+    };
+
+    int free_count_;
+    int fixed_count_;
+    std::vector<Entry> entries_;
 };
 
 }  // namespace fairing

@@ -1,9 +1,5 @@
 #include "paper/collapse_fan.h"
 
-#include <algorithm>
-#include <limits>
-#include <numbers>
-
 #include <Eigen/Geometry>
 
 #include "geometry/limits.h"

@@ -1,7 +1,5 @@
 #include "paper/curvature_equation.h"
 
-#include <algorithm>
-
 namespace fairing {
 
 CurvatureEquation::CurvatureEquation(const Patch& patch) : free_count_(patch.free_count), begin_{0} {

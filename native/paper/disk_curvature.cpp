@@ -1,6 +1,6 @@
 #include "paper/disk_curvature.h"
 
-#include <algorithm>
+#include <Eigen/Geometry>
 
 namespace fairing {
 
@@ -37,7 +37,31 @@ inline void for_each_pair(const Disk& disk, const DiskField& field, const Vector
 
 std::size_t padded(std::size_t count) { return count + count % 2; }
 
+double spoke_length(const Disk& disk, const Points& points, const Vector3& centre) {
+    double sum = 0.0;
+    for (int v : disk.ring.vertices) sum += (points.col(v) - centre).squaredNorm();
+    return std::sqrt(sum / static_cast<double>(disk.ring.valence()));
+}
+
 }  // namespace
+
+Vector3 disk_normal(const Disk& disk, const Points& points) {
+    Vector3 sum = Vector3::Zero();
+    const Vector3 centre = points.col(disk.centre);
+    const auto neighbours = disk.ring.vertices;
+    const Vector3 first = points.col(neighbours.front()) - centre;
+    Vector3 a = first;
+    for (std::size_t k = 1; k < neighbours.size(); ++k) {
+        const Vector3 b = points.col(neighbours[k]) - centre;
+        sum += a.cross(b);
+        a = b;
+    }
+    if (disk.ring.closed()) sum += a.cross(first);
+    const double length = sum.norm();
+    return length > 0.0 ? Vector3(sum / length) : Vector3(Vector3::Zero());
+}
+
+Vector3 arc_over(const NormalChord& chord) { return virtual_point(chord) - 0.5 * (chord.a + chord.b); }
 
 std::size_t weight_count(const Disk& disk) {
     return padded(disk.ring.valence()) + (disk.completed ? padded(disk.ring.rim.size()) : 0);
@@ -116,6 +140,16 @@ CurvatureLine curvature_line(const Disk& disk, const DiskField& field, std::span
         weight += 2;
     });
     return {mean.sum(), slope.sum()};
+}
+
+Vector3 updated_position(const Disk& disk, const DiskField& field, const VertexTarget& target) {
+    const Vector3 present = field.points.col(disk.centre);
+    Vector3 start = target.mean - target.normal.dot(target.mean - present) * target.normal;
+    const CurvatureLine line = curvature_line(disk, field, target.weights, start, target.normal);
+    if (!(std::abs(line.slope) > 0.0)) return start;
+    const double limit = spoke_length(disk, field.points, start);
+    const double t = std::clamp((target.curvature - line.mean) / line.slope, -limit, limit);
+    return std::isfinite(t) ? Vector3(start + target.damping * t * target.normal) : present;
 }
 
 }  // namespace fairing

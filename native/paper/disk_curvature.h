@@ -1,11 +1,39 @@
 // Curvature of 1-disks (paper §6) and how it changes when the vertex moves (§7.2).
 #pragma once
 
-#include "geometry/frame.h"
 #include "geometry/mean_curvature.h"
-#include "paper/disk_geometry.h"
+#include "geometry/shape_operator.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
+
+// Where virtual points (§6.2) complete the fit, besides valence 3 and 4 and the fixed vertices.
+enum class VirtualPoints {
+    sparse,     // nowhere else
+    coarse,     // at every vertex of the coarse levels
+    everywhere  // at every vertex of every level
+};
+
+// The 1-disk D(q_i) of a vertex, however the connectivity is stored. `ring.rim[k]` is the column of `arcs` below that
+// belongs to the edge from neighbour k to k + 1; spokes are not read.
+struct Disk {
+    int centre = none;
+    RingView ring;
+    bool completed = false;  // a virtual point between every two consecutive neighbours joins the fit
+};
+
+// What disks are measured on: positions (3 × vertices) and, for each rim edge, the vector from the middle of its chord
+// to its virtual point. Kept apart from the chord, it stays good enough while vertices move one after the other.
+struct DiskField {
+    const Points& points;
+    const Points& arcs;
+};
+
+// Averages the cross products around the disk (§6). Zero when they cancel.
+Vector3 disk_normal(const Disk& disk, const Points& points);
+
+// The column of `arcs` for a chord.
+Vector3 arc_over(const NormalChord& chord);
 
 // Numbers that the weights of a disk take up: neighbours and virtual points, each group padded to pairs.
 std::size_t weight_count(const Disk& disk);
@@ -48,5 +76,19 @@ struct CurvatureLine {
 // where the disk's centre is moved to.
 CurvatureLine curvature_line(const Disk& disk, const DiskField& field, std::span<const double> weights,
                              const Vector3& centre, const Vector3& normal);
+
+// The input of one vertex update.
+struct VertexTarget {
+    Vector3 normal;                   // n_i, unit
+    std::span<const double> weights;  // of its curvature, see DiskFit
+    Vector3 mean;                     // Σ_j λ_ij q_j
+    double curvature;                 // H̃_i
+    double damping;                   // s
+};
+
+// The new position of the disk's centre. First the weighted mean is projected on the tangent plane: q̃ = mean −
+// ⟨Δq, n⟩ n. Then it moves by s t n, with H(q̃ + t n) = H̃ for the linearised curvature (eq. 13). t is limited to the
+// distance of the neighbours (root mean square). Beyond, the linearisation says nothing.
+Vector3 updated_position(const Disk& disk, const DiskField& field, const VertexTarget& target);
 
 }  // namespace fairing

@@ -1,9 +1,5 @@
 #include "paper/hierarchy.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-
 #include "mesh/pieces.h"
 #include "mesh/surface_mesh.h"
 #include "paper/collapse_module.h"

@@ -1,10 +1,71 @@
 // One update of a level's mesh, M^k → M^(k+1) (paper §7.1, 7.2).
 #pragma once
 
-#include "paper/level.h"
-#include "paper/vertex_update.h"
+#include "fairness/row_weights.h"
+#include "paper/curvature_equation.h"
+#include "paper/disk_curvature.h"
+#include "paper/options.h"
+#include "problem/problem.h"
 
 namespace fairing {
+
+// What stays the same while a level is faired. Fixed vertices are those of the whole patch, in the same order.
+struct LevelProblem {
+    const Patch& patch;
+    const Points& fixed_normals;
+    const SolverOptions& solver;
+    const PaperOptions& paper;
+    RowWeights weights;
+    bool completed;  // virtual points at every vertex of this level
+
+    // Virtual points join the fit at valence 3 and 4 (Lemma 1) and at fixed vertices (one-sided data, §7.5) anyway.
+    [[nodiscard]] Disk disk(int vertex) const {
+        const RingView ring = patch.ring(vertex);
+        return {vertex, ring, completed || ring.valence() < 5 || !patch.is_free(vertex)};
+    }
+    // Whether the boundary data prescribe the normal.
+    [[nodiscard]] bool prescribes_normal(int vertex) const {
+        return solver.equation != Equation::soap_film && !patch.is_free(vertex) &&
+               !patch.pin[static_cast<std::size_t>(vertex)];
+    }
+};
+
+// The right-hand side f of Δ_B H = f for a fitted second fundamental form (§7.5).
+double outer_source(const SolverOptions& options, const CurvatureFit& fit);
+
+struct LevelState {
+    Points points;   // 3 × level vertices
+    Points normals;  // prescribed or averaged (§6)
+    Points arcs;     // of DiskField: 3 × edges, where a disk asks for them
+    VectorX H;
+    VectorX source;  // f at the free vertices
+    Stiffness stiffness;
+    std::vector<double> weights;  // of the curvature at the free vertices, see DiskFit
+    std::vector<std::size_t> weights_begin;
+
+    void measure(const LevelProblem& level);
+    // The same within a cycle of updates: with the arcs of the last measurement.
+    void measure_again(const LevelProblem& level);
+    // 2 M f with the sign of S H: the right-hand side of step I.
+    [[nodiscard]] VectorX right_hand_side(const LevelProblem& level) const;
+    [[nodiscard]] std::span<double> weights_of(int free_vertex);
+    // max |P Δq|/ℓ² over the free vertices: how far inner fairness is off (§7.3), P the projection across the normal,
+    // ℓ² the mean squared distance of the neighbours; in units of 1/D.
+    [[nodiscard]] double unfairness(const LevelProblem& level) const;
+    // max |Δ_B H − f| over the free vertices, |H| for minimal surfaces. Infinite where it is not a number.
+    [[nodiscard]] double residual(const LevelProblem& level, const CurvatureEquation& equation) const;
+
+private:
+    void measure_normals(const LevelProblem& level);
+    void measure_arcs(const LevelProblem& level);
+    void measure_curvature(const LevelProblem& level);
+
+    void prepare(const LevelProblem& level);
+
+    FaceGeometry faces_;
+    DiskFit fit_;
+    Indices arc_edges_;
+};
 
 class LevelUpdate {
 public:

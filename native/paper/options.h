@@ -1,7 +1,7 @@
 // The choices that the paper leaves open, and additions to it.
 #pragma once
 
-#include "paper/disk_geometry.h"
+#include "paper/disk_curvature.h"
 
 namespace fairing {
 

@@ -1,10 +1,5 @@
 #include "paper/paper_solver.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <optional>
-
 #include "base/stopwatch.h"
 #include "iteration/continuation.h"
 #include "paper/factorised_iteration.h"

@@ -1,15 +1,11 @@
 #include "paper/prolongation.h"
 
-#include <algorithm>
-#include <array>
-
 #include <Eigen/Geometry>
 
-#include "fairness/ring_weights.h"
-#include "geometry/area_vector.h"
-#include "geometry/cotangent.h"
+#include "fairness/row_weights.h"
+#include "geometry/triangle.h"
 #include "mesh/surface_mesh.h"
-#include "paper/vertex_update.h"
+#include "paper/disk_curvature.h"
 
 namespace fairing {
 

@@ -1,11 +1,9 @@
 // From a coarse level to the next finer one, vertex by vertex (paper §7.4).
 #pragma once
 
-#include <memory>
-
 #include "base/progress.h"
 #include "paper/hierarchy.h"
-#include "paper/level_problem.h"
+#include "paper/level_update.h"
 
 namespace fairing {
 

@@ -1,18 +1,10 @@
 #include "paper/start.h"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include "operators/biharmonic_operator.h"
-#include "operators/laplace_operator.h"
-#include "operators/workspace.h"
-#include "problem/willmore.h"
-#include "start/area_descent.h"
-#include "start/best_fill.h"
+#include "operators/normal_operator.h"
+#include "problem/surface_state.h"
 #include "start/clamped_fill.h"
 #include "start/globalisation.h"
-#include "start/membrane.h"
 
 namespace fairing {
 
@@ -30,8 +22,7 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
 
 // Mean square of log(edge length over the mean) and of log(relative area): 0 for a mesh of equal triangles.
 double unevenness(const Patch& patch, const Points& points) {
-    FaceGeometry faces;
-    faces.update(points, patch.triangles);
+    FaceGeometry faces(points, patch.triangles);
     VectorX lengths(patch.edge_count());
     for (int e = 0; e < patch.edge_count(); ++e) {
         const auto [a, b] = patch.edge_ends[static_cast<std::size_t>(e)];
@@ -58,11 +49,7 @@ Points linear_start(const LevelProblem& level, const Stiffness& stiffness, const
 
 Stiffness start_stiffness(const Patch& patch, InnerFairness kind, const Points& reference) {
     if (kind != InnerFairness::conformal) return uniform_stiffness(patch);
-    FaceGeometry faces;
-    faces.update(reference, patch.triangles);
-    Stiffness stiffness;
-    stiffness.update(faces, patch);
-    return stiffness;
+    return {patch, reference};
 }
 
 Points neutral_surface(const Problem& problem, const Progress& progress) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "paper/level_problem.h"
+#include "paper/level_update.h"
 
 namespace fairing {
 

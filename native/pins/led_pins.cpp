@@ -1,7 +1,5 @@
 #include "pins/led_pins.h"
 
-#include <algorithm>
-
 #include "geometry/flips.h"
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"

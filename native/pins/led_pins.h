@@ -1,8 +1,6 @@
 // Pins that are led to their places on a mesh of the engine's own.
 #pragma once
 
-#include <optional>
-
 #include "base/progress.h"
 #include "problem/problem.h"
 #include "problem/solution.h"

@@ -1,10 +1,10 @@
 #include "placement/relax.h"
 
-#include <algorithm>
-
 #include "base/limits.h"
+#include "geometry/triangle.h"
 #include "linear/anderson.h"
 #include "linear/limits.h"
+#include "linear/sparse_cholesky.h"
 #include "problem/surface_state.h"
 
 namespace fairing {
@@ -64,6 +64,76 @@ private:
     Anderson anderson_;
 };
 
+// Of the neighbours one row nearer to the outline.
+Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, int vertex) {
+    Vector3 sum = Vector3::Zero();
+    int count = 0;
+    for (const int w : patch.ring(vertex).vertices) {
+        if (row[w] != row[vertex] - 1) continue;
+        sum += moves.col(w);
+        ++count;
+    }
+    return sum / count;
+}
+
+// Of all vertices; each row moves half as far as the mean of what it touches in the row before.
+Points following(const Patch& patch, const Points& offsets) {
+    constexpr int rows = 3;        // the last moves by an eighth
+    constexpr double share = 0.5;  // of the row before
+    Points moves = Points::Zero(3, patch.vertex_count());
+    moves.rightCols(offsets.cols()) = offsets;
+    Indices row(patch.vertex_count(), none);
+    std::fill(row.begin() + patch.free_count, row.end(), 0);
+    Indices last(patch.vertex_count() - patch.free_count);
+    std::iota(last.begin(), last.end(), patch.free_count);
+    for (int k = 1; k <= rows; ++k) {
+        Indices next;
+        for (const int v : last) {
+            for (const int w : patch.ring(v).vertices) {
+                if (row[w] != none) continue;
+                row[w] = k;
+                next.push_back(w);
+            }
+        }
+        for (const int v : next) moves.col(v) = share * mean_move(patch, moves, row, v);
+        last = std::move(next);
+    }
+    return moves;
+}
+
+// Triangles without a fixed corner whose normal points against the one that they had.
+Indices turned_inside(const Patch& patch, const Points& before, const Points& after) {
+    Indices result;
+    for (int t = 0; t < patch.triangle_count(); ++t) {
+        if (patch.triangles.col(t).maxCoeff() >= patch.free_count) continue;
+        const auto corners = patch.triangles.col(t);
+        if (area_vector(after, corners).dot(area_vector(before, corners)) < 0.0) result.push_back(t);
+    }
+    return result;
+}
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+// The free vertices near the triangles.
+Indices unknowns_near(const Patch& patch, const Indices& triangles, int rings) {
+    std::vector<char> near(patch.vertex_count(), 0);
+    for (const int t : triangles) {
+        for (const int v : patch.triangles.col(t)) near[v] = 1;
+    }
+    for (int k = 0; k < rings; ++k) {
+        const std::vector<char> before = near;
+        for (int v = 0; v < patch.vertex_count(); ++v) {
+            if (!before[v]) continue;
+            for (const int w : patch.ring(v).vertices) near[w] = 1;
+        }
+    }
+    Indices unknowns;
+    for (int v = 0; v < patch.free_count; ++v) {
+        if (near[v]) unknowns.push_back(v);
+    }
+    return unknowns;
+}
+
 }  // namespace
 
 void relax(const TangentialStep& tangential, const TargetSurface& target, Placement& placement) {
@@ -77,6 +147,47 @@ void settle(const Problem& problem, const TangentialStep& tangential, const Targ
         relax(*symmetric, target, placement);
     }
     relax(tangential, target, placement);
+}
+
+void follow_outline(const Patch& patch, const Points& offsets, Points& points) {
+    const Points placed = points;
+    Points moves = following(patch, offsets);
+    while (true) {
+        points = placed + moves;
+        const Indices turned = turned_inside(patch, placed, points);
+        if (turned.empty()) return;  // at last where none of them moves
+        for (const int t : turned) {
+            for (const int v : patch.triangles.col(t)) moves.col(v).setZero();
+        }
+    }
+}
+
+Points refilled(const Patch& patch, const Points& points, const Indices& triangles, int rings) {
+    const Indices unknowns = unknowns_near(patch, triangles, rings);
+    if (unknowns.empty()) return points;
+    Indices number(patch.vertex_count(), none);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) number[unknowns[k]] = static_cast<int>(k);
+    Triplets entries;
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(patch.vertex_count(), 3);
+    const auto add = [&](int row, int vertex, double value) {
+        if (number[vertex] != none)
+            entries.emplace_back(row, number[vertex], value);
+        else
+            known.row(row) += value * points.col(vertex).transpose();
+    };
+    for (int v = 0; v < patch.vertex_count(); ++v) {
+        const auto& ring = patch.ring(v).vertices;
+        add(v, v, static_cast<double>(ring.size()));
+        for (const int w : ring) add(v, w, -1.0);
+    }
+    SparseMatrix umbrellas(patch.vertex_count(), static_cast<Eigen::Index>(unknowns.size()));
+    umbrellas.setFromTriplets(entries.begin(), entries.end());
+    const SparseMatrix normal = umbrellas.transpose() * umbrellas;
+    SparseCholesky factor(points(Eigen::all, unknowns));
+    if (!factor.factorise(normal.triangularView<Eigen::Lower>(), "placement", Progress())) return points;
+    Points result = points;
+    result(Eigen::all, unknowns) = factor.solve(-umbrellas.transpose() * known).transpose();
+    return result;
 }
 
 }  // namespace fairing

@@ -1,12 +1,14 @@
 #include "placement/tears.h"
 
-#include <algorithm>
-#include <iterator>
-#include <utility>
+#include <Eigen/Geometry>
 
+#include "base/parallel.h"
 #include "geometry/flips.h"
+#include "geometry/neighbourhood.h"
 #include "geometry/self_intersection.h"
-#include "mesh/corners.h"
+#include "geometry/triangle.h"
+#include "mesh/loops.h"
+#include "placement/relax.h"
 
 namespace fairing {
 
@@ -31,6 +33,185 @@ Indices turned_after(const Patch& patch, const Points& points, const Indices& tu
     return united(kept, now);
 }
 
+Indices numbers(const std::vector<char>& mask) {
+    Indices result;
+    for (std::size_t t = 0; t < mask.size(); ++t) {
+        if (mask[t]) result.push_back(static_cast<int>(t));
+    }
+    return result;
+}
+
+// The free ones that lie elsewhere now.
+Indices moved_between(const Patch& patch, const Points& before, const Points& now) {
+    Indices moved;
+    for (int v = 0; v < patch.free_count; ++v) {
+        if (before.col(v) != now.col(v)) moved.push_back(v);
+    }
+    return moved;
+}
+
+// The torn ones around one vertex, wherever that moves.
+class Around {
+public:
+    Around(const Patch& patch, int v) : patch_(patch) {
+        Indices near = triangles_at(patch, {v});
+        near = triangles_at(patch, corners_of(patch, near));
+        turning_ = with_free_corner(patch, near);
+        for (int k = 0; k < 2; ++k) near = triangles_at(patch, corners_of(patch, near));
+        triangles_ = patch.triangles(Eigen::all, near);
+    }
+
+    [[nodiscard]] std::ptrdiff_t torn(const Points& points) const {
+        const auto turned =
+            std::count_if(turning_.begin(), turning_.end(), [&](int t) { return is_flipped(patch_, points, t); });
+        return turned + std::ssize(crossing_triangles(triangles_, points));
+    }
+
+private:
+    const Patch& patch_;
+    Indices turning_;  // may be turned by the vertex, itself or by its neighbours' normals
+    Triangles triangles_;
+};
+
+// Nearer places come first; of those as near the first of the best. True where the vertex has moved.
+bool improve(const Patch& patch, int v, Points& points) {
+    constexpr std::array radii{0.2, 0.4, 0.7, 1.0, 1.5};  // of the ring's
+    const Around around(patch, v);
+    std::ptrdiff_t least = around.torn(points);
+    const Vector3 centre = points.col(v);
+    const double reach = mean_spoke(patch, points, v);
+    Vector3 best = centre;
+    for (const double radius : radii) {
+        for (int k = 0; k < 27 && least > 0; ++k) {  // of a cube's surface
+            const Eigen::Vector3i corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            points.col(v) = centre + radius * reach * corner.cast<double>().normalized();
+            const std::ptrdiff_t torn = around.torn(points);
+            if (torn >= least) continue;
+            least = torn;
+            best = points.col(v);
+        }
+    }
+    points.col(v) = best;
+    return best != centre;
+}
+
+// Takes a surface that has less torn triangles.
+bool take(const Patch& patch, Points trial, Points& points, Tears& tears) {
+    Tears left = tears.after(trial, moved_between(patch, points, trial));
+    if (left.count() >= tears.count()) return false;
+    points = std::move(trial);
+    tears = std::move(left);
+    return true;
+}
+
+// Wider and wider around what is torn, for as long as that leaves less of it.
+bool fill_anew(const Patch& patch, Points& points, Tears& tears) {
+    constexpr std::array rings{1, 2, 3, 4, 6};  // around the tear
+    return std::any_of(rings.begin(), rings.end(), [&](int reach) {
+        return take(patch, refilled(patch, points, tears.triangles(), reach), points, tears);
+    });
+}
+
+bool try_elsewhere(const Patch& patch, Points& points, Tears& tears) {
+    Points trial = points;
+    for (const int v : corners_of(patch, tears.triangles())) {
+        if (patch.is_free(v)) improve(patch, v, trial);
+    }
+    return take(patch, std::move(trial), points, tears);
+}
+
+class TurningBack {
+public:
+    TurningBack(const Problem& problem, const TargetSurface& target, Placement& placement)
+        : problem_(problem), patch_(problem.patch), target_(target), placement_(placement) {}
+
+    bool run() {
+        for (bool gained = false;; gained = true) {  // ends: less is folded each time
+            const Indices folded = folded_triangles(problem_, target_, placement_);
+            if (folded.empty() || folded.size() > few_folds) return gained;
+            const Indices corners = corners_of(folded);
+            if (!try_all(corners) && !try_all(beside(corners))) return gained;
+        }
+    }
+
+private:
+    // Free ones.
+    [[nodiscard]] Indices corners_of(const Indices& triangles) const {
+        Indices result;
+        for (const int t : triangles) {
+            for (const int v : patch_.triangles.col(t)) add(v, result);
+        }
+        return result;
+    }
+
+    [[nodiscard]] Indices beside(const Indices& vertices) const {
+        Indices result;
+        for (const int v : vertices) {
+            for (const int w : patch_.ring(v).vertices) add(w, result);
+        }
+        return result;
+    }
+
+    void add(int v, Indices& list) const {
+        if (patch_.is_free(v) && std::find(list.begin(), list.end(), v) == list.end()) list.push_back(v);
+    }
+
+    // True where one of them has moved.
+    bool try_all(const Indices& vertices) {
+        bool gained = false;
+        for (const int v : vertices) gained = improve(v) || gained;
+        return gained;
+    }
+
+    // Nearer places come first; of those as near the first of the best.
+    bool improve(int v) {
+        constexpr std::array<double, 6> radii{0.1, 0.2, 0.3, 0.5, 0.7, 1.0};  // of the ring's
+        constexpr int directions = 16;                                        // of each radius
+        const Indices around = triangles_around(v);
+        std::ptrdiff_t least = count_turned(around);
+        const SurfacePoint old = placement_.where[v];
+        const Vector3 centre = placement_.points.col(v);
+        const Frame frame(target_.normal(old));
+        const double reach = mean_spoke(patch_, placement_.points, v);
+        std::optional<SurfacePoint> best;
+        for (const double radius : radii) {
+            for (int k = 0; k < directions && least > 0; ++k) {
+                const double angle = 2.0 * std::numbers::pi * k / directions;
+                const Vector3 step = radius * reach * (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
+                const SurfacePoint place = target_.project(centre + step, old.triangle);
+                put(placement_, v, target_, place);
+                const std::ptrdiff_t turned = count_turned(around);
+                if (turned >= least) continue;
+                least = turned;
+                best = place;
+            }
+        }
+        placement_.where[v] = best.value_or(old);
+        placement_.points.col(v) = best ? target_.position(*best) : centre;
+        return best.has_value();
+    }
+
+    // Those that a vertex may turn, itself or by its neighbours' normals.
+    [[nodiscard]] Indices triangles_around(int v) const {
+        const auto ring = patch_.ring(v).vertices;
+        Indices near(ring.begin(), ring.end());
+        near.push_back(v);
+        return with_free_corner(patch_, triangles_at(patch_, near));
+    }
+
+    // As folded_triangles has it.
+    [[nodiscard]] std::ptrdiff_t count_turned(const Indices& triangles) const {
+        return std::count_if(triangles.begin(), triangles.end(), [&](int t) {
+            return is_folded(problem_, target_, placement_, t) || is_flipped(patch_, placement_.points, t);
+        });
+    }
+
+    const Problem& problem_;
+    const Patch& patch_;
+    const TargetSurface& target_;
+    Placement& placement_;
+};
+
 }  // namespace
 
 Indices torn_triangles(const Patch& patch, const Points& points) { return Tears(patch, points).triangles(); }
@@ -45,6 +226,52 @@ Tears Tears::after(const Points& points, const Indices& moved) const {
     // A pair that crosses now has a triangle that moved, or crossed before.
     const Indices changed = united(triangles_at(*patch_, moved), crossing_);
     return {*patch_, turned_after(*patch_, points, turned_, moved), crossings_with(patch_->triangles, points, changed)};
+}
+
+bool is_folded(const Problem& problem, const TargetSurface& target, const Placement& placement, int t) {
+    const auto corners = problem.patch.triangles.col(t);
+    Vector3 around = Vector3::Zero();
+    for (const int v : corners) {
+        if (problem.patch.is_free(v)) around += target.face_normal(placement.where[v].triangle);
+    }
+    return area_vector(placement.points, corners).dot(around) < 0.0;
+}
+
+std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement) {
+    std::vector<char> folded(problem.patch.triangle_count(), 0);
+    for_ranges(problem.patch.triangle_count(), coarse_grain, [&](int begin, int end) {
+        for (int t = begin; t < end; ++t) folded[t] = is_folded(problem, target, placement, t) ? 1 : 0;
+    });
+    return folded;
+}
+
+Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement) {
+    std::vector<char> folded = folded_mask(problem, target, placement);
+    for (const int t : flipped_by_solution(problem.patch, placement.points)) folded[t] = 1;
+    return numbers(folded);
+}
+
+Indices folds_of_placement(const Problem& problem, const TargetSurface& target, const Placement& placement) {
+    std::vector<char> folded = folded_mask(problem, target, placement);
+    for (const int t : flipped_by_solution(problem.patch, placement.points)) {
+        const bool at_outline = problem.patch.triangles.col(t).maxCoeff() >= problem.patch.free_count;
+        if (!at_outline) folded[t] = 1;
+    }
+    return numbers(folded);
+}
+
+Points untorn(const Patch& patch, Points points) {
+    constexpr std::size_t few = 100;  // to try one by one
+    Tears tears(patch, points);
+    while (tears.count() > 0) {
+        if (fill_anew(patch, points, tears)) continue;
+        if (tears.count() > few || !try_elsewhere(patch, points, tears)) break;
+    }
+    return points;
+}
+
+bool turn_back(const Problem& problem, const TargetSurface& target, Placement& placement) {
+    return TurningBack(problem, target, placement).run();
 }
 
 }  // namespace fairing

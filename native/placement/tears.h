@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/patch.h"
+#include "placement/place.h"
 
 namespace fairing {
 
@@ -29,5 +30,34 @@ private:
     Indices crossing_;
     Indices torn_;  // both, each once
 };
+
+// Up to so many folds are always worked on. More of them that do not become fewer are a whole sheet that is turned
+// over.
+inline constexpr std::size_t few_folds = 20;
+
+// Whether the normal of triangle `t` of the problem's patch points against the surface that its free corners lie on
+// (the triangles of the target, so that noise of the boundary's normals doesn't matter). False without a free corner:
+// no placement turns such a triangle.
+bool is_folded(const Problem& problem, const TargetSurface& target, const Placement& placement, int t);
+
+// All of them, as a mask.
+std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement);
+
+// All of them, and those that are turned over against their neighbours in the placed mesh itself; ascending.
+Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement);
+
+// The same without triangles at the boundary that only their neighbours speak against: where the boundary itself turns
+// sharply, no placement gives them other neighbours.
+Indices folds_of_placement(const Problem& problem, const TargetSurface& target, const Placement& placement);
+
+// `points` (3 × local vertices) with fewer torn triangles (placement/tears), or as they are: what lies around these is
+// filled anew, then their free corners are tried elsewhere, on the surface and off it. The fixed vertices stay, and
+// what lies farther than six rings from torn triangles.
+Points untorn(const Patch& patch, Points points);
+
+// For a placement with at most `few_folds` triangles that are turned over against the surface or against their
+// neighbours (folded_triangles). Their free corners, then those beside them, go to the nearest of some places around
+// where fewest triangles are turned over; they stay where that gains nothing. Returns whether any has moved.
+bool turn_back(const Problem& problem, const TargetSurface& target, Placement& placement);
 
 }  // namespace fairing

@@ -1,19 +1,13 @@
 #include "placement/untangle.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "base/limits.h"
 #include "base/progress.h"
-#include "geometry/area_vector.h"
-#include "geometry/frame.h"
+#include "geometry/triangle.h"
 #include "linear/limits.h"
-#include "placement/folds.h"
+#include "placement/tears.h"
 
 namespace fairing {
 

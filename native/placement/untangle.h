@@ -1,7 +1,7 @@
 // Turns folded triangles of a placement back by spreading the vertices around them.
 #pragma once
 
-#include "placement/placement.h"
+#include "placement/place.h"
 
 namespace fairing {
 

@@ -1,8 +1,5 @@
 #include "problem/free_slopes.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <Eigen/Geometry>
 
 #include "geometry/surface_fit.h"

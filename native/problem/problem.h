@@ -1,7 +1,6 @@
 // What a solver is given for one component.
 #pragma once
 
-#include "base/deferred.h"
 #include "base/shared.h"
 #include "fairness/row_weights.h"
 #include "geometry/vertex_normal.h"
@@ -77,7 +76,7 @@ struct Problem {
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known, infinite where a tangent join is asked for;
     // for Δ_B² H = 0. Empty: a tangent join.
     VectorX fixed_curvatures = {};
-    // The shape before (3 × local vertices), taken where no surface is found (stand_in/smoothed). Empty: none.
+    // The shape before (3 × local vertices), taken where no surface is found (stand_in/stand_in). Empty: none.
     Deferred<Points> before = {};
     Conduct conduct = {};
 };

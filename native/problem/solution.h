@@ -2,11 +2,9 @@
 #pragma once
 
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "base/types.h"
+#include "problem/problem.h"
 
 namespace fairing {
 
@@ -37,7 +35,7 @@ enum class Join {
     not_found,          // no surface, or none that is accepted
 };
 
-// Whether pins have a radius (method/pinned). The last five: not, although it was asked for.
+// Whether pins have a radius (method/direct). The last five: not, although it was asked for.
 enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
 
 // Where a surface comes from. Whoever makes a surface sets it, and nothing changes it afterwards. All but the first two
@@ -49,14 +47,14 @@ enum class Provenance {
     loft,
     least_bent,     // where the descent of the bending energy ended (start/globalisation)
     swept_tube,     // cross-sections swept along a bend (start/swept_start)
-    old_shape,      // the shape before, as smooth as it can be (stand_in/smoothed)
+    old_shape,      // the shape before, as smooth as it can be (stand_in/stand_in)
     first_surface,  // what every run can begin with (method/nested)
 };
 
 // Whether another surface than the equation's was taken.
 constexpr bool stands_in(Provenance provenance) { return provenance > Provenance::low_passed; }
 
-// Whether the loops are joined without an equation (stand_in/lofted).
+// Whether the loops are joined without an equation (stand_in/stand_in).
 constexpr bool is_loft(Provenance provenance) {
     return provenance == Provenance::loft || provenance == Provenance::least_bent ||
            provenance == Provenance::swept_tube;
@@ -75,7 +73,6 @@ struct Solution {
     Termination termination = Termination::stalled;
     bool polished = true;  // the equation holds on the patch's own connectivity
     int iterations = 0;
-    int unfinished_solves = 0;      // of its steps along the normals: systems that ended at a limit of cycles
     double residual = 0.0;          // largest |Δ_B H| (|H| for soap films) at free vertices
     double initial_residual = 0.0;  // of the fill
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
@@ -107,5 +104,9 @@ inline constexpr double near_step = 2e-3;
 inline bool stays_far(const Solution& solution) {
     return solution.least_step > near_step && solution.least_step > 0.5 * solution.first_step;
 }
+
+// The surface at `points` (3 × local vertices) as a converged solution with its boundary normals; not judged (`flaw`
+// stays absent), and its mean curvature is left open.
+Solution solution_at(const Problem& problem, const Points& points, Provenance provenance);
 
 }  // namespace fairing

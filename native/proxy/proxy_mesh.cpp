@@ -1,18 +1,12 @@
 #include "proxy/proxy_mesh.h"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-
 #include <Eigen/Geometry>
 
 #include "base/progress.h"
-#include "geometry/angle.h"
-#include "geometry/area_vector.h"
-#include "geometry/edge_flip.h"
 #include "geometry/face_geometry.h"
+#include "geometry/flips.h"
 #include "geometry/limits.h"
+#include "geometry/triangle.h"
 #include "geometry/vertex_normal.h"
 #include "mesh/nearest_first.h"
 

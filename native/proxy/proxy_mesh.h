@@ -1,8 +1,6 @@
 // The engine's own mesh of a patch: the same boundary, an interior of its own, well-shaped whatever it came from.
 #pragma once
 
-#include <limits>
-
 #include "mesh/surface_mesh.h"
 
 namespace fairing {

@@ -1,15 +1,11 @@
 #include "proxy/proxy_solver.h"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "iteration/continuation.h"
 #include "operators/biharmonic_operator.h"
-#include "operators/workspace.h"
+#include "operators/normal_operator.h"
 #include "problem/surface_state.h"
+#include "start/clamped_fill.h"
 #include "start/globalisation.h"
-#include "start/membrane.h"
 
 namespace fairing {
 

@@ -1,11 +1,6 @@
 #include "quads/candidates.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
-#include <utility>
 
 #include "quads/closings.h"
 

@@ -1,11 +1,8 @@
 #include "quads/closings.h"
 
-#include <algorithm>
-#include <cmath>
 #include <complex>
 #include <unordered_map>
 #include <unordered_set>
-#include <utility>
 
 #include "base/progress.h"
 

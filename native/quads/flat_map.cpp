@@ -1,14 +1,10 @@
 #include "quads/flat_map.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <utility>
 
 #include "base/errors.h"
 #include "fill/conformal_map.h"
-#include "geometry/angle.h"
+#include "geometry/triangle.h"
 #include "mesh/nearest_first.h"
 
 namespace fairing {

@@ -1,11 +1,7 @@
 #include "quads/front.h"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 #include <unordered_map>
-#include <utility>
 
 namespace fairing {
 

@@ -1,9 +1,6 @@
 // The boundary of what is still open while a hole is filled with quads, and the moves that leave less of it.
 #pragma once
 
-#include <array>
-#include <optional>
-
 #include "base/types.h"
 
 namespace fairing {

@@ -1,10 +1,6 @@
 #include "quads/tube.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
-#include <utility>
 
 namespace fairing {
 

@@ -1,16 +1,17 @@
 #include "reuse/warm_start.h"
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 
 #include "accept/accept.h"
+#include "base/errors.h"
 #include "base/stopwatch.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
+#include "iteration/continuation.h"
 #include "problem/surface_state.h"
-#include "problem/willmore.h"
-#include "reuse/outline_move.h"
 #include "start/clamped_fill.h"
+#include "variation/least_variation.h"
 
 namespace fairing {
 
@@ -18,6 +19,72 @@ namespace {
 
 // This many more than the first solve with a factor took: it is time for a new one.
 constexpr int tolerated_growth = 3;
+
+class NoStep : public TangentialStep {
+public:
+    explicit NoStep(const Points& points) : points_(points) {}
+    void hold(const Points& /*fixed_points*/) override {}
+    [[nodiscard]] Points harmonic_positions() const override { return points_; }
+    [[nodiscard]] double merit(const Points& /*points*/, const Points& /*normals*/) const override { return 0.0; }
+    using TangentialStep::displacement;
+    [[nodiscard]] double imbalance(const Points& /*points*/, const Points& /*normals*/) const override { return 0.0; }
+    [[nodiscard]] Points displacement(const Points& /*points*/, const TangentPlanes& /*planes*/,
+                                      Effort /*effort*/) const override {
+        return Points::Zero(3, points_.cols());
+    }
+
+private:
+    Points points_;  // 3 × free count
+};
+
+std::optional<Solution> accepted(const Problem& problem, Solution solution, const WayTaken& way) {
+    if (solution.termination != Termination::converged) return std::nullopt;
+    solution.flaw = flaw_of(problem, solution);
+    if (solution.flaw != Flaw::absent) return std::nullopt;
+    solution.ways = {way};
+    return solution;
+}
+
+// On a mesh of its own.
+std::optional<Solution> vary_least_near(const Problem& problem, const Points& points, const Progress& progress) {
+    const Stopwatch watch;
+    VariationLimits limits;
+    limits.near = NearVariation{points, false};
+    std::optional<Solution> solution;
+    try {
+        solution = solve_less_varying(problem, limits, progress);
+    } catch (const SolverError&) {
+        return std::nullopt;
+    }
+    return solution ? accepted(problem, std::move(*solution), {"variation", watch.seconds()}) : std::nullopt;
+}
+
+constexpr double farthest_move = 0.05;      // units of D
+constexpr double cos_of_widest_turn = 0.7;  // 45°
+
+// Of directions and places. Both are centred.
+Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
+    const Eigen::Matrix3d covariance = to * from.transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d U = svd.matrixU();
+    if ((U * svd.matrixV().transpose()).determinant() < 0.0) U.col(2) = -U.col(2);
+    return U * svd.matrixV().transpose();
+}
+
+// Fixed points, and normals with a small weight: they decide where the points lie on a line.
+Points placed_and_turned(const Points& points, const Points& normals) {
+    constexpr double weight = 1e-2;  // beside places
+    Points both(3, points.cols() + normals.cols());
+    both << points, weight * normals;
+    return both;
+}
+
+bool turned_too_far(const Points& from, const Points& to) {
+    for (Eigen::Index k = 0; k < from.cols(); ++k) {
+        if (from.col(k).dot(to.col(k)) < cos_of_widest_turn * from.col(k).squaredNorm()) return true;
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -34,8 +101,7 @@ bool WarmStart::factorise(const Problem& problem, const Points& points, const Pr
     work_.keeps_factor = false;  // Cancelled leaves none
     iterations_at_first_ = 0;
     history_.reset();
-    FaceGeometry faces;
-    faces.update(points, patch_.triangles);
+    FaceGeometry faces(points, patch_.triangles);
     factorised_.update(faces, patch_);
     work_.keeps_factor = work_.normal->update(factorised_, progress);
     return work_.keeps_factor;
@@ -127,6 +193,47 @@ std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress&
     solution.seconds = {{"prediction", prediction}, {"iteration", watch.lap()}};
     solution.ways = {{"warm", prediction + solution.seconds["iteration"]}};
     return solution;
+}
+
+std::optional<Solution> solve_near(const Problem& problem, const NearStart& start, const Progress& progress) {
+    if (problem.options.equation == Equation::least_variation) return vary_least_near(problem, start.points, progress);
+    const Stopwatch watch;
+    Problem attempt = problem;
+    attempt.conduct.limits = nearby;
+    const Points free_points = start.points.leftCols(problem.patch.free_count);
+    Workspace work{make_normal_operator(attempt, free_points), nullptr};
+    if (start.settled) {
+        work.tangential = std::make_unique<NoStep>(free_points);
+    } else {
+        work.tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
+    }
+    Solution solution;
+    try {
+        solution = solve_equation(attempt, work, start.points, progress);
+    } catch (const SolverError&) {
+        return std::nullopt;  // a start without a factor: the other ways don't need it
+    }
+    if (solution.termination != Termination::converged) return std::nullopt;
+    solution.boundary_normals = one_sided_normals(problem.patch, solution.points);
+    solution.seconds = {{"iteration", watch.seconds()}};
+    return accepted(problem, std::move(solution), {"near", watch.seconds()});
+}
+
+Outline outline_of(const Problem& problem) {
+    const Patch& patch = problem.patch;
+    Outline result{problem.fixed_points, problem.fixed_normals};
+    for (Eigen::Index k = 0; k < result.normals.cols(); ++k) {
+        if (patch.pin[patch.free_count + static_cast<int>(k)]) result.normals.col(k).setZero();
+    }
+    return result;
+}
+
+std::optional<Eigen::Matrix3d> small_rotation(const Outline& last, const Outline& present) {
+    const Eigen::Matrix3d rotation =
+        best_rotation(placed_and_turned(last.points, last.normals), placed_and_turned(present.points, present.normals));
+    if (!(largest_length(present.points - rotation * last.points) <= farthest_move)) return std::nullopt;
+    if (turned_too_far(rotation * last.normals, present.normals)) return std::nullopt;
+    return rotation;
 }
 
 }  // namespace fairing

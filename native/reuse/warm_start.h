@@ -1,10 +1,9 @@
 // Repeated solves of one patch: from the last answer, moved along with the boundary.
 #pragma once
 
-#include <optional>
-
 #include "base/progress.h"
-#include "operators/workspace.h"
+#include "operators/normal_operator.h"
+#include "problem/problem.h"
 #include "problem/solution.h"
 
 namespace fairing {
@@ -47,5 +46,29 @@ private:
     Points points_;   // 3 × local vertices, units of D
     Points normals_;  // 3 × fixed count
 };
+
+// From positions that lie near the surface already.
+struct NearStart {
+    Points points;  // 3 × local vertices, units of D
+    // The vertices sit within the surface as they should: they move along its normals only. So they do where the
+    // weights are the conformal ones of these very positions.
+    bool settled;
+};
+
+// The accepted surface that the iteration finds within a few steps from there; nothing where there is none, and the
+// outline alone has to decide. Throws Cancelled.
+std::optional<Solution> solve_near(const Problem& problem, const NearStart& start, const Progress& progress);
+
+// 3 × fixed count each, units of D; pins have no normal.
+struct Outline {
+    Points points;
+    Points normals;
+};
+
+Outline outline_of(const Problem& problem);
+
+// The rotation that takes one outline nearest to a later one (Kabsch 1976). Nothing where a point is then more than
+// 0.05 D or a normal more than 45° away: the last answer says little about the next one.
+std::optional<Eigen::Matrix3d> small_rotation(const Outline& last, const Outline& present);
 
 }  // namespace fairing

@@ -1,14 +1,10 @@
 #include "shape/flank.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
-#include "geometry/area_vector.h"
+#include "base/columns.h"
 #include "geometry/surface_fit.h"
+#include "geometry/triangle.h"
 #include "shape/knobs.h"
 #include "shape/limits.h"
 

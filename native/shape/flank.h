@@ -4,8 +4,6 @@
 // whole features they run on, or bend to both sides.
 #pragma once
 
-#include <optional>
-
 #include "mesh/patch.h"
 
 namespace fairing {

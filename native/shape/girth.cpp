@@ -1,16 +1,12 @@
 #include "shape/girth.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 
 #include <Eigen/Geometry>
 
 #include "fairness/harmonic_values.h"
-#include "mesh/corners.h"
+#include "mesh/loops.h"
 #include "mesh/union_find.h"
 #include "start/swept_tube.h"
 

@@ -1,9 +1,6 @@
 // How thick a surface is between its boundary loops.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "mesh/patch.h"
 
 namespace fairing {

@@ -59,7 +59,7 @@ inline constexpr double lost_grain = 1.0 / 3.0;
 // at most where it isn't (benchmarks/verdicts, both halves).
 inline constexpr double crumpled_share = 0.16;
 
-// How deep a surface sinks below the lines that run on across it, of their length (shape/sunken): those that were kept
+// How deep a surface sinks below the lines that run on across it, of their length (shape/knobs): those that were kept
 // come to .018 at most on the first half of benchmarks/verdicts, bevels and handles that lose their girth to .026 and
 // .07.
 inline constexpr double sunken = 0.02;

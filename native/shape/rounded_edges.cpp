@@ -1,12 +1,8 @@
 #include "shape/rounded_edges.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-
-#include "base/direction.h"
+#include "base/columns.h"
 #include "geometry/dihedral_bands.h"
-#include "mesh/collapsed.h"
+#include "mesh/twins.h"
 #include "mesh/union_find.h"
 #include "shape/limits.h"
 

@@ -1,19 +1,15 @@
 #include "shape/visible_join.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
-#include "base/direction.h"
+#include "base/columns.h"
 #include "base/parallel.h"
-#include "geometry/area_vector.h"
 #include "geometry/dihedral_bands.h"
-#include "mesh/collapsed.h"
-#include "mesh/strip.h"
+#include "geometry/triangle.h"
+#include "mesh/loops.h"
+#include "mesh/twins.h"
 #include "shape/kinks.h"
 #include "shape/limits.h"
 
@@ -89,7 +85,7 @@ Indices border_of(const Patch& patch) {
 }
 
 // Of the strip's sides those on the patch's border, in the order of their edges.
-Indices border_sides(const Patch& patch, const Strip& strip, const EdgeTable& edges) {
+Indices border_sides(const Patch& patch, const PatchStrip& strip, const EdgeTable& edges) {
     Indices sides;
     for (int e = 0; e < edges.size(); ++e) {
         if (edges.side_count(e) != 1) continue;
@@ -139,7 +135,7 @@ VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
 
 VectorX one_sided_join(const Patch& patch, const Points& points, const Points& prescribed) {
     // All triangles that the bands of border edges depend on: of a large patch few.
-    const Strip strip = strip_around(patch, border_of(patch), DihedralBands::rings);
+    const PatchStrip strip = strip_around(patch, border_of(patch), DihedralBands::rings);
     const Points places = strip.gather(points);
     const DihedralBands bands(places, strip.triangles);
     const Indices sides = border_sides(patch, strip, bands.edges());

@@ -1,8 +1,6 @@
 // How visible the join of a patch with its surroundings is: dihedral angles along the outline against those nearby.
 #pragma once
 
-#include <optional>
-
 #include "mesh/patch.h"
 
 namespace fairing {

@@ -1,9 +1,8 @@
 #include "start/clamped_fill.h"
 
-#include <numbers>
-
 #include "base/errors.h"
-#include "operators/laplace_operator.h"
+#include "problem/surface_state.h"
+#include "start/globalisation.h"
 
 namespace fairing {
 
@@ -75,6 +74,49 @@ Points clamped_displacement(const Patch& patch, const Stiffness& stiffness, cons
     const Points rhs =
         pull_of_conormals(patch, stiffness, conormal_change) - pull_of_positions(patch, stiffness, fixed_displacement);
     return op.solve(rhs.transpose()).transpose();
+}
+
+Points membrane(const Problem& problem, const Workspace& work) {
+    Points points(3, problem.patch.vertex_count());
+    points << work.tangential->harmonic_positions(), problem.fixed_points;
+    return points;
+}
+
+Points descend_area(const Problem& problem, Workspace& work, const Points& start, const Progress& progress) {
+    const Patch& patch = problem.patch;
+    SurfaceState state;
+    state.points = start;
+    for (int k = 0; k < most_descent_steps; ++k) {
+        progress.report(static_cast<double>(k) / most_descent_steps, "minimal start");
+        state.measure_faces(patch);
+        if (!work.normal->update(state.stiffness, progress.here())) break;
+        const Points gradient = state.stiffness.apply(patch, state.points, patch.free_count);
+        const Points d = -work.normal->solve(gradient.transpose()).transpose();
+        if (!d.allFinite()) break;
+        state.points.leftCols(patch.free_count) += d;
+        if (largest_length(d) < descended) break;
+    }
+    return state.points;
+}
+
+Points best_fill(const Problem& problem, Workspace& work, const Progress& progress) {
+    const Patch& patch = problem.patch;
+    const Points boundary = conormals(patch, problem.fixed_points, problem.fixed_normals);
+    const Fill fill = clamped_fill(patch, problem.fixed_points, boundary, *work.normal, progress);
+    Points points(3, patch.vertex_count());
+    points.rightCols(problem.fixed_points.cols()) = problem.fixed_points;
+    Points best;
+    double least = std::numeric_limits<double>::infinity();
+    // Bulges of the linear fill: a strongly curved surface needs more than the linear theory's 1.
+    for (const double sigma : {1.0, 1.5, 2.2, 3.2, 4.5}) {
+        points.leftCols(patch.free_count) = fill.flat + sigma * fill.bulge;
+        const double energy = willmore_energy(problem, points);
+        if (energy < least) {
+            least = energy;
+            best = points;
+        }
+    }
+    return best;
 }
 
 }  // namespace fairing

@@ -1,11 +1,10 @@
 // Clamped fills of the boundary, which depend on connectivity and boundary data only.
 #pragma once
 
-#include <optional>
-
 #include "base/progress.h"
 #include "geometry/face_geometry.h"
 #include "operators/normal_operator.h"
+#include "problem/problem.h"
 
 namespace fairing {
 
@@ -33,5 +32,14 @@ Points clamped_displacement(const Patch& patch, const Stiffness& stiffness, cons
 // With the uniform stiffness.
 Fill clamped_fill(const Patch& patch, const Points& fixed_points, const Points& conormals, NormalOperator& op,
                   const Progress& progress);
+
+// The discrete harmonic map of the boundary by the inner-fairness weights (3 × local vertices).
+Points membrane(const Problem& problem, const Workspace& work);
+
+// Repeats x ← the harmonic map from the last surface (Pinkall & Polthier 1993), which never increases the area.
+Points descend_area(const Problem& problem, Workspace& work, const Points& start, const Progress& progress);
+
+// The fill of the boundary with the least Willmore energy among a few bulges (3 × local vertices).
+Points best_fill(const Problem& problem, Workspace& work, const Progress& progress);
 
 }  // namespace fairing

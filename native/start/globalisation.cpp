@@ -1,12 +1,8 @@
 #include "start/globalisation.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "linear/limits.h"
 #include "problem/solution.h"
 #include "problem/surface_state.h"
-#include "problem/willmore.h"
 #include "tangential/slide.h"
 
 namespace fairing {

@@ -1,10 +1,6 @@
 #include "start/swept_start.h"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include "operators/laplace_operator.h"
+#include "operators/normal_operator.h"
 #include "start/clamped_fill.h"
 
 namespace fairing {

@@ -1,9 +1,6 @@
 // An initial surface between two boundary loops that face each other along a bend.
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "base/progress.h"
 #include "problem/problem.h"
 #include "start/swept_tube.h"

@@ -1,10 +1,5 @@
 #include "tangential/slide.h"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
-
-#include "base/parallel.h"
 #include "linear/anderson.h"
 #include "linear/limits.h"
 #include "linear/shrinking_steps.h"

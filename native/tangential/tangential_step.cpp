@@ -1,6 +1,5 @@
 #include "tangential/tangential_step.h"
 
-#include "tangential/directed_step.h"
 #include "tangential/symmetric_step.h"
 
 namespace fairing {

@@ -1,8 +1,6 @@
 // Moves vertices within their tangent planes towards their inner-fairness positions (paper §7.3).
 #pragma once
 
-#include <memory>
-
 #include "base/progress.h"
 #include "fairness/row_weights.h"
 #include "geometry/shape_operator.h"

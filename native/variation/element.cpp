@@ -1,13 +1,11 @@
 #include "variation/element.h"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include "geometry/cotangent.h"
+#include "geometry/triangle.h"
 
 namespace fairing {
 
@@ -51,7 +49,7 @@ struct Pair {
     double derivative;  // of the normal curvature
 };
 
-// Two unit vectors across the normal of each vertex (geometry/frame.h).
+// Two unit vectors across the normal of each vertex (geometry/triangle.h).
 struct Frames {
     Eigen::Matrix<double, 3, 6> u, v;
 };

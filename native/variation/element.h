@@ -1,8 +1,7 @@
 // The variation of the normal curvatures over one triangle, with derivatives.
 #pragma once
 
-#include "variation/sheet.h"
-#include "variation/stencil.h"
+#include "variation/unknowns.h"
 
 namespace fairing {
 

@@ -1,25 +1,19 @@
 #include "variation/least_variation.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/limits.h"
 #include "base/stopwatch.h"
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "geometry/vertex_normal.h"
 #include "operators/biharmonic_operator.h"
-#include "operators/workspace.h"
+#include "operators/normal_operator.h"
 #include "placement/place.h"
 #include "problem/free_slopes.h"
 #include "problem/surface_state.h"
 #include "proxy/proxy_solver.h"
-#include "start/best_fill.h"
-#include "start/membrane.h"
+#include "start/clamped_fill.h"
 #include "start/swept_start.h"
-#include "variation/inflate.h"
 #include "variation/lift.h"
-#include "variation/own_mesh.h"
 
 namespace fairing {
 

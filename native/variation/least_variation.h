@@ -1,9 +1,6 @@
 // The surface whose normal curvatures vary least.
 #pragma once
 
-#include <cmath>
-#include <optional>
-
 #include "base/progress.h"
 #include "problem/problem.h"
 #include "problem/solution.h"

@@ -1,13 +1,10 @@
 #include "variation/newton.h"
 
-#include <cmath>
-#include <optional>
-
 #include <Eigen/Geometry>
 
 #include "base/limits.h"
-#include "geometry/area_vector.h"
-#include "geometry/averages.h"
+#include "geometry/neighbourhood.h"
+#include "geometry/triangle.h"
 #include "geometry/vertex_normal.h"
 #include "linear/limits.h"
 #include "linear/sparse_cholesky.h"

@@ -1,8 +1,6 @@
 // Minimises the variation of curvature over motions of the vertices of one mesh.
 #pragma once
 
-#include <cmath>
-
 #include "base/progress.h"
 #include "variation/variation_energy.h"
 

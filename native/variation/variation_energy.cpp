@@ -1,7 +1,5 @@
 #include "variation/variation_energy.h"
 
-#include <cmath>
-
 namespace fairing {
 
 namespace {

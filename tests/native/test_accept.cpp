@@ -1,9 +1,9 @@
 #include <doctest/doctest.h>
 
 #include "accept/accept.h"
-#include "geometry/averages.h"
+#include "geometry/neighbourhood.h"
 #include "meshes.h"
-#include "placement/placement.h"
+#include "placement/place.h"
 #include "placement/tears.h"
 #include "problem/solution.h"
 
@@ -141,7 +141,7 @@ TEST_CASE("triangles that can't carry the equation are a flaw of the user's mesh
 namespace {
 
 // The solved surface, as one of edges of that length.
-struct Placed {
+struct PlacedSurface {
     const Solved& solved;
     Solution solution = solved.solution();
     TargetSurface target{solved.patch(), solution.points, solution.points};
@@ -157,7 +157,7 @@ struct Placed {
 
 TEST_CASE("two surfaces agree within their errors, or within the coarser one's edges") {
     const Solved solved;
-    const Placed placed{solved};
+    const PlacedSurface placed{solved};
     const double fine = 0.5 * placed.mean;
     Solution own = placed.solution;
     own.points.col(0) *= 1.0 + 1e-4;

@@ -7,7 +7,6 @@
 #include <functional>
 #include <numbers>
 
-#include "api/coarse_surface.h"
 #include "api/fair_solver.h"
 #include "api/remesh.h"
 #include "base/errors.h"

@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "continuity/join_operator.h"
+#include "continuity/joined.h"
 #include "continuity/known_curvature.h"
 #include "meshes.h"
 

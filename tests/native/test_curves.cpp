@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "boundary/chain_end.h"
+#include "boundary/fair_border.h"
 #include "boundary/least_variation_curve.h"
 
 using namespace fairing;

@@ -2,7 +2,7 @@
 
 #include "geometry/self_intersection.h"
 #include "meshes.h"
-#include "placement/disc_placement.h"
+#include "placement/first_placement.h"
 #include "placement/place.h"
 #include "problem/surface_state.h"
 

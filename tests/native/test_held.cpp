@@ -4,10 +4,9 @@
 
 #include <doctest/doctest.h>
 
-#include "boundary/creased.h"
 #include "boundary/fair_border.h"
+#include "boundary/low_passed_boundary.h"
 #include "meshes.h"
-#include "pins/released.h"
 #include "pins/spread_pins.h"
 #include "problem/free_slopes.h"
 

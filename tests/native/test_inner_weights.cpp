@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include "fairness/intrinsic_delaunay.h"
-#include "fairness/ring_weights.h"
 #include "fairness/row_weights.h"
 #include "meshes.h"
 #include "tangential/tangential_step.h"

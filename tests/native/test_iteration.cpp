@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
 #include "iteration/accelerated_iteration.h"
-#include "iteration/reaction.h"
+#include "iteration/continuation.h"
 #include "meshes.h"
 #include "operators/biharmonic_operator.h"
-#include "operators/workspace.h"
+#include "operators/normal_operator.h"
 #include "problem/solution.h"
 
 using namespace fairing;

@@ -7,8 +7,8 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "linear/anderson.h"
+#include "linear/conjugate_gradients.h"
 #include "linear/gmres.h"
-#include "linear/known_directions.h"
 #include "linear/shrinking_steps.h"
 #include "linear/sparse_cholesky.h"
 #include "linear/sparse_lu.h"
@@ -118,26 +118,6 @@ TEST_CASE("the LU factor refuses a singular matrix") {
     matrix.prune([](Eigen::Index row, Eigen::Index, double) { return row != 20; });
     SparseLu factor;
     CHECK_FALSE(factor.factorise(matrix, "the weights", Progress()));
-}
-
-TEST_CASE("solves that end at the limit of their cycles, or on a matrix that is not positive, are counted") {
-    using Row = KnownDirections::Row;
-    Row diagonal = Row::LinSpaced(4, 1.0, 4.0);  // as many cycles as there are eigenvalues
-    const auto apply = [&](const Row& p, Row& product) { product = p.cwiseProduct(diagonal); };
-    const auto precondition = [](const Row& r, Row& z) { z = r; };
-    const auto unfinished_after = [&](int most_cycles) {
-        KnownDirections known;
-        (void)known.solve(Row::Ones(4), {1e-8}, most_cycles, apply, precondition);
-        return known.unfinished();
-    };
-    CHECK(unfinished_after(3) == 1);
-    CHECK(unfinished_after(4) == 0);  // the last cycle is enough
-    CHECK(unfinished_after(5) == 0);
-    KnownDirections known;
-    for (int times = 0; times < 3; ++times) (void)known.solve(Row::Random(4), {1e-8}, 1, apply, precondition);
-    CHECK(known.unfinished() == 3);
-    diagonal[2] = -3.0;
-    CHECK(unfinished_after(50) == 1);
 }
 
 TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as many steps as unknowns") {

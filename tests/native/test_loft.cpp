@@ -7,7 +7,7 @@
 #include "geometry/flips.h"
 #include "pipes.h"
 #include "problem/surface_state.h"
-#include "stand_in/lofted.h"
+#include "stand_in/stand_in.h"
 #include "start/loft.h"
 
 using namespace fairing;

@@ -11,7 +11,7 @@
 #include "linear/sparse_cholesky.h"
 #include "meshes.h"
 #include "method/levels.h"
-#include "method/traits.h"
+#include "method/plan.h"
 #include "multigrid/coarsening.h"
 #include "multigrid/tangential_multigrid.h"
 #include "operators/normal_operator.h"

@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
 #include "geometry/mean_curvature.h"
-#include "geometry/normal_equations.h"
-#include "geometry/one_ring_buffer.h"
+#include "geometry/one_ring.h"
+#include "geometry/shape_operator.h"
+#include "geometry/surface_fit.h"
 #include "geometry/vertex_normal.h"
-#include "geometry/virtual_points.h"
 #include "meshes.h"
 
 using namespace fairing;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "boundary/bad_boundary.h"
+#include "boundary/fitted_boundary.h"
 #include "boundary/low_passed_boundary.h"
-#include "boundary/normal_filter.h"
+#include "boundary/surrounding_fit.h"
 #include "meshes.h"
 #include "shape/visible_join.h"
 

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "paper/vertex_update.h"
+#include "paper/disk_curvature.h"
 
 using namespace fairing;
 

@@ -10,10 +10,10 @@
 #include "geometry/self_intersection.h"
 #include "method/solve.h"
 #include "pipes.h"
-#include "shape/blemishes.h"
+#include "shape/kinks.h"
 #include "shape/limits.h"
-#include "stand_in/smoothed.h"
-#include "start/shape_before.h"
+#include "stand_in/stand_in.h"
+#include "start/quick_surface.h"
 
 using namespace fairing;
 using test::Pipe;

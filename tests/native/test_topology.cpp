@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "mesh/loops.h"
 #include "mesh/pieces.h"
-#include "mesh/turned.h"
+#include "mesh/twins.h"
 #include "meshes.h"
 
 using namespace fairing;

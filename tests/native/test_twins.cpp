@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "base/errors.h"
+#include "mesh/loops.h"
 #include "mesh/pieces.h"
 #include "meshes.h"
 

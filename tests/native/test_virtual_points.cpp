@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/virtual_points.h"
+#include "geometry/shape_operator.h"
 
 using namespace fairing;
 
