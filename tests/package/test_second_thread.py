@@ -78,7 +78,11 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "vertex_normals": (POINTS, FACES, "fitted"),
     "visible_join": (POINTS, TOP, RIM, LINE, None),
 }
+# They need more than a cap, and are bound in the same way.
 ELSEWHERE = {
+    "fair", "cut_fillet", "fillet_rows", "on_wrong_side", "seam_room", "new_patch", "first_mesh", "wire_cells",
+    "cells_of_triangles", "hard_ways",
+}  # fmt: skip
     "fair",
     "cut_fillet",
     "fillet_rows",
