@@ -83,12 +83,6 @@ ELSEWHERE = {
     "fair", "cut_fillet", "fillet_rows", "on_wrong_side", "seam_room", "new_patch", "first_mesh", "wire_cells",
     "cells_of_triangles", "hard_ways",
 }  # fmt: skip
-    "fair",
-    "cut_fillet",
-    "fillet_rows",
-    "on_wrong_side",
-    "seam_room",
-}  # made in the same way: they take a callback
 
 
 @pytest.fixture
