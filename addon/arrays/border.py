@@ -47,14 +47,14 @@ def border_loops(mesh: MeshArrays, seeds: Mask) -> tuple[list[Ints], list[Left]]
     """Return the whole border loops through the vertices of the (n,) mask, each with the hole on its left.
 
     In the order of their lowest vertices; none where no seed is on a border. Where borders touch, they are parted as
-    `fairing.hole_loops` does it; a vertex where two touch stands for both of them only where neither has other seeds.
+    `fairing.borders.hole_loops` does it; a vertex where two touch stands for both only where neither has other seeds.
     Also returns what can't be filled: borders along which faces are wound against each other, without an area, or with
     a coordinate that is not finite.
     """
     edges = _border_edges(mesh)
     passes = np.bincount(edges[:, 0], minlength=len(seeds))
     pinched = (passes > 1)[mesh.triangles].any(axis=1)
-    found = fairing.hole_loops(mesh.positions, mesh.triangles[pinched], edges)
+    found = fairing.borders.hole_loops(mesh.positions, mesh.triangles[pinched], edges)
     loops: list[Ints] = []
     left = [_torn(chain.astype(np.int64)) for chain in found.torn if seeds[chain].any()]
     for loop in _meant([loop.astype(np.int64) for loop in found.loops], seeds, passes > 1):

@@ -21,7 +21,7 @@ def harmonic(points: Floats, triangles: Ints, values: Floats) -> Floats:
     inside = np.zeros((len(points) - len(values), values.shape[1]))
     if len(inside) and len(varied):
         rim = np.arange(len(values))
-        inside[:, varied] = fairing.interpolate(points, triangles, rim, given[:, varied])[len(values) :]
+        inside[:, varied] = fairing.maps.interpolate(points, triangles, rim, given[:, varied])[len(values) :]
     carried: Floats = np.clip(inside + values[0], values.min(axis=0), values.max(axis=0))
     return carried
 

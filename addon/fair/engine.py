@@ -23,7 +23,7 @@ Progress = Callable[[float, str], "bool | None"]
 Preview = Callable[[Floats], object]  # is given the (p, 3) vertices of a run's first surface
 
 # What the engine answers: on the mesh that is there, on a new one, or over a hole.
-Result = fairing.FairResult | fairing.RemeshResult | fairing.FillResult | fairing.FilletResult
+Result = fairing.FairResult | fairing.RemeshResult | fairing.FillResult | fairing.results.FilletResult
 
 # What `solve` raises for input that it can't fair here; the mesh is untouched then.
 REFUSALS = (ValueError, fairing.SolverError, MemoryError)

@@ -116,7 +116,7 @@ def _numbered(triangles: Ints, count: int) -> tuple[Ints, Ints]:
     return used, number
 
 
-def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.FairEdges | None]:
+def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.filleting.edges.FairEdges | None]:
     """Return which vertices of the mesh the hard edges have (q,), and these edges as fair curves."""
     if mesh.hard is None:
         return nothing(), None

@@ -92,7 +92,7 @@ def solve(
 def _folds(without: Solved, vertices: Floats) -> bool:
     """Return whether the pull turns faces over, as pins far aside do: the surface passes through these as a whole."""
     triangles = without.problem.patch.triangles
-    found, before = (len(fairing.flipped_triangles(v, triangles)) for v in (vertices, without.result.vertices))
+    found, before = (len(fairing.looks.flipped_triangles(v, triangles)) for v in (vertices, without.result.vertices))
     return found > before
 
 

@@ -37,7 +37,7 @@ class Borders:
     def expected_vertices(self, matrix: Floats, bridge: bool) -> float:
         """Return about how many vertices will be new, with edges as long as the boundaries'."""
         world = _placed(self.whole.mesh, matrix)
-        return fairing.expected_vertices(world.positions, world.triangles, self.loops, bridge=bridge)
+        return fairing.borders.expected_vertices(world.positions, world.triangles, self.loops, bridge=bridge)
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -98,7 +98,7 @@ def holes_among(matrix: Floats, borders: Borders, islands: bool = False) -> Bord
     if not loops:
         return borders
     world = _placed(borders.whole.mesh, matrix)
-    outer = fairing.outer_borders(world.positions, world.triangles, loops)
+    outer = fairing.borders.outer_borders(world.positions, world.triangles, loops)
     if islands:
         outer[list(islands_inside(world, loops, outer))] = False
     if outer.all():

@@ -15,7 +15,7 @@ def with_islands(world: MeshArrays, loops: list[Ints]) -> list[list[int]]:
 
     world: in the space in which they are filled. An outer border that lies in no hole is a group of its own.
     """
-    outer = fairing.outer_borders(world.positions, world.triangles, loops) if loops else np.empty(0, dtype=bool)
+    outer = fairing.borders.outer_borders(world.positions, world.triangles, loops) if loops else np.empty(0, dtype=bool)
     inside = islands_inside(world, loops, outer)
     groups = {k: [k] for k in range(len(loops)) if k not in inside}
     for island, hole in sorted(inside.items()):

@@ -100,7 +100,7 @@ class Job:
         points = np.concatenate([world.positions[outline], inside])
         whole = np.concatenate([world.positions[vertices], result.vertices])
         rim = np.unique(np.concatenate(given))
-        join = join_at(vertices[rim], fairing.visible_join(whole, result.triangles, around, rim))
+        join = join_at(vertices[rim], fairing.looks.visible_join(whole, result.triangles, around, rim))
         across = number.across(result, local.drawn)
         slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
         surface = Surface(points, triangles, result, join, across.edges)

@@ -43,7 +43,7 @@ def fill_mesh(
     """Fill the holes of `mesh`, or join their boundaries, with the fair surface that continues their surroundings.
 
     vertices: one or more of each border that is meant, or a mask of all vertices; default: all holes, that is all
-    borders but those around the outside of a sheet (`fairing.outer_borders`).
+    borders but those around the outside of a sheet (`fairing.borders.outer_borders`).
     matrix: 4×4, to the space in which the surface is fair; default: the mesh's own.
     properties: those of `mesh.fair_fill`, with the same names and defaults.
     Returns the `fairing` result for each surface, in the space of `matrix`; the new faces come last in the mesh. What

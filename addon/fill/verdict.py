@@ -38,7 +38,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> V
     if not result.converged and result.termination != "folded":
         return Verdict(UNUSABLE, said("none_over", over=over), np.unique(outline))
     held = np.union1d(np.arange(len(outline)), surface.across)
-    folds = fairing.flipped_triangles(points, triangles, fixed=held)
+    folds = fairing.looks.flipped_triangles(points, triangles, fixed=held)
     if len(folds) or result.termination == "folded":
         return Verdict(UNUSABLE, said("folded_over", over=over), np.unique(outline))
     crossing = _crossing(world, outline, points, triangles)
@@ -58,7 +58,7 @@ def judge(world: MeshArrays, outline: Ints, surface: Surface, around: Ints) -> V
             uneven = said("choose_least_variation", reason=uneven)
         return Verdict(LOOK, uneven, np.unique(outline))
     depth = _depth(world, outline, around, surface)
-    if depth > fairing.LIMITS["sunken"] and result.equation != "soap_film":
+    if depth > fairing.looks.LIMITS["sunken"] and result.equation != "soap_film":
         return Verdict(LOOK, sunken_reason(depth), np.unique(outline))
     return Verdict(GOOD)
 
@@ -72,7 +72,7 @@ def _depth(world: MeshArrays, outline: Ints, around: Ints, surface: Surface) -> 
     found = fairing.surrounding_normals(world.positions[vertices], numbers.reshape(-1, 3), np.unique(rim)).normals
     normals = np.zeros_like(surface.points)
     normals[: len(outline)] = found[np.searchsorted(np.unique(rim), rim)]
-    return fairing.sunken(surface.points, surface.triangles, normals, fixed=np.arange(len(outline)))[0]
+    return fairing.looks.sunken(surface.points, surface.triangles, normals, fixed=np.arange(len(outline)))[0]
 
 
 def hard_ends(world: MeshArrays, outline: Ints, around: Ints, surface: Surface | None = None) -> Ints:

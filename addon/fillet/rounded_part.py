@@ -30,7 +30,7 @@ class RoundedPart:
     outside: int
 
 
-def rounded_part(mesh: MeshArrays, result: fairing.FilletResult) -> RoundedPart:
+def rounded_part(mesh: MeshArrays, result: fairing.results.FilletResult) -> RoundedPart:
     """Make it of the engine's answer; mesh: as it was solved."""
     count = len(mesh.positions)
     gone_faces = np.unique(mesh.triangle_faces[result.gone])
@@ -102,7 +102,7 @@ def _without_faces(mesh: MeshArrays, gone_faces: Ints, vertices: Ints) -> Ints:
 class _CornerPlaces:
     """Where the corners of new triangles lie on old ones, on their own side of the seam."""
 
-    def __init__(self, mesh: MeshArrays, result: fairing.FilletResult) -> None:
+    def __init__(self, mesh: MeshArrays, result: fairing.results.FilletResult) -> None:
         self._mesh, self._result = mesh, result
         self._twin: dict[Edge, int] = {}
         for t in np.flatnonzero(np.isin(mesh.triangle_faces, mesh.triangle_faces[result.gone])).tolist():
@@ -229,7 +229,7 @@ def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, bent: bool) -> tup
     return Faces(polygons, np.array(examples, dtype=np.int64), np.array(corners, dtype=np.int64)), len(polygons)
 
 
-def _new_faces(triangles: Ints, result: fairing.FilletResult, outside: int) -> Faces:
+def _new_faces(triangles: Ints, result: fairing.results.FilletResult, outside: int) -> Faces:
     """Return those of the fillet; their triangles are the last of all."""
     if result.quads is None:
         own = faces_of(triangles[outside:])

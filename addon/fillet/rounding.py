@@ -35,7 +35,7 @@ class Rounded:
     part: NewPart
     new_positions: Floats  # (k, 3) of the new vertices, in the mesh's own coordinates
     points: Floats  # (n + k, 3) of old and new vertices, in world space
-    result: fairing.FilletResult
+    result: fairing.results.FilletResult
     verdict: Verdict
     polygons: Faces
     unselected: int  # faces at the beginning that are pieces of old ones, outside
@@ -140,7 +140,7 @@ def _rounded(
     )
 
 
-def _verdict(result: fairing.FilletResult, origin: Origin) -> Verdict:
+def _verdict(result: fairing.results.FilletResult, origin: Origin) -> Verdict:
     """Folds and what is no surface are not written; a stand-in is worth a look."""
     bad = [warning for warning in result.warnings if warning.code in FOLDS]
     if bad or not result.converged:

@@ -21,7 +21,7 @@ from .rounding import Rounded, hard, round_arrays
 
 def fillet_mesh(
     mesh: bpy.types.Mesh, edges: Sequence[int] | None = None, *, matrix: Any = None, **properties: Any
-) -> fairing.FilletResult:
+) -> fairing.results.FilletResult:
     """Round edges of `mesh`: within a width of them, faces are replaced by the fairest surface.
 
     edges: their numbers, or a mask of all edges; default: all hard edges.

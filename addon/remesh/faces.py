@@ -31,7 +31,7 @@ def paired_faces(points: Floats, triangles: Ints, kept: Ints, kinds: Ints) -> Fa
     points: (n, 3). kept: (e, 2) edges that no quad runs across. kinds: (m,) numbers; triangles of two kinds are in no
     quad together.
     """
-    found = fairing.paired_quads(points, triangles, np.concatenate([kept, _borders(triangles, kinds)]))
+    found = fairing.maps.paired_quads(points, triangles, np.concatenate([kept, _borders(triangles, kinds)]))
     return _faces(triangles, found)
 
 
@@ -46,10 +46,10 @@ def faces_in_rows(triangles: Ints, pairs: Ints, kept: Ints) -> Faces:
     diagonals = {(a, b) for a, b in np.sort(kept, axis=1).tolist()}
     whole = np.array([tuple(sorted((b, d))) not in diagonals for _, b, _, d in corners.tolist()], dtype=bool)
     rest = np.setdiff1d(np.arange(len(triangles)), pairs[whole])
-    return _faces(triangles, fairing.PairedQuads(corners[whole], triangles[rest], pairs[whole], rest))
+    return _faces(triangles, fairing.results.PairedQuads(corners[whole], triangles[rest], pairs[whole], rest))
 
 
-def _faces(triangles: Ints, found: fairing.PairedQuads) -> Faces:
+def _faces(triangles: Ints, found: fairing.results.PairedQuads) -> Faces:
     first, second = found.pairs.T
     beneath = np.stack([first, first, second, first], axis=1)
     place = (triangles[beneath] == found.quads[:, :, None]).argmax(axis=2)

@@ -170,7 +170,7 @@ def _mapped(surface: Surface, rim: RimUVs, parting: _Parting) -> Unwrapped:
     turn[wedges, 0] = np.repeat(_turns(rim, parting), 3)
     points = np.empty((count, 3))
     points[wedges] = surface.points[surface.triangles.ravel()]
-    flat = turn * fairing.conformal_map(points, wedges.reshape(-1, 3), fixed, turn[fixed] * values)
+    flat = turn * fairing.maps.conformal_map(points, wedges.reshape(-1, 3), fixed, turn[fixed] * values)
     return Unwrapped(flat[wedges], parting.seams, _distortion(surface, flat[wedges]))
 
 

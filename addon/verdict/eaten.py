@@ -36,7 +36,7 @@ def eaten_edges(problem: Problem, after: Floats, sharp: Ints | None) -> Eaten:
     rim = np.zeros(len(problem.vertices), dtype=bool)
     rim[np.intersect1d(patch.outline, problem.outside)] = True
     near = nearby(np.concatenate([patch.triangles, problem.outside]), rim)
-    running_on = fairing.rounded_edges(problem.points, after, near, patch.free)
+    running_on = fairing.looks.rounded_edges(problem.points, after, near, patch.free)
     marked = nothing() if sharp is None else _blunted(problem, after, sharp)
     return Eaten(np.sort(problem.vertices[running_on]), np.sort(problem.vertices[marked]))
 
@@ -50,4 +50,4 @@ def _blunted(problem: Problem, after: Floats, sharp: Ints) -> Ints:
     own = len(patch.vertices)
     inside = marked[(marked >= 0).all(axis=1)]
     points = problem.points[:own], after[:own]
-    return fairing.rounded_edges(*points, patch.triangles, patch.free, marked=inside).astype(np.int64)
+    return fairing.looks.rounded_edges(*points, patch.triangles, patch.free, marked=inside).astype(np.int64)

@@ -60,7 +60,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
-    turned_back = join.worst_seen >= fairing.LIMITS["turned_back"]
+    turned_back = join.worst_seen >= fairing.looks.LIMITS["turned_back"]
     return said("turns_back" if turned_back else "kink", n=len(join.seen), degrees=join.worst_seen)
 
 
@@ -97,7 +97,7 @@ def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
     seen = evidence.join.seen
     if not len(seen):
         return reason, spots
-    if evidence.join.worst_seen >= fairing.LIMITS["steep_kink"]:
+    if evidence.join.worst_seen >= fairing.looks.LIMITS["steep_kink"]:
         return said("and_rounded", reason=kink_reason(evidence.join), n=len(spots)), _both(seen, spots)
     return said("or_grow", reason=reason, degrees=evidence.join.worst_seen), _both(spots, seen)
 
@@ -133,7 +133,7 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
     if not reason or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
     patch = evidence.problem.patch
-    girth = fairing.girth(_points(evidence), patch.triangles, fixed=patch.fixed)
+    girth = fairing.looks.girth(_points(evidence), patch.triangles, fixed=patch.fixed)
     if girth is None:  # curves that stay part it
         return reason, patch.vertices[patch.outline]
     return reason, patch.vertices[girth.thinnest if _is_thin(evidence.result) else girth.thickest]
@@ -144,11 +144,11 @@ def girth_reason(result: Result) -> str:
     least, largest = result.girth or (1.0, 1.0)
     if _is_thin(result):
         return said("thin_tube", share=least)
-    return said("thick_tube", share=largest) if largest > fairing.LIMITS["balloon"] else ""
+    return said("thick_tube", share=largest) if largest > fairing.looks.LIMITS["balloon"] else ""
 
 
 def _is_thin(result: Result) -> bool:
-    return bool(result.girth and result.girth[0] < fairing.LIMITS["waist"])
+    return bool(result.girth and result.girth[0] < fairing.looks.LIMITS["waist"])
 
 
 def _most_bent(evidence: Evidence) -> Ints:

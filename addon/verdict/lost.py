@@ -38,8 +38,8 @@ def sunken(patch: Patch, points: Floats, problem: Problem) -> Lost:
     on_from = problem.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
     nothing_runs_on = np.setdiff1d(vertices, on_from)
     known[nothing_runs_on] = known[problem.inward] = 0.0
-    depth, deepest = fairing.sunken(points, patch.triangles, known[patch.vertices], fixed=patch.fixed)
-    return Lost(depth, patch.vertices[deepest] if depth > fairing.LIMITS["sunken"] else nothing())
+    depth, deepest = fairing.looks.sunken(points, patch.triangles, known[patch.vertices], fixed=patch.fixed)
+    return Lost(depth, patch.vertices[deepest] if depth > fairing.looks.LIMITS["sunken"] else nothing())
 
 
 def is_smoother(mesh: MeshArrays, world: Floats, problem: Problem, after: Floats) -> bool:
@@ -48,7 +48,7 @@ def is_smoother(mesh: MeshArrays, world: Floats, problem: Problem, after: Floats
     vertices, around = numbered(patch, wound_alike(mesh, wide_outside(mesh, patch)))
     moved = world.copy()
     moved[problem.vertices] = after
-    return fairing.has_lost_grain(world[vertices], moved[vertices], patch.triangles, around)
+    return fairing.looks.has_lost_grain(world[vertices], moved[vertices], patch.triangles, around)
 
 
 def moved_border(problem: Problem, after: Floats) -> Ints:

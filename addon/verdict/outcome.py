@@ -90,7 +90,7 @@ def outcome(
     go_on(progress)
     through = _pierced(mesh, matrix, problem, after)
     held = np.intersect1d(patch.fixed, patch.outline)
-    seams = patch.vertices[fairing.seam_kinks(after[:own], patch.triangles, held, join.limit)]
+    seams = patch.vertices[fairing.looks.seam_kinks(after[:own], patch.triangles, held, join.limit)]
     go_on(progress)
     evidence = Evidence(
         problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
@@ -136,7 +136,7 @@ def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) 
     vertices, around = numbered(patch, wound_alike(world, wide_outside(world, patch)))
     world.positions[problem.vertices] = after
     points = world.positions[vertices]
-    found = fairing.flank(points, patch.triangles, around, fixed=patch.fixed)
+    found = fairing.looks.flank(points, patch.triangles, around, fixed=patch.fixed)
     if found is None:
         return None
     edges, _ = fairing.edges_with_uses(around)
@@ -153,7 +153,7 @@ def _lost(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> 
     return replace(
         sunken(patch, after[: len(patch.vertices)], problem),
         is_smoother=is_smoother(world, world.positions, problem, after),
-        is_rougher=_is_plain(patch) and fairing.is_rougher(after, patch.triangles, problem.outside),
+        is_rougher=_is_plain(patch) and fairing.looks.is_rougher(after, patch.triangles, problem.outside),
         border=moved_border(problem, after),
         key=kept_key(problem, after, offsets),
     )
@@ -180,7 +180,7 @@ def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, 
     before = places(mesh, matrix)
     points = before.copy()
     points[problem.vertices] = after
-    rounded = fairing.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
+    rounded = fairing.looks.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
     found: Ints = np.intersect1d(rounded, outside)
     return found
 

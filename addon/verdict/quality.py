@@ -33,9 +33,9 @@ class Join:
     """How visible the join is at the k boundary vertices that have faces outside."""
 
     vertices: Ints  # (k,) of the mesh
-    degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.visible_join
+    degrees: Floats  # (k,) by how much the bend there exceeds what is usual around; see fairing.looks.visible_join
     kinks: Ints = field(default_factory=nothing)  # places in `vertices` where the eye finds one, the worst first
-    limit: float = fairing.LIMITS["visible_kink"]  # degrees from which it does
+    limit: float = fairing.looks.LIMITS["visible_kink"]  # degrees from which it does
 
     @property
     def typical(self) -> float:
@@ -84,13 +84,13 @@ def mean_area(points: Floats, triangles: Ints) -> float:
 
 
 def _measured(patch: Patch, points: Floats, crossing: Ints | None) -> Quality:
-    needles: Ints = np.unique(patch.faces[fairing.needles(points, patch.triangles).all])
+    needles: Ints = np.unique(patch.faces[fairing.looks.needles(points, patch.triangles).all])
     return Quality(folded(patch, points), needles, crossing)
 
 
 def folded(patch: Patch, points: Floats) -> Ints:
     """Return the faces that are turned over, those aside that have no vertex free to move."""
-    found = fairing.flipped_triangles(points, patch.triangles, fixed=patch.fixed).astype(np.int64)
+    found = fairing.looks.flipped_triangles(points, patch.triangles, fixed=patch.fixed).astype(np.int64)
     movable = np.isin(patch.triangles[found], patch.free).any(axis=1)
     faces: Ints = np.unique(patch.faces[found[movable]])
     return faces
@@ -111,10 +111,10 @@ def join(problem: Problem, points: Floats) -> Join:
     patch = problem.patch
     rim = np.intersect1d(patch.outline, problem.outside)
     rim = np.setdiff1d(rim[~np.isin(patch.vertices[rim], problem.inward)], patch.free_slopes)
-    return join_at(patch.vertices[rim], fairing.visible_join(points, patch.triangles, problem.outside, rim))
+    return join_at(patch.vertices[rim], fairing.looks.visible_join(points, patch.triangles, problem.outside, rim))
 
 
-def join_at(vertices: Ints, found: fairing.VisibleJoin) -> Join:
+def join_at(vertices: Ints, found: fairing.looks.VisibleJoin) -> Join:
     """Return the engine's figures at these mesh vertices (k,)."""
     order = np.argsort(-found.degrees[found.seen], kind="stable")
     return Join(vertices, found.degrees, found.seen[order].astype(np.int64), found.limit)
@@ -134,7 +134,7 @@ def swollen(before: tuple[Patch, Floats], after: tuple[Patch, Floats]) -> Ints:
 
 
 def _knobs(patch: Patch, points: Floats, before: float = 0.0) -> tuple[float, Ints]:
-    extent, tops = fairing.knobs(points, patch.triangles, fixed=patch.fixed, before=before)
+    extent, tops = fairing.looks.knobs(points, patch.triangles, fixed=patch.fixed, before=before)
     return extent, tops.astype(np.int64)
 
 
@@ -142,7 +142,7 @@ def is_spoilt(mesh: MeshArrays) -> bool:
     """Return whether the patch's own shape is no texture to keep: it has a spike, or all of it is crumpled."""
     inside = mesh.in_patch[mesh.triangle_faces]
     with np.errstate(invalid="ignore"):
-        return fairing.is_spoilt(mesh.positions, mesh.triangles[inside], mesh.triangles[~inside])
+        return fairing.looks.is_spoilt(mesh.positions, mesh.triangles[inside], mesh.triangles[~inside])
 
 
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:

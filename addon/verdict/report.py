@@ -208,7 +208,7 @@ def angle_text(degrees: float) -> str:
     if degrees < 0.1:
         return "0°"
     digits = 2
-    while degrees > fairing.LIMITS["visible_kink"] >= float(f"{degrees:.{digits}g}"):
+    while degrees > fairing.looks.LIMITS["visible_kink"] >= float(f"{degrees:.{digits}g}"):
         digits += 1
     return f"{float(f'{degrees:.{digits}g}'):g}°"
 

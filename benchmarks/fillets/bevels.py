@@ -99,7 +99,7 @@ def hard_edges(points: FloatArray, polygons: Polygons) -> set[tuple[int, int]]:
     return {(a, b) for a, b in np.sort(mesh.edges[hard(mesh)], axis=1).tolist()}
 
 
-def has_rows(result: fairing.FilletResult) -> bool:
+def has_rows(result: fairing.results.FilletResult) -> bool:
     return "NO_QUAD_ROWS" not in [warning.code for warning in result.warnings]
 
 

@@ -11,7 +11,7 @@ std::string& package() {
     return name;
 }
 
-py::object package_type(const char* name) { return py::module_::import((package() + "._types").c_str()).attr(name); }
+py::object package_type(const char* name) { return py::module_::import((package() + ".results").c_str()).attr(name); }
 
 void raise_mesh_error(const MeshError& error) {
     const py::object exception = package_type("MeshError")(from_diagnostic(error.diagnostic()));

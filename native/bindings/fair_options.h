@@ -6,7 +6,7 @@
 
 namespace fairing::bindings {
 
-// What Python's options come to: its groups (fairing/_groups.py) set them by name.
+// What Python's options come to: its groups (fairing/options/groups.py) set them by name.
 struct Options {
     FairOptions fair;
     HeldInside held;

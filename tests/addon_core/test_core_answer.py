@@ -200,7 +200,7 @@ def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> 
         compared.append(before)
         return 1.0, np.setdiff1d(triangles, fixed)[:1]
 
-    knobs = fairing.knobs
+    knobs = fairing.looks.knobs
     monkeypatch.setattr(fairing, "knobs", most_lifted)
     verdict = fair(mesh).verdict
     assert compared[0] == 0.0

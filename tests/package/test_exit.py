@@ -56,7 +56,7 @@ small = shapes.cap(3000)
 def work():
     begun.set()
     while True:
-        fairing.interpolate(small.vertices, small.triangles, small.fixed, small.vertices[small.fixed])
+        fairing.maps.interpolate(small.vertices, small.triangles, small.fixed, small.vertices[small.fixed])
 
 start(work)
 begun.wait()

@@ -103,7 +103,7 @@ def test_the_measures(page: dict[str, Any]) -> None:
 
 def test_every_code_of_the_engine_is_listed() -> None:
     text = (ROOT / "docs/python.md").read_text(encoding="utf-8")
-    assert [code for code in fairing.CODES if f"| `{code}` |" not in text] == []
+    assert [code for code in fairing.results.CODES if f"| `{code}` |" not in text] == []
 
 
 def test_the_readme_runs() -> None:

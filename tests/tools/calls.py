@@ -178,11 +178,6 @@ def solved_again(scene: Scene, threads: int = 0, **asked: Any) -> Found:
     return of_result(solver.solve(scene.points, scene.normals, **asked))
 
 
-def mended(scene: Scene) -> Found:
-    found = fairing.mend_outline(scene.other, scene.outside, scene.rim)
-    return [("points", np.arange(len(found.vertices)), found.vertices), ("vertices", None, found.moved)]
-
-
 def edges_made_fair(scene: Scene) -> Found:
     found = fairing.edges_through(scene.points, scene.inside, scene.outside)
     fair = fairing.fair_edges(scene.other, found.edges, found.onward)
@@ -278,25 +273,25 @@ def laid_flat(scene: Scene) -> Found:
     """The part, from where two of its vertices are: places in the plane don't move."""
     points, faces, _ = scene.part
     far = [int(np.linalg.norm(points - end.mean(axis=0), axis=1).argmax()) for end in (points, scene.points)]
-    places = fairing.conformal_map(points, faces, far, [[0, 0], [1, 0]])
+    places = fairing.maps.conformal_map(points, faces, far, [[0, 0], [1, 0]])
     return [("plain", None, np.sort(np.hypot(*places.T)))]
 
 
 def girth(scene: Scene) -> Found:
-    found = fairing.girth(scene.points, scene.inside)
+    found = fairing.looks.girth(scene.points, scene.inside)
     assert found is not None
     return [*figures(found.least, found.largest), ("vertices", None, found.thinnest)]
 
 
 def flank(scene: Scene) -> Found:
-    found = fairing.flank(rough_part(scene)[1], scene.inside, scene.outside)
+    found = fairing.looks.flank(rough_part(scene)[1], scene.inside, scene.outside)
     return figures(found is None)
 
 
 def sunken(scene: Scene) -> Found:
     normals = np.zeros_like(scene.points)
     normals[scene.rim] = scene.normals
-    return figures(fairing.sunken(scene.other, scene.inside, normals, fixed=scene.rim)[0])
+    return figures(fairing.looks.sunken(scene.other, scene.inside, normals, fixed=scene.rim)[0])
 
 
 def grown(scene: Scene) -> Found:
@@ -305,15 +300,15 @@ def grown(scene: Scene) -> Found:
 
 
 def loops_of(scene: Scene) -> Found:
-    found = fairing.hole_loops(scene.points, scene.outside)
-    outer = fairing.outer_borders(scene.points, scene.outside)
+    found = fairing.borders.hole_loops(scene.points, scene.outside)
+    outer = fairing.borders.outer_borders(scene.points, scene.outside)
     return [("vertices", None, np.concatenate(found.loops)), *figures(len(found.torn), outer.sum())]
 
 
 def needles(scene: Scene) -> Found:
     flat = scene.points.copy()
     flat[scene.faces[7, 0]] = flat[scene.faces[7, 1:]].mean(axis=0)
-    return figures(len(fairing.needles(flat, scene.faces).all))
+    return figures(len(fairing.looks.needles(flat, scene.faces).all))
 
 
 def rounded(scene: Scene) -> Found:
@@ -321,7 +316,7 @@ def rounded(scene: Scene) -> Found:
     moved = np.intersect1d(edges, np.setdiff1d(scene.inside, scene.rim))
     after = scene.points.copy()
     after[moved] -= 0.1 * (scene.points[moved] - scene.points.mean(axis=0))
-    return [("vertices", None, fairing.rounded_edges(scene.points, after, scene.faces, moved))]
+    return [("vertices", None, fairing.looks.rounded_edges(scene.points, after, scene.faces, moved))]
 
 
 ROWS |= {
@@ -339,36 +334,35 @@ ROWS |= {
     "deviation": Row(ball, lambda s: [("heights", every(s), fairing.deviation(s.points, s.other, s.faces))]),
     "edges_through": Row(box, edges_made_fair),
     "edges_with_uses": Row(ball, lambda s: [("vertices", None, fairing.edges_with_uses(s.faces)[0])]),
-    "expected_vertices": Row(ball, lambda s: figures(fairing.expected_vertices(s.points, s.outside))),
+    "expected_vertices": Row(ball, lambda s: figures(fairing.borders.expected_vertices(s.points, s.outside))),
     "feather_weights": Row(
         ball, lambda s: [("plain", every(s), fairing.feather_weights(s.points, s.inside, s.outside, 0.3))]
     ),
     "flank": Row(ball, flank),
     "flipped_triangles": Row(
-        ball, lambda s: [("triangles", None, fairing.flipped_triangles(rough_part(s)[1], s.faces))]
+        ball, lambda s: [("triangles", None, fairing.looks.flipped_triangles(rough_part(s)[1], s.faces))]
     ),
     "girth": Row(tube, girth),
     "grown_outline": Row(ball, grown),
     "hard_edges": Row(box, lambda s: [("vertices", None, fairing.hard_edges(s.points, s.faces))]),
     "has_lost_grain": Row(
-        ball, lambda s: figures(fairing.has_lost_grain(*rough_part(s)[::-1], s.inside, s.outside))
+        ball, lambda s: figures(fairing.looks.has_lost_grain(*rough_part(s)[::-1], s.inside, s.outside))
     ),
     "hierarchy": Row(ball, lambda s: [("vertices", None, fairing.hierarchy(s.points, s.inside, fixed=s.rim)[-1][0])]),
     "hole_loops": Row(ball, loops_of),
     "interpolate": Row(
-        ball, lambda s: [("points", every(s), fairing.interpolate(s.points, s.faces, s.rim, s.points[s.rim]))]
+        ball, lambda s: [("points", every(s), fairing.maps.interpolate(s.points, s.faces, s.rim, s.points[s.rim]))]
     ),
-    "is_rougher": Row(ball, lambda s: figures(fairing.is_rougher(rough_part(s)[1], s.inside, s.outside))),
-    "is_spoilt": Row(ball, lambda s: figures(fairing.is_spoilt(rough_part(s)[1], s.inside, s.outside))),
-    "knobs": Row(ball, lambda s: figures(fairing.knobs(s.points, s.inside)[0]), 1e-6),
+    "is_rougher": Row(ball, lambda s: figures(fairing.looks.is_rougher(rough_part(s)[1], s.inside, s.outside))),
+    "is_spoilt": Row(ball, lambda s: figures(fairing.looks.is_spoilt(rough_part(s)[1], s.inside, s.outside))),
+    "knobs": Row(ball, lambda s: figures(fairing.looks.knobs(s.points, s.inside)[0]), 1e-6),
     "mean_curvature": Row(
         ball, lambda s: [("curvatures", every(s), fairing.mean_curvature(s.points, s.faces))], 1e-7
     ),
-    "mend_outline": Row(ball, mended),
     "needles": Row(ball, needles),
-    "paired_quads": Row(ball, lambda s: figures(len(fairing.paired_quads(s.points, s.faces).rest)), numbers=8.5),
+    "paired_quads": Row(ball, lambda s: figures(len(fairing.maps.paired_quads(s.points, s.faces).rest)), numbers=8.5),
     "rounded_edges": Row(box, rounded),
-    "seam_kinks": Row(box, lambda s: [("vertices", None, fairing.seam_kinks(s.points, s.inside, s.rim))]),
+    "seam_kinks": Row(box, lambda s: [("vertices", None, fairing.looks.seam_kinks(s.points, s.inside, s.rim))]),
     "self_intersections": Row(
         ball, lambda s: [("triangles", None, fairing.self_intersections(rough_part(s)[1], s.faces))]
     ),
@@ -382,7 +376,7 @@ ROWS |= {
     "visible_join": Row(
         ball,
         lambda s: [
-            ("plain", s.rim, fairing.visible_join(rough_part(s)[1], s.inside, s.outside, s.rim).degrees),
+            ("plain", s.rim, fairing.looks.visible_join(rough_part(s)[1], s.inside, s.outside, s.rim).degrees),
         ], 1e-5,
     ),
 }  # fmt: skip

@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing._types import Diagnostic
+from fairing.results import Diagnostic
 
 __version__: str
 CODES: tuple[str, ...]

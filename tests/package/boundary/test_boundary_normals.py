@@ -10,7 +10,7 @@ from solids import FloatArray, IntArray
 
 def faired(
     vertices: FloatArray, inside: IntArray, outside: IntArray, side: str = "automatic", continuity: str = "G1"
-) -> tuple[fairing.FairResult, fairing.BoundaryNormals, IntArray]:
+) -> tuple[fairing.FairResult, fairing.solving.outline.BoundaryNormals, IntArray]:
     """The result, the normals, and the free vertices."""
     rim = np.intersect1d(inside, outside)
     found = fairing.boundary_normals(vertices, inside, rim, outside=outside, side=side)

@@ -1,6 +1,7 @@
 """Noisy, bad and visible outlines: standard errors, mending, growing, and the measure of the join."""
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import bad_inputs
 import fairing
 import measures
 from curves import FloatArray
-from fairing import _mending
+from fairing.solving import surroundings
 from meshing import IntArray, edge_pairs, face_normals
 
 
@@ -75,7 +76,7 @@ def test_normals_of_noisy_surroundings(noise: float) -> None:
 
 def test_mending_keeps_all_beyond_two_rings() -> None:
     case = ball(0.1)
-    fitted = fairing.mend_outline(case.noisy, case.outside, case.outline)
+    fitted = SimpleNamespace(**fairing._core.mend_outline(case.noisy, case.outside, case.outline))
     reached = case.outline
     for _ in range(2):
         reached = np.union1d(reached, case.outside[np.isin(case.outside, reached).any(axis=1)])
@@ -123,19 +124,19 @@ def test_mending_without_an_outside_is_refused() -> None:
         fairing.fair(case.noisy, case.inside, outline="smoothed")
 
 
-def answers(case: Ball, fitted_folds: int, given_folds: int) -> tuple[dict[str, Any], list[_mending.Boundary]]:
+def answers(case: Ball, fitted_folds: int, given_folds: int) -> tuple[dict[str, Any], list[surroundings.Boundary]]:
     """What comes of mending when the solves have these numbers of folded triangles; and the boundaries asked for."""
-    asked: list[_mending.Boundary] = []
+    asked: list[surroundings.Boundary] = []
 
-    def call(boundary: _mending.Boundary) -> dict[str, Any]:
+    def call(boundary: surroundings.Boundary) -> dict[str, Any]:
         asked.append(boundary)
         count = given_folds if boundary.vertices is case.noisy else fitted_folds
         folds = fairing.Diagnostic("FLIPPED_TRIANGLES", "", np.arange(count, dtype=np.int32), "triangle")
         return {"converged": True, "warnings": (folds,) if count else (), "vertices": case.exact}  # joins without kinks
 
-    given = _mending.Boundary(case.noisy, None, None)
-    around = _mending.Surroundings.of(case.noisy, case.inside, None, case.outside)
-    return _mending.solve_fitted(call, given, case.inside, around), asked
+    given = surroundings.Boundary(case.noisy, None, None)
+    around = surroundings.Surroundings.of(case.noisy, case.inside, None, case.outside)
+    return surroundings.solve_fitted(call, given, case.inside, around), asked
 
 
 def test_a_fitted_boundary_that_folds_the_patch_is_given_up() -> None:

@@ -39,4 +39,4 @@ def test_long_pipes_are_straight(length: float, size: int | None, limit: float) 
     assert result.converged
     assert result.equation == "harmonic"
     assert pipe.error(result.vertices) < limit
-    assert not len(fairing.flipped_triangles(result.vertices, pipe.triangles))
+    assert not len(fairing.looks.flipped_triangles(result.vertices, pipe.triangles))

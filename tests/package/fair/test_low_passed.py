@@ -59,7 +59,7 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     assert 0.25 * edge < warning.figures["distance"] < 1.5 * edge  # in diameters
     inside = result.vertices[rows_from_outline(cap) > ROWS]
     assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.2  # normals are off by a radian
-    flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
+    flipped = fairing.looks.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
     assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
     assert len(flipped) <= 3  # folds that the outline itself forces
 
@@ -71,6 +71,6 @@ def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
         cap = rough_cap(1.0, 0.6, seed)
         result = faired(cap)
         assert result.converged
-        flipped = fairing.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
+        flipped = fairing.looks.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
         left += len(flipped) + len(fairing.self_intersections(result.vertices, cap.triangles))
     assert left <= 10

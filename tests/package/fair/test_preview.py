@@ -42,9 +42,9 @@ def test_a_limb_is_not_drawn_to_a_thread() -> None:
     rough = pipe.vertices.copy()
     rough[inside] += rng.normal(scale=0.02, size=(len(inside), 3))
     first, _ = shown_and_found(rough, pipe.triangles, fixed=pipe.fixed, fixed_normals=pipe.normals, otherwise="stop")
-    girth = fairing.girth(first, pipe.triangles, fixed=pipe.fixed)
+    girth = fairing.looks.girth(first, pipe.triangles, fixed=pipe.fixed)
     assert girth is not None
-    assert girth.least > fairing.LIMITS["waist"]
+    assert girth.least > fairing.looks.LIMITS["waist"]
 
 
 def test_what_the_receiver_raises_comes_out() -> None:

@@ -41,7 +41,7 @@ def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int, limit: floa
     assert result.vertices[:, 2].min() > -1e-9
     # of the unit sphere; a last step of 1e-6 D shows in H as 1e-6 / h²
     np.testing.assert_allclose(result.mean_curvature, -1.0, atol=curvature)
-    assert not len(fairing.flipped_triangles(result.vertices, triangles))
+    assert not len(fairing.looks.flipped_triangles(result.vertices, triangles))
 
 
 @pytest.mark.parametrize("inner_fairness", ["uniform", "conformal"])

@@ -142,7 +142,7 @@ def test_a_pin_pulled_sideways_has_a_radius_too(pull: float) -> None:
         result, patch, apex = pulled_sideways(n_free, pull)
         assert result.converged
         assert not {reported.code for reported in result.warnings}
-        assert len(fairing.flipped_triangles(result.vertices, patch.triangles)) == 0
+        assert len(fairing.looks.flipped_triangles(result.vertices, patch.triangles)) == 0
         peaks.append(float(result.mean_curvature[apex]) * size(patch))
     assert peaks[0] == pytest.approx(peaks[1], rel=0.03)
     sharp, patch, apex = pulled_sideways(1000, pull, pin_radius=0)
@@ -159,7 +159,7 @@ def test_a_folded_surface_has_no_spread_pins() -> None:
     assert result.equation == "harmonic"
     assert result.converged
     assert not result.warnings
-    assert len(fairing.flipped_triangles(result.vertices, patch.triangles)) == 0
+    assert len(fairing.looks.flipped_triangles(result.vertices, patch.triangles)) == 0
 
 
 def test_a_far_pin_lifts_a_hill_not_a_needle() -> None:

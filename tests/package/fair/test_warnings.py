@@ -66,7 +66,7 @@ def test_self_intersections_of_any_triangles() -> None:
 def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() -> None:
     """In the plane the turned triangles are those with a negative area."""
     patch = shapes.plane(300)
-    assert not len(fairing.flipped_triangles(patch.vertices, patch.triangles))
+    assert not len(fairing.looks.flipped_triangles(patch.vertices, patch.triangles))
     vertices = patch.vertices.copy()
     middle = patch.free[np.linalg.norm(vertices[patch.free], axis=1).argmin()]
     triangle = next(t for t in patch.triangles if middle in t)
@@ -75,7 +75,7 @@ def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() ->
     upwards = face_normals(patch.vertices, patch.triangles)[0]
     turned = np.flatnonzero(face_normals(vertices, patch.triangles) @ upwards < 0.0)
     assert len(turned) > 0
-    assert np.array_equal(fairing.flipped_triangles(vertices, patch.triangles, fixed=patch.fixed), turned)
+    assert np.array_equal(fairing.looks.flipped_triangles(vertices, patch.triangles, fixed=patch.fixed), turned)
 
 
 @pytest.mark.parametrize("kind", ["conformal", "inverse_distance", "shape_preserving"])

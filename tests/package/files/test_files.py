@@ -51,7 +51,7 @@ def test_odd_files_are_read(name: str, tmp_path: Path) -> None:
     before = files.read(tmp_path / name)[0]
     mesh, report = filled(tmp_path / name)
     assert volume(mesh) == pytest.approx(1.0)
-    assert not len(fairing.hole_loops(mesh.points, mesh.triangles[mesh.sound]).loops)
+    assert not len(fairing.borders.hole_loops(mesh.points, mesh.triangles[mesh.sound]).loops)
     assert np.array_equal(mesh.points[: len(before.points)], before.points)
     lost = {*LOST.get(name, [])}
     assert mesh.vertex_data.keys() == before.vertex_data.keys()
@@ -191,7 +191,7 @@ def test_a_seam_goes_on_over_a_hole(tmp_path: Path) -> None:
     assert sum(line.startswith("v ") for line in lines) == len(np.unique(mesh.points, axis=0))
     assert len(new) > 20 and np.ptp(u, axis=1).max() < 2.5 / COLUMNS
     assert off.max() < 0.02
-    assert not len(fairing.hole_loops(mesh.points, mesh.triangles).torn)
+    assert not len(fairing.borders.hole_loops(mesh.points, mesh.triangles).torn)
 
 
 ROWS_OF_SEAM = 17 - 3  # the tube's rows of vertices without those inside the hole, which the seam parts
@@ -214,7 +214,7 @@ def test_a_seam_goes_on_over_a_fillet() -> None:
     u = made.vertex_data["uv"][made.own, 0]
     on_lid = (u > 3).any(axis=1)
     assert result.converged and (u[on_lid] > 3).all() and np.ptp(u[~on_lid], axis=1).max() < 0.1
-    found = fairing.hole_loops(made.points, made.triangles)
+    found = fairing.borders.hole_loops(made.points, made.triangles)
     assert [len(loop) for loop in found.loops] == [COLUMNS] and not found.torn
 
 
@@ -239,7 +239,7 @@ def test_objects_of_a_scene_stay(tmp_path: Path) -> None:
     assert not report["warnings"] and all(part.volume > 0 for part in after.geometry.values())
     assert {*after.geometry} == {"upper", "lower"}
     assert abs(radius(mesh.points - [3, 0, 0]) - 1).max() < 1e-4
-    found = fairing.hole_loops(mesh.points, mesh.triangles)
+    found = fairing.borders.hole_loops(mesh.points, mesh.triangles)
     assert sorted(map(len, found.loops)) == [COLUMNS, COLUMNS] and not found.torn
     _, (report,) = report_of(tmp_path, "fill", tmp_path / "tube.glb", "--format", ".off", "--longest", 20)
     assert report["not_written"] == ["object"]
@@ -319,7 +319,7 @@ def test_each_hole_has_a_row_of_its_own(tmp_path: Path) -> None:
     """Two tubes; at the rim of the second one's hole two fins stand on one edge: the first one's hole is filled."""
     points, triangles = holed()
     count = len(points)
-    (rim,) = (loop for loop in fairing.hole_loops(points, triangles).loops if len(loop) == 12)
+    (rim,) = (loop for loop in fairing.borders.hole_loops(points, triangles).loops if len(loop) == 12)
     places = np.concatenate([points, points + np.array([4, 0, 0]), [[9, 9, 9], [9, 9, 8]]])
     a, b = rim[:2] + count
     faces = np.concatenate([triangles, triangles + count, [[a, b, 2 * count], [b, a, 2 * count + 1]]])

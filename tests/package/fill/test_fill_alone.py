@@ -19,7 +19,7 @@ def random_holes(seed: int) -> tuple[FloatArray, IntArray, list[IntArray]]:
     axes /= np.linalg.norm(axes, axis=1)[:, None]
     for axis, cosine in zip(axes, rng.uniform(0.95, 0.995, size=6), strict=True):
         triangles = caps(vertices, triangles, axis[None], float(cosine))
-    found = fairing.hole_loops(vertices, triangles)
+    found = fairing.borders.hole_loops(vertices, triangles)
     return vertices, triangles, [loop for loop in found.loops if len(loop) < 90]
 
 

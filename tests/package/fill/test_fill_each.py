@@ -99,7 +99,7 @@ def test_holes_that_meet_in_a_corner_are_two() -> None:
     vertices, triangles = ball(2)
     star = np.flatnonzero((triangles == 20).any(axis=1))
     for chosen, count in ((star[[0]], 1), (star, 1)):
-        assert len(fairing.hole_loops(vertices, np.delete(triangles, chosen, axis=0)).loops) == count
+        assert len(fairing.borders.hole_loops(vertices, np.delete(triangles, chosen, axis=0)).loops) == count
     ring = np.unique(triangles[star])
     apart: list[int] = []
     for t in star.tolist():  # no two of them share an edge
@@ -107,7 +107,7 @@ def test_holes_that_meet_in_a_corner_are_two() -> None:
             apart.append(t)
     assert len(apart) >= 2
     open_mesh = np.delete(triangles, apart, axis=0)
-    loops = fairing.hole_loops(vertices, open_mesh).loops
+    loops = fairing.borders.hole_loops(vertices, open_mesh).loops
     assert sorted(map(tuple, np.sort(loops, axis=1))) == sorted(map(tuple, np.sort(triangles[apart], axis=1)))
     assert max(map(len, fairing.boundary_loops(open_mesh))) == 3 * len(apart)
     assert {20} < {*ring.tolist()}
@@ -135,7 +135,7 @@ def test_holes_in_one_call_are_the_holes_one_by_one(seed: int) -> None:
     vertices = vertices * (1 + 0.1 * np.sin(3 * vertices[:, [1]] + seed))
     for axis in rng.normal(size=(6, 3)):
         triangles = caps(vertices, triangles, axis[None] / np.linalg.norm(axis), rng.uniform(0.9, 0.99))
-    for loops in (fairing.hole_loops(vertices, triangles).loops, fairing.boundary_loops(triangles)):
+    for loops in (fairing.borders.hole_loops(vertices, triangles).loops, fairing.boundary_loops(triangles)):
         alone = []
         for loop in loops:
             try:
@@ -227,7 +227,7 @@ def test_a_missing_triangle_is_closed_by_one(place: str) -> None:
     result = fairing.fill(vertices, around, [loop])
     assert (len(result.vertices), {*result.triangles[0].tolist()}) == (0, {*loop.tolist()})
     assert result.converged
-    assert not len(fairing.visible_join(vertices, result.triangles, around, result.fixed).seen)
+    assert not len(fairing.looks.visible_join(vertices, result.triangles, around, result.fixed).seen)
 
 
 def test_a_missing_quad_is_cut_along_the_better_diagonal() -> None:

@@ -78,7 +78,7 @@ def mask() -> Mesh:
 
 def sorted_out(mesh: Mesh) -> tuple[int, int]:
     """How many holes and how many outer borders."""
-    outer = fairing.outer_borders(*mesh)
+    outer = fairing.borders.outer_borders(*mesh)
     return int((~outer).sum()), int(outer.sum())
 
 
@@ -115,9 +115,9 @@ def test_loops_may_run_either_way_and_are_taken_alone() -> None:
     (vertices, triangles), _, _ = SHAPES["sheet bent by 180°, with a hole"]
     hole, border = sorted(fairing.boundary_loops(triangles), key=len)
     for loops in ([border, hole], [border[::-1], hole[::-1]]):
-        assert fairing.outer_borders(vertices, triangles, loops).tolist() == [True, False]
-    assert fairing.outer_borders(vertices, triangles, [hole]).tolist() == [False]
-    assert fairing.outer_borders(*closed()).tolist() == []
+        assert fairing.borders.outer_borders(vertices, triangles, loops).tolist() == [True, False]
+    assert fairing.borders.outer_borders(vertices, triangles, [hole]).tolist() == [False]
+    assert fairing.borders.outer_borders(*closed()).tolist() == []
 
 
 def closed() -> Mesh:
@@ -129,9 +129,11 @@ def closed() -> Mesh:
 @pytest.mark.parametrize("half_angle", [30.0, 60.0, 90.0, 120.0, 145.0])
 def test_what_a_fill_takes_is_known_before(half_angle: float) -> None:
     mesh = holes.bowl(48, half_angle)
-    expected = fairing.expected_vertices(*mesh)
+    expected = fairing.borders.expected_vertices(*mesh)
     assert expected == pytest.approx(len(fairing.fill(*mesh).vertices), rel=0.25)
-    finer = fairing.expected_vertices(*mesh, spacing=0.5 * 2.0 * np.sin(np.radians(half_angle)) * np.sin(np.pi / 48))
+    finer = fairing.borders.expected_vertices(
+        *mesh, spacing=0.5 * 2.0 * np.sin(np.radians(half_angle)) * np.sin(np.pi / 48)
+    )
     assert finer == pytest.approx(4.0 * expected, rel=0.02)
 
 

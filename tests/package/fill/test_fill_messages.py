@@ -102,5 +102,5 @@ def test_a_wall_thinner_than_the_edges_of_its_rim_is_joined_or_named(thickness: 
     warned = {warning.code for warning in result.warnings} & {"NOT_TANGENT", "NO_SOLUTION"}
     polar = np.arccos(result.vertices[:, 2] / np.linalg.norm(result.vertices, axis=1))
     height = np.sin(np.radians(30.0) - polar.min()) / (0.5 * thickness)
-    assert warned or (result.boundary_angle.max() <= fairing.LIMITS["off_slope"] and abs(height - 1.0) < 0.15)
+    assert warned or (result.boundary_angle.max() <= fairing.looks.LIMITS["off_slope"] and abs(height - 1.0) < 0.15)
     assert warned or thickness > 0.02  # the thicker one is joined on some machines, by rounding

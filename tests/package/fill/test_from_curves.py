@@ -5,7 +5,7 @@ import pytest
 
 import fairing
 import wire_networks as networks
-from fairing._new_mesh import FromCurvesResult
+from fairing.results import FromCurvesResult
 
 
 def whole(points: networks.Floats, result: FromCurvesResult) -> networks.Floats:

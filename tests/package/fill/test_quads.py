@@ -1,4 +1,4 @@
-"""fairing.paired_quads: nearly all faces are quads, none concave, each triangle once, and what is kept stays."""
+"""fairing.maps.paired_quads: nearly all faces are quads, none concave, each triangle once, and what is kept stays."""
 
 from typing import Any
 
@@ -38,7 +38,7 @@ def corner_signs(points: FloatArray, quads: IntArray) -> FloatArray:
 @pytest.mark.parametrize("edges", [16, 32, 64, 128])
 def test_nearly_all_faces_are_quads_and_each_triangle_counts_once(edges: int) -> None:
     points, triangles = dome(edges)
-    paired = fairing.paired_quads(points, triangles)
+    paired = fairing.maps.paired_quads(points, triangles)
     assert len(paired.quads) >= 0.9 * (len(paired.quads) + len(paired.triangles))
     assert np.array_equal(np.sort(np.concatenate([paired.pairs.ravel(), paired.rest])), np.arange(len(triangles)))
     assert np.array_equal(paired.triangles, triangles[paired.rest])
@@ -47,9 +47,9 @@ def test_nearly_all_faces_are_quads_and_each_triangle_counts_once(edges: int) ->
 
 def test_kept_edges_and_the_border_survive() -> None:
     points, triangles = dome(64)
-    first = fairing.paired_quads(points, triangles)
+    first = fairing.maps.paired_quads(points, triangles)
     kept = first.quads[::3, [1, 3]]  # would go, were they not kept
-    second = fairing.paired_quads(points, triangles, kept)
+    second = fairing.maps.paired_quads(points, triangles, kept)
     left = sides(second.quads) | sides(second.triangles)
     assert all((a, b) in left or (b, a) in left for a, b in kept.tolist())
     whole = sides(triangles)
@@ -65,7 +65,7 @@ def test_a_grid_comes_back_whatever_its_diagonals() -> None:
     cells[turned] = np.roll(cells[turned], 1, axis=1)
     triangles = np.concatenate([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
     points = np.stack([k.ravel() // 9, k.ravel() % 9, np.zeros(81)], axis=1)
-    paired = fairing.paired_quads(points, triangles)
+    paired = fairing.maps.paired_quads(points, triangles)
     assert {frozenset(quad) for quad in paired.quads.tolist()} == {frozenset(cell) for cell in cells.tolist()}
 
 
@@ -81,4 +81,4 @@ def test_a_grid_comes_back_whatever_its_diagonals() -> None:
 )
 def test_bad_input_is_refused(arguments: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        fairing.paired_quads(*arguments)
+        fairing.maps.paired_quads(*arguments)

@@ -14,13 +14,15 @@ from wedges import FloatArray, IntArray
 WIDTH = 0.3
 
 
-def whole(vertices: FloatArray, triangles: IntArray, result: fairing.FilletResult) -> tuple[FloatArray, IntArray]:
+def whole(
+    vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult
+) -> tuple[FloatArray, IntArray]:
     """The mesh with its fillet."""
     kept = np.delete(np.asarray(triangles), result.gone, axis=0)
     return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
 
 
-def middle(result: fairing.FilletResult, reach: float = 0.7) -> FloatArray:
+def middle(result: fairing.results.FilletResult, reach: float = 0.7) -> FloatArray:
     """The new vertices beside the middle of a wedge's edge, where its ends are not felt."""
     return result.vertices[np.abs(result.vertices[:, 2]) < reach]
 
@@ -425,7 +427,7 @@ def test_it_goes_around_the_foot_of_a_boss_whose_walls_meet_in_edges(sides: int,
     assert ((apart < 1e-9).sum(axis=0) == 1).all()
 
 
-def is_round(vertices: FloatArray, triangles: IntArray, result: fairing.FilletResult) -> None:
+def is_round(vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult) -> None:
     """The fillet of width .2 at a box's edge x = y = 1 is a cylinder's quarter there, and nothing is left open."""
     assert result.converged
     near = middle(result)
@@ -486,7 +488,7 @@ def test_errors_name_vertices_of_the_mesh_given(monkeypatch: pytest.MonkeyPatch)
         names = np.array([3, 900], dtype=np.int32)
         raise fairing.MeshError(fairing.Diagnostic("NONMANIFOLD_EDGE", "edge 3–900", names, "vertex", {}))
 
-    monkeypatch.setattr("fairing._fillet.solved", broken)
+    monkeypatch.setattr("fairing.filleting.fillet.solved", broken)
     with pytest.raises(fairing.MeshError) as caught:
         fairing.fillet(vertices, triangles, width=0.2)
     assert caught.value.elements.tolist() == [3]

@@ -33,12 +33,14 @@ def angles(points: FloatArray, quads: IntArray) -> FloatArray:
     return np.degrees(np.arccos((ahead * back).sum(axis=2) / sizes))
 
 
-def whole(vertices: FloatArray, triangles: IntArray, result: fairing.FilletResult) -> tuple[FloatArray, IntArray]:
+def whole(
+    vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult
+) -> tuple[FloatArray, IntArray]:
     kept = np.delete(np.asarray(triangles), result.gone, axis=0)
     return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
 
 
-def valences(result: fairing.FilletResult) -> Counter[int]:
+def valences(result: fairing.results.FilletResult) -> Counter[int]:
     """How many inner vertices have so many quads."""
     assert result.quads is not None
     sides = {(a, b) for a, b in sides_of(result.quads.quads).tolist()}
@@ -47,7 +49,7 @@ def valences(result: fairing.FilletResult) -> Counter[int]:
     return Counter(count for vertex, count in around.items() if vertex not in border)
 
 
-def check_closed(vertices: FloatArray, triangles: IntArray, result: fairing.FilletResult) -> None:
+def check_closed(vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult) -> None:
     """The mesh with its fillet is closed, as it was, and only quads are new."""
     assert result.quads is not None
     assert len(result.quads.triangles) == result.outside  # the pieces of cut triangles
@@ -95,7 +97,9 @@ def test_a_ring_has_a_column_for_each_edge_that_comes_to_it() -> None:
     assert abs(off).max() < 1e-3 * 2**1.5
 
 
-def _distances(rows: fairing.FilletResult, triangles: fairing.FilletResult, vertices: FloatArray) -> FloatArray:
+def _distances(
+    rows: fairing.results.FilletResult, triangles: fairing.results.FilletResult, vertices: FloatArray
+) -> FloatArray:
     """Of new vertices from the fillet of triangles."""
     points = np.concatenate([vertices, triangles.vertices])
     return _core.signed_distances(rows.vertices, points, triangles.triangles[triangles.outside :])

@@ -22,7 +22,7 @@ def disc() -> npt.NDArray[np.int64]:
 
 def tops(points: Floats, before: float = 0.0) -> npt.NDArray[np.int32]:
     """Where the disc swells."""
-    return fairing.knobs(points, disc(), before=before)[1]
+    return fairing.looks.knobs(points, disc(), before=before)[1]
 
 
 def turned(radii: Floats, heights: Floats) -> Floats:
@@ -62,7 +62,7 @@ def test_a_round_end_is_no_knob_and_a_ball_on_a_neck_is_one() -> None:
 
 
 def test_what_became_calmer_is_none() -> None:
-    old = fairing.knobs(bump(75.0), disc())[0]
+    old = fairing.looks.knobs(bump(75.0), disc())[0]
     assert old == pytest.approx(1.0 - np.cos(np.radians(75.0)), abs=0.02)
     limit = np.degrees(np.arccos(1.0 - 0.8 * old))
     assert not len(tops(bump(limit - 3.0), old))
@@ -74,5 +74,5 @@ def test_pieces_count_each_on_its_own(degrees: float, count: int) -> None:
     """Two of .2 turns are none of .4."""
     points = bump(degrees)
     both = np.concatenate([points, points + 3.0])
-    _, found = fairing.knobs(both, np.concatenate([disc(), disc() + len(points)]))
+    _, found = fairing.looks.knobs(both, np.concatenate([disc(), disc() + len(points)]))
     assert np.count_nonzero(np.isin(found, [0, len(points)])) == count

@@ -42,7 +42,7 @@ def depth(hollow: float) -> float:
     used = np.unique(triangles[inside])
     number = np.full(len(x), -1)
     number[used] = np.arange(len(used))
-    return fairing.sunken(points[used], number[triangles[inside]], normals[used])[0]
+    return fairing.looks.sunken(points[used], number[triangles[inside]], normals[used])[0]
 
 
 def test_a_cylinder_does_not_sink_and_a_hollow_one_does() -> None:
@@ -60,7 +60,7 @@ def test_lines_that_leave_to_the_other_side_see_no_hollow() -> None:
 
 def test_normals_are_one_for_each_vertex() -> None:
     with pytest.raises(ValueError, match="normals: expected one for each of 4 vertices"):
-        fairing.sunken(np.eye(4)[:, :3], [[0, 1, 2], [0, 2, 3]], np.zeros((3, 3)))
+        fairing.looks.sunken(np.eye(4)[:, :3], [[0, 1, 2], [0, 2, 3]], np.zeros((3, 3)))
 
 
 def lost_grain(noise: float, where: str, kept: float = 0.0, ridges: bool = False) -> bool:
@@ -76,7 +76,7 @@ def lost_grain(noise: float, where: str, kept: float = 0.0, ridges: bool = False
     if where == "around":  # the old patch was smooth already
         before[free] = 0.0
     points = [np.column_stack([x, y, 0.3 * np.cos(x) + z]) for z in (before, after)]
-    return fairing.has_lost_grain(*points, triangles[inside], triangles[~inside])
+    return fairing.looks.has_lost_grain(*points, triangles[inside], triangles[~inside])
 
 
 @pytest.mark.parametrize(
@@ -101,7 +101,7 @@ def test_what_bends_as_nothing_around_is_rougher() -> None:
     def rougher(around: float, within: float, share: float = 1.0) -> bool:
         height = rng.normal(size=len(x)) * around * 2.0 / SIZE
         height[free] = rng.normal(size=len(free)) * within * 2.0 / SIZE * (rng.random(len(free)) < share)
-        return fairing.is_rougher(np.column_stack([x, y, height]), triangles[inside], triangles[~inside])
+        return fairing.looks.is_rougher(np.column_stack([x, y, height]), triangles[inside], triangles[~inside])
 
     assert rougher(0.0, 0.2)
     assert not rougher(0.2, 0.2)  # as noisy as around

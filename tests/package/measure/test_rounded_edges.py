@@ -36,21 +36,21 @@ def test_a_ridge_that_was_lowered_at_its_end_is_found(turned: bool, degrees: flo
     points, triangles = roof(degrees)
     after, moved = flattened(points, 3, 0.4)
     triangles = triangles[:, ::-1] if turned else triangles  # a valley
-    assert fairing.rounded_edges(points, after, triangles, moved).tolist() == moved.tolist()
+    assert fairing.looks.rounded_edges(points, after, triangles, moved).tolist() == moved.tolist()
 
 
 def test_what_keeps_its_edge_is_none() -> None:
     for degrees, rows, by in ((90.0, 3, 0.01), (30.0, 3, 0.4), (90.0, 1, 0.05)):
         points, triangles = roof(degrees)
         after, moved = flattened(points, rows, by)
-        assert not len(fairing.rounded_edges(points, after, triangles, moved)), (degrees, rows, by)
+        assert not len(fairing.looks.rounded_edges(points, after, triangles, moved)), (degrees, rows, by)
 
 
 def test_a_whole_ridge_that_moves_is_a_change_of_shape() -> None:
     """A row of noise lies within the band that is smoothed; a hard edge runs on out of it."""
     points, triangles = roof(90.0)
     after, moved = flattened(points, ROWS + 1, 0.4)
-    assert not len(fairing.rounded_edges(points, after, triangles, moved))
+    assert not len(fairing.looks.rounded_edges(points, after, triangles, moved))
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -60,4 +60,4 @@ def test_noise_that_is_smoothed_is_no_hard_edge(seed: int) -> None:
     inner = np.flatnonzero((points[:, 0] < 6.0) & (np.abs(points[:, 1]) < 3.0))
     after = rough.copy()
     after[inner] = points[inner]
-    assert not len(fairing.rounded_edges(rough, after, triangles, inner))
+    assert not len(fairing.looks.rounded_edges(rough, after, triangles, inner))

@@ -29,7 +29,7 @@ def tube(radius: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, IntArr
 @pytest.mark.parametrize("depth", [-0.3, 0.6])
 def test_a_girth_is_that_of_the_place_where_the_tube_is_thinnest_or_thickest(depth: float, at: float) -> None:
     points, triangles = tube(lambda z: 1.0 + depth * np.exp(-(((z - at) / 0.6) ** 2)))
-    girth = fairing.girth(points, triangles)
+    girth = fairing.looks.girth(points, triangles)
     assert girth is not None
     found, other = (girth.thinnest, girth.thickest) if depth < 0.0 else (girth.thickest, girth.thinnest)
     ends = [float(np.linalg.norm(points[row, :2])) for row in (0, -1)]
@@ -41,7 +41,7 @@ def test_a_girth_is_that_of_the_place_where_the_tube_is_thinnest_or_thickest(dep
 
 
 def test_a_cone_has_no_place_that_is_thin_or_thick() -> None:
-    girth = fairing.girth(*tube(lambda z: 1.0 + z))
+    girth = fairing.looks.girth(*tube(lambda z: 1.0 + z))
     assert girth is not None
     assert girth[:2] == (1.0, 1.0)
     assert not len(girth.thinnest) and not len(girth.thickest)
@@ -51,19 +51,19 @@ def test_only_the_tube_counts_beside_a_disc() -> None:
     points, triangles = tube(lambda z: 1.0 - 0.3 * np.exp(-(((z - 2.0) / 0.6) ** 2)))
     disc = np.array([[9.0, 0.0, 0.0], [10.0, 0.0, 0.0], [9.0, 1.0, 0.0], [9.2, 0.2, 0.0]])
     fan = np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    assert fairing.girth(disc, fan) is None
-    girth = fairing.girth(np.concatenate([disc, points]), np.concatenate([fan, triangles + 4]))
+    assert fairing.looks.girth(disc, fan) is None
+    girth = fairing.looks.girth(np.concatenate([disc, points]), np.concatenate([fan, triangles + 4]))
     assert girth is not None
     assert np.abs(points[girth.thinnest - 4, 2] - 2.0).max() < 0.35
 
 
 def test_triangles_without_a_height_are_needles() -> None:
-    assert not len(fairing.needles(QUAD, TWO).all)
+    assert not len(fairing.looks.needles(QUAD, TWO).all)
     flat = QUAD.copy()
     flat[1] = (0.5, 0.5 - 1e-4, 0.0)  # next to the diagonal
-    assert fairing.needles(flat, TWO).all.tolist() == [0]
+    assert fairing.looks.needles(flat, TWO).all.tolist() == [0]
     flat[1] = np.nan
-    assert 0 in fairing.needles(flat, TWO).all
+    assert 0 in fairing.looks.needles(flat, TWO).all
 
 
 @pytest.mark.parametrize(("degrees", "seen"), [(0.0, False), (0.5, False), (2.0, True), (90.0, True)])
@@ -73,7 +73,7 @@ def test_a_needle_is_seen_where_its_neighbours_bend(degrees: float, seen: bool) 
     y, z = np.cos(half), -np.sin(half)
     points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-5, 0], [0.5, -y, z], [0.2, y, z], [0.8, y, z]], dtype=np.float64)
     triangles = np.array([[0, 1, 2], [1, 0, 3], [0, 2, 4], [2, 1, 5]])
-    found = fairing.needles(points, triangles)
+    found = fairing.looks.needles(points, triangles)
     assert found.all.tolist() == [0]
     assert found.seen.tolist() == ([0] if seen else [])
 
@@ -97,10 +97,10 @@ def slit(degrees: float, length: int) -> tuple[FloatArray, IntArray, IntArray]:
 
 def test_a_seam_is_kinked_where_a_long_kink_shows_across_it() -> None:
     points, triangles, held = slit(40.0, 8)
-    assert fairing.seam_kinks(points, triangles, held).tolist() == sorted(held)
-    assert not len(fairing.seam_kinks(points, triangles, held[:0]))  # a hole in the mesh
+    assert fairing.looks.seam_kinks(points, triangles, held).tolist() == sorted(held)
+    assert not len(fairing.looks.seam_kinks(points, triangles, held[:0]))  # a hole in the mesh
     for degrees, length in ((5.0, 8), (40.0, 2)):
-        assert not len(fairing.seam_kinks(*slit(degrees, length)))
+        assert not len(fairing.looks.seam_kinks(*slit(degrees, length)))
 
 
 @pytest.mark.parametrize("sides", [4, 6, 9])
@@ -113,7 +113,7 @@ def test_a_vertex_is_pulled_out_by_its_height_in_edges(sides: int, size: float, 
     points = size * np.concatenate([base, apex, below])
     fan = np.array([[k, (k + 1) % sides, sides] for k in range(sides)])
     outside = np.array([[(k + 1) % sides, k, sides + 1] for k in range(sides)])
-    assert fairing.is_spoilt(points, fan, outside) == spoilt
+    assert fairing.looks.is_spoilt(points, fan, outside) == spoilt
 
 
 def plate_and_arc(rows: int, degrees: float, columns: int, kink: float = 0.0) -> tuple[FloatArray, IntArray, IntArray]:
@@ -139,7 +139,7 @@ def test_an_arc_that_begins_on_a_plate_is_no_kink(degrees: float) -> None:
     """The first row turns by half of what each other one does: tangent, though most edges around bend by nothing."""
     vertices, plate, arc = plate_and_arc(6, degrees, 30)
     line = np.intersect1d(plate, arc)
-    join = fairing.visible_join(vertices, arc, plate, line)
+    join = fairing.looks.visible_join(vertices, arc, plate, line)
     assert join.degrees.max() < 1e-6
     assert len(join.seen) == 0
 
@@ -150,7 +150,7 @@ def test_a_kink_before_an_arc_shows_beyond_its_rows(kink: float) -> None:
     vertices, plate, arc = plate_and_arc(6, 4.0, 30, kink)
     line = np.intersect1d(plate, arc)[3:-3]
     np.testing.assert_allclose(
-        fairing.visible_join(vertices, arc, plate, line).degrees, max(0.0, kink - 2.0), atol=1e-6
+        fairing.looks.visible_join(vertices, arc, plate, line).degrees, max(0.0, kink - 2.0), atol=1e-6
     )
     vertices, plate, other = plate_and_arc(6, 0.0, 30, kink)
-    np.testing.assert_allclose(fairing.visible_join(vertices, other, plate, line).degrees, kink, atol=1e-6)
+    np.testing.assert_allclose(fairing.looks.visible_join(vertices, other, plate, line).degrees, kink, atol=1e-6)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairing._types import FloatArray, IntArray
 from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
+from fairing.results import FloatArray, IntArray
 
 
 def by_vertices(points: FloatArray, faces: Polygons, stores: tuple[Data, Data], at_corners: Data) -> Parts:

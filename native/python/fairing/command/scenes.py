@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from fairing._types import FloatArray
 from fairing.objects.hosts import opened
 from fairing.objects.parts import Parts, Polygons, alike
+from fairing.results import FloatArray
 
 _OBJECT = "\0object"  # data: the number of the object that vertices and faces belong to
 _SCENES = (".glb", ".gltf", ".3mf")

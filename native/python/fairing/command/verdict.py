@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from fairing._new_mesh import FillResult, Hole
+from fairing.results import FillResult, Hole
 
 GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
 VISIBLE = 12.0  # degrees at the join; docs/python.md, "What comes back"

@@ -13,16 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from fairing._hard_edges import hard_edges
-from fairing._holes import hole_loops, outer_borders
-from fairing._measure import self_intersections
-from fairing._new_mesh import Hole
-from fairing._types import Cancelled, FloatArray, IntArray, MeshError, SolverError
+from fairing.borders import hole_loops, outer_borders
 from fairing.command import files
 from fairing.command.verdict import GOOD, UNUSABLE, judged, judged_holes
+from fairing.measure import hard_edges, self_intersections
 from fairing.objects import fair_faces, fillet_edges
 from fairing.objects.calls import Made, fill_accepted, once
 from fairing.objects.parts import Parts
+from fairing.results import Cancelled, FloatArray, Hole, IntArray, MeshError, SolverError
 
 Report = dict[str, Any]
 Progress = Callable[[float, str], "bool | None"]

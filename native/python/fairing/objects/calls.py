@@ -11,18 +11,18 @@ from typing import Any, Generic, NamedTuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core
-from fairing._boundary_normals import boundary_normals
-from fairing._fair import fair
-from fairing._fill import fill
-from fairing._fillet import fillet
-from fairing._measure import boundary_loops, self_intersections
-from fairing._new_mesh import FilletResult, FillResult, NewMeshResult
-from fairing._types import Diagnostic, FairResult, IntArray
+from fairing import _core
+from fairing.filleting.fillet import fillet
+from fairing.filling.fill import fill
+from fairing.measure import boundary_loops, self_intersections
 from fairing.objects import data
 from fairing.objects.hosts import opened
 from fairing.objects.parts import Parts
 from fairing.objects.seams import filled, rounded
+from fairing.options import arguments
+from fairing.results import Diagnostic, FairResult, FilletResult, FillResult, IntArray, NewMeshResult
+from fairing.solving.fair import fair
+from fairing.solving.outline import boundary_normals
 
 Result = TypeVar("Result", FairResult, FillResult, FilletResult)
 log = logging.getLogger(__name__.partition(".")[0])
@@ -137,7 +137,7 @@ def fillet_edges(mesh: Any, edges: npt.ArrayLike | None = None, *, width: float,
         Those of :func:`fairing.fillet`.
     """
     parts, make = opened(mesh)
-    seam = None if edges is None else parts.same[_arguments.integers("edges", edges, 2)]
+    seam = None if edges is None else parts.same[arguments.integers("edges", edges, 2)]
     if (parts.faces.sizes > 3).any():
         options.setdefault("neighbours", _edges(parts, np.ones(len(parts.faces.sizes), dtype=bool)))
     result = fillet(parts.points, parts.triangles, seam, width=width, **options)
@@ -176,7 +176,7 @@ def _selection(selected: Any, parts: Parts) -> IntArray:
         if array.shape != (count,):
             raise ValueError(f"selected: a mask of {count} faces is needed, not one of shape {array.shape}")
         array = np.flatnonzero(array)
-    faces = _arguments.integers("selected", array, None)
+    faces = arguments.integers("selected", array, None)
     if not len(faces):
         raise ValueError("selected: no face is selected")
     if faces.min() < 0 or faces.max() >= count:

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing._interpolate import interpolate
-from fairing._measure import vertex_normals
-from fairing._types import FloatArray, IntArray
+from fairing.maps import interpolate
+from fairing.measure import vertex_normals
 from fairing.objects.parts import Data, Parts
+from fairing.results import FloatArray, IntArray
 
 Array = npt.NDArray[Any]
 _NORMALS = {"normals", "normal", "vertex_normals"}

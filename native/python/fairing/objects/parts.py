@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing import _arguments, _core
-from fairing._measure import edges_with_uses
-from fairing._types import FloatArray, IntArray
+from fairing import _core
+from fairing.measure import edges_with_uses
+from fairing.options import arguments
+from fairing.results import FloatArray, IntArray
 
 Data = dict[str, npt.NDArray[Any]]
 PLACE = "\0place"  # vertex data: the number in its file of a vertex that stands there once for several values
@@ -97,8 +98,8 @@ class Parts:
     face_data: Data = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", _arguments.floats("vertices", self.points))
-        _arguments.indices_within("faces", self.faces.corners, len(self.points))
+        object.__setattr__(self, "points", arguments.floats("vertices", self.points))
+        arguments.indices_within("faces", self.faces.corners, len(self.points))
         if (self.faces.sizes < 3).any() or self.faces.sizes.sum() != len(self.faces.corners):
             raise ValueError("faces: one has less than three corners, or less than it says")
         for what, data, count in (

@@ -8,10 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fairing._new_mesh import FilletResult, NewMeshResult
-from fairing._types import FloatArray, IntArray
 from fairing.objects.data import is_normal, mixed, mixes, nearest, spread
 from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
+from fairing.results import FilletResult, FloatArray, IntArray, NewMeshResult
 
 
 @dataclass(frozen=True, eq=False)

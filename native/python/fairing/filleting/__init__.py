@@ -1,0 +1,1 @@
+"""Edges that are rounded or made fair."""

@@ -1,0 +1,252 @@
+"""Hard edges that run on through a patch, and hard edges that are made fair."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _core
+from fairing.filling.ends import chain_from, ends_at, matched, meeting_point
+from fairing.measure import boundary_loops, edges_with_uses, hard_edges
+from fairing.options import arguments
+from fairing.results import FloatArray, IntArray, read_only
+
+_COMPARED = 4  # rings inside with which hard edges at the boundary are compared, before all are
+
+
+@dataclass(frozen=True, eq=False)
+class EdgesThrough:
+    """What :func:`fairing.fair_edges` makes fair. All arrays are read-only."""
+
+    edges: IntArray
+    """(e, 2) edges of the patch, the smaller index first, ascending."""
+    onward: IntArray
+    """(o, 2) hard edges outside and along its boundary."""
+
+
+def edges_through(
+    vertices: npt.ArrayLike,
+    inside: npt.ArrayLike,
+    outside: npt.ArrayLike,
+    *,
+    neighbours: npt.ArrayLike | None = None,
+    marked: npt.ArrayLike | None = None,
+) -> EdgesThrough:
+    """Find the edges of a patch along which hard edges (:func:`fairing.hard_edges`) of its surroundings run on.
+
+    Hard edges outside that end at the boundary are matched as :func:`fairing.fill` does at a hole, and joined by the
+    way over edges of the patch that is hard as far as can be. Where three quarters of it are hard, or more, the patch
+    has that edge, maybe dented; elsewhere it has none.
+
+    vertices: (n, 3); inside, outside: (m, 3) and (o, 3) triangles of the patch and around it; neighbours: (e, 2) those
+    edges of the patch's triangles that count, of quads and polygons, by default all; marked: (k, 2) edges that are hard
+    whatever they bend.
+    """
+    points = arguments.floats("vertices", vertices)
+    own, around = (arguments.triangles_within(triangles, len(points)) for triangles in (inside, outside))
+    marks = arguments.integers("marked", [] if marked is None else marked, 2)
+    found = arguments.NO_EDGES
+    near = _near(own, _border(own))
+    onward, _ = _hard(points, (near, around), _inner(near), marks)  # edges at the far side of `near` have one face
+    loops = boundary_loops(own) if len(onward) else []
+    if _joined(points, around, loops, onward, marks):
+        inner = _inner(own)
+        onward, within = _hard(points, (own, around), inner, marks)
+        usable = _counted(inner, neighbours, len(points))
+        found = _core.hard_ways(points, usable, within, _joined(points, around, loops, onward, marks))
+    return EdgesThrough(read_only(found), read_only(onward))
+
+
+def _hard(
+    points: FloatArray, sides: tuple[IntArray, IntArray], inner: IntArray, marks: IntArray
+) -> tuple[IntArray, IntArray]:
+    """Hard edges outside and along the boundary of both sides, and those among the `inner` ones."""
+    hard = hard_edges(points, np.concatenate(sides), marked=marks)
+    is_inner = arguments.places_of(hard, inner) >= 0
+    return hard[~is_inner], hard[is_inner]
+
+
+def _joined(
+    points: FloatArray, around: IntArray, loops: Sequence[IntArray], hard: IntArray, marks: IntArray
+) -> list[list[int]]:
+    """The vertices of the loops at which hard edges end that belong together."""
+    pairs = {(min(a, b), max(a, b)) for a, b in marks.tolist()}
+    joined = []
+    for loop in loops:
+        ends = ends_at(loop, points, around, hard, pairs).ends
+        joined += [[ends[k].vertex for k in joint.ends] for joint in matched(ends).joints]
+    return joined
+
+
+def _inner(triangles: IntArray) -> IntArray:
+    """Edges with a triangle on both sides."""
+    edges, uses = edges_with_uses(triangles)
+    inner: IntArray = edges[uses == 2]
+    return inner
+
+
+def _border(triangles: IntArray) -> IntArray:
+    """Vertices that no closed fan of triangles is around: going around one, each neighbour is reached and left once.
+
+    Sums of what is reached less what is left tell them apart without a sort of all edges.
+    """
+    faces = triangles.astype(np.float64)
+    after, before = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, 1, axis=1).ravel()
+    vertices, open_fan = triangles.ravel(), False
+    for weight in (after - before, after**2 - before**2):
+        open_fan = open_fan | (np.bincount(vertices, weight) != 0.0)
+    border: IntArray = np.flatnonzero(open_fan)
+    return border
+
+
+def _near(triangles: IntArray, border: IntArray) -> IntArray:
+    """Those that hard edges at the border's vertices are compared with."""
+    reached = np.zeros(int(triangles.max(initial=-1)) + 1, dtype=bool)
+    near = np.zeros(len(triangles), dtype=bool)
+    reached[border] = True
+    for _ in range(_COMPARED):
+        near = reached[triangles].any(axis=1)
+        reached[triangles[near]] = True
+    found: IntArray = triangles[near]
+    return found
+
+
+def _counted(inner: IntArray, neighbours: npt.ArrayLike | None, count: int) -> IntArray:
+    """Those of the inner edges that count."""
+    if neighbours is None:
+        return inner
+    named = arguments.vertices_of("neighbours", neighbours, count, 2)
+    counted: IntArray = inner[arguments.places_of(inner, named) >= 0]
+    return counted
+
+
+_ONWARD = 0.5  # cosine of the turn at which an edge does not go on in another one
+
+Links = dict[int, list[int]]
+
+
+@dataclass(frozen=True, eq=False)
+class FairEdges:
+    """Edges as fair curves. All arrays are read-only."""
+
+    vertices: FloatArray
+    """(n, 3) all vertices; those that are not in ``moved`` keep their bits."""
+    moved: IntArray
+    """(k,) ascending."""
+    curves: tuple[IntArray, ...]
+    """The vertices of each chain that is fair now, from end to end."""
+
+
+def fair_edges(
+    vertices: npt.ArrayLike, edges: npt.ArrayLike, onward: npt.ArrayLike, *, reference: npt.ArrayLike | None = None
+) -> FairEdges:
+    """Make chains of edges fair between the edges that they continue.
+
+    Each chain of ``edges`` (e, 2) between two ends at which edges of ``onward`` (o, 2) go on becomes the curve of least
+    variation with their tangents (docs/hard_surfaces.md): a straight line between straight edges, an arc between those
+    of a circle. Three chains and more that meet do so in the point nearest to the straight lines of their other ends.
+    Vertices keep their shares of a chain's length in ``reference`` (n, 3), by default ``vertices``. Vertices of
+    ``onward`` stay. So do chains that end anywhere else,
+    and closed ones. No argument is changed.
+    """
+    points = arguments.floats("vertices", vertices)
+    pairs = (
+        arguments.indices_within(name, arguments.integers(name, value, 2), len(points))
+        for name, value in (("edges", edges), ("onward", onward))
+    )
+    inner, outer = (_links(each) for each in pairs)
+    before = points if reference is None else arguments.floats("reference", reference, len(points))
+    result = points.copy()
+    paths = _paths(inner, outer)
+    tangents = {(path[0], path[1]): _tangent(path, outer, points) for each in paths for path in (each, each[::-1])}
+    centres = _centres(paths, inner, outer, tangents, points)
+    moved: set[int] = set(centres)
+    for vertex, place in centres.items():
+        result[vertex] = place
+    curves = []
+    for path in paths:
+        ways = tangents[path[0], path[1]], tangents[path[-1], path[-2]]
+        known = [way is not None or end in centres for way, end in zip(ways, (path[0], path[-1]), strict=True)]
+        if not all(known):
+            continue
+        if len(path) > 2:
+            result[path[1:-1]] = _curve(result[[path[0], path[-1]]], ways, before[path])
+        moved |= set(path[1:-1])
+        curves.append(np.array(path, dtype=np.int32))
+    return FairEdges(read_only(result), np.array(sorted(moved), dtype=np.int32), tuple(curves))
+
+
+def _links(edges: IntArray) -> Links:
+    joined: Links = defaultdict(list)
+    for a, b in np.unique(np.sort(edges, axis=1), axis=0).tolist():
+        if a != b:
+            joined[a].append(b)
+            joined[b].append(a)
+    return joined
+
+
+def _paths(inner: Links, outer: Links) -> list[list[int]]:
+    """The chains between nodes: ends, branchings, and where edges go on."""
+    nodes = sorted(v for v in inner if len(inner[v]) != 2 or outer.get(v))
+    found = []
+    for node in nodes:
+        for first in inner[node]:
+            path = [node, first]
+            while len(inner[path[-1]]) == 2 and not outer.get(path[-1]):
+                path.append(next(v for v in inner[path[-1]] if v != path[-2]))
+            if (path[0], path[1]) < (path[-1], path[-2]):
+                found.append(path)
+    return found
+
+
+def _tangent(path: list[int], outer: Links, points: FloatArray) -> FloatArray | None:
+    """The direction in which an edge comes to the path's beginning, unit; None where none goes on there."""
+    chord = points[path[-1]] - points[path[0]]
+    best, most = None, _ONWARD * float(np.linalg.norm(chord))
+    for second in outer.get(path[0], ()):
+        chain = chain_from(path[0], second, outer, points)
+        direction = _core.chain_end(np.ascontiguousarray(points[chain]))[0].ravel()
+        if direction @ chord > most:
+            best, most = direction, float(direction @ chord)
+    return best
+
+
+def _centres(
+    paths: list[list[int]],
+    inner: Links,
+    outer: Links,
+    tangents: dict[tuple[int, int], FloatArray | None],
+    points: FloatArray,
+) -> dict[int, FloatArray]:
+    """Where branchings go that edges from outside lead to."""
+    lines: dict[int, list[tuple[FloatArray, FloatArray]]] = defaultdict(list)
+    loose: set[int] = set()  # branchings from which a chain leads nowhere
+    for each in paths:
+        for path in (each, each[::-1]):
+            way = tangents[path[0], path[1]]
+            if way is not None:
+                lines[path[-1]].append((points[path[0]], way))
+            elif len(inner[path[0]]) < 3:
+                loose.add(path[-1])
+    found = {}
+    for vertex, to_it in lines.items():
+        if len(inner[vertex]) < 3 or outer.get(vertex) or vertex in loose:
+            continue
+        centre = meeting_point([place for place, _ in to_it], [way for _, way in to_it])
+        if centre is not None and all(way @ (centre - place) > 0.0 for place, way in to_it):
+            found[vertex] = centre
+    return found
+
+
+def _curve(ends: FloatArray, ways: tuple[FloatArray | None, FloatArray | None], before: FloatArray) -> FloatArray:
+    """Places of the inner vertices of a chain; ways: of the edges that come to its ends; before: its (k, 3) points."""
+    lengths = np.linalg.norm(np.diff(before, axis=0), axis=1).cumsum()
+    begin = np.zeros(3) if ways[0] is None else ways[0]
+    end = np.zeros(3) if ways[1] is None else -ways[1]
+    shares = (lengths[:-1] / lengths[-1]).tolist()
+    places: FloatArray = _core.fair_curve(np.ascontiguousarray(ends), np.array([begin, end]), shares)
+    return places

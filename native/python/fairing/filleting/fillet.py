@@ -1,0 +1,345 @@
+"""Seams that are rounded."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _core
+from fairing.filleting.rounded import Given, Made, Wishes, in_rows, nearest, result_of, solved
+from fairing.measure import hard_edges
+from fairing.meshing.patch import Limit, Progress, Watch, refuse_made_here
+from fairing.meshing.quads import FACES, no_rows, quads_of
+from fairing.options import arguments
+from fairing.options.checks import of_own_boundary
+from fairing.options.groups import Options
+from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, MeshError
+
+LARGE = 2**31  # above all vertices
+
+
+def check_finite(points: FloatArray, faces: IntArray) -> None:
+    used = np.unique(faces)
+    bad = used[~np.isfinite(points[used]).all(axis=1)]
+    if len(bad):
+        text = f"vertices: {len(bad)} of them are NaN or infinite, first {bad[0]}"
+        raise MeshError(Diagnostic("NONFINITE", text, bad.astype(np.int32), "vertex", {"vertices": float(len(bad))}))
+
+
+def seams_and_walls(points: FloatArray, faces: IntArray, seam: Any, walls: Any) -> tuple[IntArray, IntArray]:
+    """Both (e, 2), checked."""
+    needs_hard = seam is None or walls is None
+    hard = hard_edges(points, faces) if needs_hard else arguments.NO_EDGES
+    seams = hard if seam is None else arguments.edges_of("seam", seam, faces)
+    if not len(seams):
+        what = "the mesh has no hard edges" if seam is None else "it has no edges"
+        text = f"seam: {what}: select the edges that are to be rounded"
+        raise MeshError(Diagnostic("NO_SEAM", text, np.empty(0, np.int32), "vertex", {}))
+    _check_sides(seams, faces)
+    ends = hard if walls is None else arguments.edges_of("walls", walls, faces)
+    return seams, ends[~np.isin(keys_of(ends), keys_of(seams))]
+
+
+def keys_of(edges: IntArray) -> npt.NDArray[np.int64]:
+    ends = np.sort(edges.astype(np.int64).reshape(-1, 2), axis=1)
+    keys: npt.NDArray[np.int64] = ends[:, 0] * LARGE + ends[:, 1]
+    return keys
+
+
+def refuse_vertices_on_edges(points: FloatArray, faces: IntArray, parent: IntArray) -> None:
+    """MeshError where border vertices of triangles that a cut changes lie on the border's edges."""
+    edges, uses = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_counts=True)
+    border = edges[uses == 1]
+    on_edges = _core.touching_edges(border, points)[0] if len(border) else border
+    changed = faces[np.bincount(parent, minlength=len(faces)) > 1]
+    found = on_edges[np.isin(on_edges, changed).any(axis=1)]
+    if len(found):
+        a, b, vertex = found[0].tolist()
+        text = f"vertex {vertex} lies on the border edge {a}-{b}: dissolve it, or split that edge there and merge"
+        figures = {"on_edge" if len(found) == 1 else "on_edges": float(len(found))}
+        raise MeshError(Diagnostic("NONMANIFOLD_VERTEX", text, found.ravel().astype(np.int32), "vertex", figures))
+
+
+def _check_sides(seams: IntArray, faces: IntArray) -> None:
+    """MeshError where a seam has not one triangle on either side."""
+    tails = np.concatenate([faces[:, k] for k in range(3)]).astype(np.int64)
+    heads = np.concatenate([faces[:, (k + 1) % 3] for k in range(3)]).astype(np.int64)
+    wanted = keys_of(seams)
+    sides = np.minimum(tails, heads) * LARGE + np.maximum(tails, heads)
+    known, place = np.unique(wanted, return_inverse=True)
+    at = np.searchsorted(known, sides)
+    hit = known[np.minimum(at, len(known) - 1)] == sides
+    both = np.bincount(at[hit], minlength=len(known))[place]
+    upward = np.bincount(at[hit & (tails < heads)], minlength=len(known))[place]
+    cases = (
+        (both > 2, "NONMANIFOLD_EDGE", "have three triangles and more: take the seam apart, or leave these edges out"),
+        (both < 2, "SEAM_ON_BORDER", "lie on an open border, with nothing to round on the other side: leave them out"),
+        (
+            upward != 1,
+            "INCONSISTENT_WINDING",
+            "lie between triangles wound against each other: recalculate the normals",
+        ),
+    )
+    for bad, code, what in cases:
+        if bad.any():
+            where = np.unique(seams[bad]).astype(np.int32)
+            text = f"seam: {int(bad.sum())} of its edges {what}"
+            raise MeshError(Diagnostic(code, text, where, "vertex", {"edges": float(bad.sum())}))
+
+
+def width_of(name: str, value: Any, seams: IntArray, count: int) -> FloatArray:
+    """(n,) positive at the seams."""
+    if value is None:
+        return np.zeros(count)
+    if np.ndim(value) == 0:
+        return np.full(count, arguments.positive(name, value))
+    array = np.asarray(value, dtype=np.float64)
+    if array.shape != (count,):
+        raise ValueError(
+            f"{name}: a length, or one for each of the {count} vertices, is needed, not shape {array.shape}"
+        )
+    at = array[seams]
+    if not (np.isfinite(at) & (at > 0)).all():
+        raise ValueError(f"{name}: a positive length is needed at each vertex of the seams")
+    return np.where(np.isfinite(array), array, 0.0)
+
+
+_ROWS = 4  # edges across each side of a fillet by default: 90° then bend by less than 12° from row to row
+
+
+def fillet(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    seam: npt.ArrayLike | None = None,
+    options: Options | None = None,
+    *,
+    width: npt.ArrayLike | None = None,
+    width_2: npt.ArrayLike | None = None,
+    clamp: bool = False,
+    walls: npt.ArrayLike | None = None,
+    profile: float = 0.0,
+    spacing: float = 0.0,
+    faces: str = "triangles",
+    neighbours: npt.ArrayLike | None = None,
+    max_vertices: int = 0,
+    progress: Progress | None = None,
+    threads: int = 0,
+    **named: Any,
+) -> FilletResult:
+    """Round seams: replace what lies within ``width`` of them, along the surface, by the fairest surface.
+
+    The mesh is cut along the line at that distance, which is exact: straight beside straight seams, also where
+    triangles are large. Outside nothing changes but the triangles that the line passes; their pieces stay in their
+    planes. Within comes a new mesh. Its slopes at the line are those of each side, fitted without crossing a seam.
+    Between two planes the surface is the circular arc that touches both at the line, but for the ends of the seam,
+    where it fades into what is there. No argument is ever changed.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float
+    triangles : (m, 3) int
+    seam : (e, 2) int
+        Edges between two triangles. Default: all of :func:`fairing.hard_edges`.
+    options : Options
+        Those of :func:`fairing.fair` that don't concern the boundary, ``continuity`` among them: "G1" is tangent to
+        both sides, "G2" continues their curvature, too.
+    width : float or (n,) float
+        How far the fillet reaches on either side, a length; of the vertices, where it varies: those of the seams count,
+        and lengths in between are interpolated along each edge. Default: :func:`fairing.fillet_width`.
+    width_2 : float or (n,) float
+        The same on the other side, where that differs: ``width`` is that of the larger part, by the area that hangs
+        together without seams and walls, ``width_2`` that of the smaller one. Where both are one, or of one size,
+        ``width`` lies on the left of the first edge given, and of those that follow each other from there.
+    clamp : bool
+        Make fillets no wider than there is room: nine tenths of the way square to each piece of a seam, or of half of
+        it where another seam is there. WIDTH_TOO_LARGE is then a warning that names the vertices, with the least width.
+    walls : (w, 2) int
+        Edges that a fillet does not reach over: it ends there, tangent to its own side. Default: the other hard edges.
+        Open borders always are walls.
+    profile : float
+        −1 … 1, flat to sharp. 0: the fair surface. Towards 1 it is drawn to the old one, towards −1 to the soap film
+        over the line, so that ∫ |Δ(x − fair)|² + |x − that|² / ℓ⁴ is least, with ℓ = width · (1 / |profile| − 1) / 4:
+        over that length the seam, or the chamfer's edges, stay rounded. It is tangent for all but ±1, which are these
+        two themselves.
+    spacing : float
+        Length of the new edges, of quads across the seam. 0: a quarter of the least width.
+    faces : {"triangles", "quads"}
+        "quads": rows along the seams. A column crosses them at each of their vertices and at each edge outside that
+        comes to the line, which so goes on to the other side, and where the surface asks for one. ``result.quads``
+        says which triangles are halves of one. NO_QUAD_ROWS tells where pairs of triangles stand in (docs/quads.md).
+    neighbours : (e, 2) int
+        For quads, those edges of the mesh that count, of quads and polygons. Default: all edges of the triangles.
+    max_vertices : int
+        More new vertices than that are refused, as by :func:`fairing.remesh`.
+    progress : callable(fraction, stage) -> None | bool
+        As for :func:`fairing.fair`.
+    threads : int
+        As for :func:`fairing.fair`.
+    named
+        Fields of ``options`` by their names, as for :func:`fairing.fair`.
+
+    Raises
+    ------
+    MeshError
+        NO_SEAM; SEAM_ON_BORDER; NONMANIFOLD_EDGE (a seam of three triangles and more); INCONSISTENT_WINDING beside a
+        seam; NONMANIFOLD_VERTEX (one lies on another one's edge within the fillet); WIDTH_TOO_LARGE (nothing would be
+        left of a part between seams, whose vertices are the ``elements``, or the surface would leave the solid beside
+        a convex seam, or enter it beside a concave one; ``figures["widest"]``, where that is known, is what fits);
+        OUT_OF_PROPORTION; and those of :func:`fairing.fair`.
+    ValueError, Cancelled, SolverError, MemoryError
+        As for :func:`fairing.fair`.
+    """
+    given = of_own_boundary(options, named, threads)
+    points = arguments.floats("vertices", vertices)
+    corners = arguments.triangles_within(triangles, len(points))
+    check_finite(points, corners)
+    wants_rows = arguments.choice("faces", faces, FACES) == "quads"
+    counted = None if neighbours is None else _neighbours(neighbours, len(points))
+    refuse_made_here(given, progress)
+    seams, ends = seams_and_walls(points, corners, seam, walls)
+    both, clamped = _widths((width, width_2), (points, corners, seams, ends), clamp)
+    length = _spacing(spacing, both, seams)
+    _refuse_large(points, seams, both, length, max_vertices)
+    shape = arguments.finite("profile", profile)
+    if abs(shape) > 1:
+        raise ValueError(f"profile: a number from -1 to 1 is needed, not {profile!r}")
+    watch = Watch(progress)
+    finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
+    wishes = Wishes(finer, shape, both, ends, given, watch)
+    mesh = Given(points, corners, seams)
+    cut = mesh.cut(wishes, watch.part(0, 0.2))
+    _refuse_eaten([part for part in cut["eaten"] if not part[2]], wishes, seams)
+    refuse_vertices_on_edges(points, corners, cut["parent"])
+    watch.lap("cut")
+    try:
+        made = solved(mesh, cut, wishes)
+    except MeshError as error:
+        raise _named(error, len(points)) from error
+    _refuse_outside(mesh, made, wishes)
+    made = replace(made, values={**made.values, "warnings": (*clamped, *made.values["warnings"])})
+    if not wants_rows:
+        return result_of(mesh, made, wishes)
+    return _with_quads(mesh, made, wishes, length, counted)
+
+
+def fillet_width(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    seam: npt.ArrayLike | None = None,
+    *,
+    walls: npt.ArrayLike | None = None,
+) -> float:
+    """The width of a fillet by default: a fifth of the shortest side beside the seams.
+
+    A side is the way square to a seam, straight on over the surface to the next seam, wall or border; of each piece of
+    a seam from corner to corner, the middle one. Arguments as for :func:`fairing.fillet`.
+    """
+    points = arguments.floats("vertices", vertices)
+    corners = arguments.triangles_within(triangles, len(points))
+    check_finite(points, corners)
+    seams, ends = seams_and_walls(points, corners, seam, walls)
+    return float(_core.seam_room(points, corners, (seams.tolist(), ends.tolist()))[0])
+
+
+def _widths(
+    given: tuple[Any, Any], mesh: tuple[FloatArray, IntArray, IntArray, IntArray], clamp: bool
+) -> tuple[tuple[FloatArray, FloatArray], tuple[Diagnostic, ...]]:
+    """Of both sides, and what is said where there is less room. mesh: vertices, triangles, seams, walls."""
+    points, corners, seams, ends = mesh
+    first, second = given
+    usual, widest = 0.0, np.full(len(points), np.inf)
+    if first is None or clamp:
+        usual, widest = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
+    one = width_of("width", usual if first is None else first, seams, len(points))
+    other = one if second is None else width_of("width_2", second, seams, len(points))
+    where = np.unique(seams[np.maximum(one, other)[seams] > widest[seams]]).astype(np.int32)
+    if not clamp or not len(where):
+        return (one, other), ()
+    figures = {
+        "width": float(np.maximum(one, other)[where].max()), "widest": float(widest[where].min()),
+        "vertices": float(len(where)), "clamped": 1.0,
+    }  # fmt: skip
+    text = f"width: there is less room at {len(where)} vertices, down to {figures['widest']:.4g}, which is taken there"
+    warning = Diagnostic("WIDTH_TOO_LARGE", text, where, "vertex", figures)
+    return (np.minimum(one, widest), np.minimum(other, widest)), (warning,)
+
+
+def _named(error: MeshError, count: int) -> MeshError:
+    """With those of its vertices that are the caller's: others, and triangles, are of the mesh that was cut."""
+    said = error.diagnostic
+    own = said.elements[said.elements < count] if said.kind == "vertex" else said.elements[:0]
+    return MeshError(replace(said, elements=own, kind="vertex"))
+
+
+def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
+    return arguments.indices_within("neighbours", arguments.integers("neighbours", value, 2), count)
+
+
+def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:
+    """Quads in rows; where there are none, pairs of triangles."""
+    rows = in_rows(mesh, made, wishes, length, counted, None)
+    if rows:
+        made, pairs = rows
+    else:
+        if length > wishes.spacing:
+            wishes = replace(wishes, spacing=length)
+            made = solved(mesh, mesh.cut(wishes, None), wishes)
+        _, pairs, _ = _core.paired_quads(made.vertices, made.triangles, np.empty((0, 2), np.int32))
+        warning = no_rows(mesh.seams.ravel(), "seams")
+        made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
+    result = result_of(mesh, made, wishes)
+    return replace(result, quads=quads_of(result.triangles, pairs + result.outside))
+
+
+def _spacing(value: Any, widths: tuple[FloatArray, FloatArray], seams: IntArray) -> float:
+    if arguments.finite("spacing", value) < 0:
+        raise ValueError(f"spacing: a length, or 0 for a quarter of the least width, is needed, not {value!r}")
+    return float(value) or min(float(side[seams].min()) for side in widths) / _ROWS
+
+
+def _refuse_large(
+    points: FloatArray, seams: IntArray, widths: tuple[FloatArray, FloatArray], spacing: float, most: Any
+) -> None:
+    """MeshError where so many vertices are wanted that a slip in the spacing is likelier than a wish."""
+    lengths = np.linalg.norm(points[seams[:, 0]] - points[seams[:, 1]], axis=1)
+    usual, wanted = (
+        sum(float((lengths * side[seams].mean(axis=1) / edge**2).sum()) for side in widths)
+        for edge in (min(float(side[seams].min()) for side in widths) / _ROWS, spacing)
+    )
+    Limit.of(usual, most).check(wanted, seams.ravel())
+
+
+def _refuse_eaten(parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray) -> None:
+    if parts:
+        vertices = np.unique(np.concatenate([part[0] for part in parts]))
+        raise _too_wide("nothing would be left of a part between seams", vertices, parts, wishes, seams)
+
+
+def _refuse_outside(mesh: Given, made: Made, wishes: Wishes) -> None:
+    """Rounded convex edges stay inside the solid, concave ones outside."""
+    count = len(mesh.points)
+    before = np.einsum("kc,kcd->kd", made.weights, mesh.points[mesh.triangles[made.old]])
+    used = np.unique(made.triangles[made.triangles >= count]) - count
+    edges = [*mesh.seams.tolist(), *wishes.walls.tolist()]
+    widest = max(float(side[mesh.seams].max()) for side in wishes.widths)
+    after = made.vertices[count:][used]
+    wrong = _core.on_wrong_side(mesh.points, mesh.triangles, edges, widest, before[used], after, None)
+    if len(wrong):
+        ends = np.unique(mesh.seams)
+        near = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
+        raise _too_wide("the fillet would leave the shape that it rounds", near, made.cut["eaten"], wishes, mesh.seams)
+
+
+def _too_wide(
+    what: str, where: IntArray, parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray
+) -> MeshError:
+    """parts: that the fillet takes whole; a width that fits leaves something of each."""
+    text = f"width: {what}; a smaller width is needed, or one of its seams less"
+    figures = {"width": max(float(side[seams].max()) for side in wishes.widths), "vertices": float(len(where))}
+    if parts:
+        figures["widest"] = min(part[1] for part in parts)
+        text += f"; a fillet of less than {figures['widest']:.4g} fits"
+    return MeshError(Diagnostic("WIDTH_TOO_LARGE", text, where.astype(np.int32), "vertex", figures))

@@ -1,0 +1,261 @@
+"""What comes in the place of a seam: the surface, solved, and its new mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _core
+from fairing.maps import interpolate
+from fairing.measure import boundary_loops
+from fairing.meshing.patch import Patch, Progress, Spacing, Watch
+from fairing.meshing.quads import halves_of
+from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, read_only, report_fields
+
+Mask = npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """What a fillet's surface is to be like."""
+
+    spacing: float
+    profile: float
+    widths: tuple[FloatArray, FloatArray]
+    walls: IntArray
+    options: dict[str, Any]
+    watch: Watch
+
+
+@dataclass(frozen=True)
+class Given:
+    """A mesh, and its seams."""
+
+    points: FloatArray
+    triangles: IntArray
+    seams: IntArray
+
+    def cut(self, wishes: Wishes, progress: Progress | None) -> dict[str, Any]:
+        """Cut along the line that suits triangles."""
+        edges = self.seams.tolist(), wishes.walls.tolist()
+        return _core.cut_fillet(self.points, self.triangles, edges, wishes.widths, wishes.spacing, progress)
+
+
+@dataclass(frozen=True)
+class Made:
+    """A surface's mesh. Numbers: the caller's n vertices, the line's points, new ones."""
+
+    cut: dict[str, Any]
+    inside: Mask
+    triangles: IntArray
+    vertices: FloatArray
+    """(n + l + k, 3)"""
+    line_count: int
+    patch: Patch
+    old: IntArray
+    """(l + k,) under each of the line's points and of the new ones, the old triangle,"""
+    weights: FloatArray
+    """(l + k, 3) and where there."""
+    on_seam: IntArray
+    """Vertices that lie on a seam."""
+    values: dict[str, Any]
+    """Fields of the result that don't depend on the numbers, and `mean_curvature` (l + k,), `fixed`, `warnings`."""
+
+
+def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
+    """The new mesh within the line, faired."""
+    watch, count = wishes.watch, len(given.points)
+    placed = np.concatenate([given.points, cut["points"]])
+    inside, pieces, triangles, lines = _core.first_mesh(
+        placed, cut["triangles"], cut["inside"], cut["seams"], wishes.spacing
+    )
+    cut = {**cut, "inside": inside}
+    rim = np.isin(cut["boundary"], np.concatenate(boundary_loops(triangles)))
+    patch = Patch(placed, triangles, cut["boundary"][rim], np.ascontiguousarray(cut["normals"][rim]))
+    spacing = Spacing(wishes.spacing, even=True, flat=True)
+    new, origin, on_seam = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
+    watch.lap("mesh")
+    chosen = dict(wishes.options)
+    if chosen.get("continuity", "G1") == "G2":
+        chosen["fixed_curvatures"] = cut["curvatures"][rim]
+    report = new.faired("given", None, chosen, watch.part(0.4, 1.0))
+    watch.lap("fair")
+    old, weights = _origins(cut, origin, pieces, count)
+    values = report_fields(report, count)
+    vertices = report.vertices
+    if wishes.profile:
+        carried = np.einsum("kc,kcd->kd", weights, given.points[given.triangles[old]])
+        before = np.concatenate([given.points, carried])
+        vertices = _drawn(Patch(vertices, new.triangles, patch.fixed, None), before, given.seams, wishes)
+        curvature = _core.mean_curvature(vertices, new.triangles, patch.fixed, patch.normals, "fitted")
+        values["mean_curvature"] = curvature[count:]
+    seam_points = np.flatnonzero(on_seam >= 0) + len(placed)
+    values["warnings"] = tuple(
+        warning for warning in values["warnings"]
+        if warning.code != "SHARP_BOUNDARY" or not len(cut["corners"])  # two sides of a seam meet there
+    )  # fmt: skip
+    fair = Patch(vertices, new.triangles, patch.fixed, patch.normals)
+    return Made(
+        cut, inside, new.triangles, vertices, len(placed) - count, fair, old, weights, seam_points, values
+    )  # fmt: skip
+
+
+def result_of(given: Given, made: Made, wishes: Wishes) -> FilletResult:
+    """With the pieces outside, and without vertices that are in none of the triangles."""
+    count, cut, inside = len(given.points), made.cut, made.inside
+    gone = _is_gone(cut["parent"], inside, len(given.triangles))
+    kept = np.flatnonzero(~inside & gone[cut["parent"]])
+    parents = np.concatenate([cut["parent"][kept], _under(made.triangles, made.old, count, made.on_seam)])
+    triangles = np.concatenate([cut["triangles"][kept], made.triangles])
+    used = np.unique(triangles[triangles >= count]) - count  # points on the seam are no vertices of the new mesh
+    number = np.concatenate([np.arange(count), np.zeros(len(made.old), dtype=np.int64)])
+    number[count + used] = count + np.arange(len(used))
+    values = dict(made.values)
+    values["vertices"] = read_only(made.vertices[count:][used])
+    values["mean_curvature"] = read_only(values["mean_curvature"][used])
+    values["triangles"] = read_only(number[triangles].astype(np.int32))
+    values["fixed"] = read_only(number[values["fixed"]].astype(np.int32))
+    values["seconds"] = {**values["seconds"], **wishes.watch.seconds}
+    values["warnings"] = tuple(_renumbered(warning, number, len(kept)) for warning in values["warnings"])
+    return FilletResult(
+        **values,
+        gone=read_only(np.flatnonzero(gone).astype(np.int32)),
+        outside=len(kept),
+        parent=read_only(parents.astype(np.int32)),
+        origin=(read_only(made.old[used]), read_only(made.weights[used])),
+        seam=read_only(given.seams),
+        walls=read_only(wishes.walls),
+        line=read_only(number[cut["line"]].astype(np.int32)),
+    )
+
+
+def _renumbered(warning: Diagnostic, number: npt.NDArray[np.int64], pieces: int) -> Diagnostic:
+    """In the numbers of the result's vertices and triangles."""
+    elements = warning.elements + pieces if warning.kind == "triangle" else number[warning.elements]
+    return replace(warning, elements=read_only(elements.astype(np.int32)))
+
+
+def _drawn(fair: Patch, before: FloatArray, seams: IntArray, wishes: Wishes) -> FloatArray:
+    """(n, 3) the surface with its profile; ``before``: where its vertices were on the old one."""
+    at, profile = fair.vertices, abs(wishes.profile)
+    assert fair.fixed is not None
+    target = before if wishes.profile > 0 else interpolate(at, fair.triangles, fair.fixed, at[fair.fixed])
+    used = np.unique(fair.triangles)
+    if profile == 1.0:
+        drawn = at.copy()
+        drawn[used] = target[used]
+        return drawn
+    ends = np.unique(seams)
+    near = nearest(before[used], before[ends])
+    width = 0.5 * (wishes.widths[0][ends] + wishes.widths[1][ends])[near]
+    pull = np.zeros(len(at))
+    pull[used] = (4 * profile / ((1 - profile) * width)) ** 4
+    return _core.drawn_to(at, fair.triangles, fair.fixed, target, pull)
+
+
+def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
+    """(k,) the nearest of the ends (s, 3), in blocks of places."""
+    block = max(1, 2_000_000 // len(ends))
+    found = [
+        ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
+        for part in np.array_split(places, range(block, len(places), block))
+    ]
+    result: IntArray = np.concatenate(found)
+    return result
+
+
+def _is_gone(parent: IntArray, inside: Mask, count: int) -> Mask:
+    """(m,) which triangles do not stay: cut, within the fillet, or turned into the one beside."""
+    gone: Mask = np.bincount(parent, minlength=count) != 1
+    gone[parent[inside]] = True
+    return gone
+
+
+def line_places(cut: dict[str, Any], begin: int) -> tuple[IntArray, FloatArray]:
+    """Old triangles (l,) of the line's points, which have the numbers from `begin` on, and weights (l, 3) there."""
+    place = np.zeros(len(cut["points"]), dtype=np.int64)
+    flat = cut["triangles"].ravel()
+    on_line = np.flatnonzero(flat >= begin)
+    place[flat[on_line] - begin] = on_line
+    return cut["parent"][place // 3], cut["weights"][place]
+
+
+def _origins(cut: dict[str, Any], origin: Any, pieces: IntArray, count: int) -> tuple[IntArray, FloatArray]:
+    """Triangles (k,) of the old mesh and weights (k, 3) there, of the line's points and then of those within."""
+    on_line, line_weights = line_places(cut, count)
+    rows = pieces[origin[0]]
+    inner = np.einsum("kc,kcw->kw", origin[1], cut["weights"].reshape(-1, 3, 3)[rows])
+    old = np.concatenate([on_line, cut["parent"][rows]]).astype(np.int32)
+    weights = np.clip(np.concatenate([line_weights, inner]), 0.0, None)
+    return old, weights / weights.sum(axis=1, keepdims=True)
+
+
+def _under(triangles: IntArray, old: IntArray, count: int, on_seam: IntArray) -> IntArray:
+    """The old triangle under one of each new one's corners: one that is on no seam, so that it is on the right side."""
+    rank = np.arange(count + len(old))
+    rank[:count] = -1
+    rank[on_seam] = 0
+    best = triangles[np.arange(len(triangles)), rank[triangles].argmax(axis=1)] - count
+    result: IntArray = old[np.maximum(best, 0)]
+    return result
+
+
+def in_rows(
+    given: Given, made: Made, wishes: Wishes, spacing: float, counted: IntArray | None, progress: Progress | None
+) -> tuple[Made, IntArray] | None:
+    """And the pairs (q, 2) of its triangles that are quads; None where no rows fit."""
+    carried = np.einsum("kc,kcd->kd", made.weights, given.points[given.triangles[made.old]])
+    before = np.concatenate([given.points, carried])
+    patch = made.patch
+    assert patch.fixed is not None
+    assert patch.normals is not None
+    rows = _core.fillet_rows(
+        given.points, given.triangles, (given.seams.tolist(), wishes.walls.tolist()), wishes.widths,
+        (wishes.spacing, spacing), None if counted is None else counted.tolist(),
+        (made.vertices, made.triangles, patch.fixed, patch.normals, before), progress,
+    )  # fmt: skip
+    if rows is None:
+        return None
+    count = len(rows["quads"])
+    return _with_rows(given, made, rows, wishes), np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
+
+
+def _with_rows(given: Given, made: Made, rows: dict[str, Any], wishes: Wishes) -> Made:
+    cut = rows["cut"]
+    placed = np.concatenate([given.points, cut["points"]])
+    vertices = np.concatenate([placed, rows["places"]])
+    halves = halves_of(vertices, rows["quads"])
+    whole = cut["inside"]  # of pieces outside that are meshed anew a corner may lie beyond the parent
+    within = {"points": cut["points"], "triangles": cut["triangles"][whole], "parent": cut["parent"][whole]}
+    within["weights"] = cut["weights"].reshape(-1, 3, 3)[whole].reshape(-1, 3)
+    on_line, line_weights = line_places(within, len(given.points))
+    line_weights = np.clip(line_weights, 0.0, None)
+    weights = np.concatenate([line_weights / line_weights.sum(axis=1, keepdims=True), rows["on_given"]])
+    rim = cut["boundary"][np.isin(cut["boundary"], rows["quads"])]
+    curvature = np.concatenate([np.zeros(len(given.points)), made.values["mean_curvature"]])
+    inner = (curvature[made.triangles[rows["solved"]]] * rows["on_solved"]).sum(axis=1)
+    fixed = made.values["fixed"]
+    near = nearest(vertices[rim], made.vertices[fixed])
+    values = {
+        **made.values, "fixed": rim, "cut": True, "polished": False,
+        **{name: read_only(made.values[name][near]) for name in ("boundary_angle", "join")},
+        "mean_curvature": np.concatenate([curvature[fixed[nearest(cut["points"], made.vertices[fixed])]], inner]),
+        "warnings": tuple(_moved(warning, made, vertices, rows["quads"]) for warning in made.values["warnings"]),
+    }  # fmt: skip
+    on_seam = len(placed) + np.flatnonzero(rows["on_seam"])
+    return replace(
+        made, cut={**cut, "eaten": made.cut["eaten"]}, inside=cut["inside"],
+        triangles=halves, vertices=vertices, line_count=len(cut["points"]), patch=Patch(vertices, halves, rim, None),
+        old=np.concatenate([on_line, rows["given"]]).astype(np.int32), weights=weights, on_seam=on_seam, values=values,
+    )  # fmt: skip
+
+
+def _moved(warning: Diagnostic, made: Made, vertices: FloatArray, quads: IntArray) -> Diagnostic:
+    """For what it names on the solved mesh the nearest vertices of the quads."""
+    names = warning.elements if warning.kind == "vertex" else made.triangles[warning.elements].ravel()
+    used = np.unique(quads)
+    near = used[np.unique(nearest(made.vertices[names], vertices[used]))]
+    return replace(warning, elements=read_only(near.astype(np.int32)), kind="vertex")

@@ -1,0 +1,1 @@
+"""Surfaces over holes and wires."""

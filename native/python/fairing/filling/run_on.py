@@ -1,0 +1,325 @@
+"""Hard edges around a hole that run on through it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _core
+from fairing.filling import loops
+from fairing.filling.ends import EdgeEnd, Matching, ends_at, matched
+from fairing.filling.loops import Tree, crosses, gap
+from fairing.filling.making import Making, Wanted, bands_at, lengths_at, may_have_bands
+from fairing.measure import hard_edges
+from fairing.options import arguments
+from fairing.options.arguments import listed
+from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
+
+EDGES = ("run_on", "ignored")
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """What runs through a hole. Numbers from the count of the caller's vertices on are those of new ones."""
+
+    added: FloatArray
+    """(c, 3) new vertices on the curves."""
+    cut: loops.CutOutline
+    """The loop, cut."""
+    curves: tuple[IntArray, ...]
+    """Vertices of each curve, from end to end."""
+    rims: IntArray
+    """Vertices of the loop where it runs along hard edges."""
+    marked: tuple[bool, ...]
+    """Whether all hard edges that each curve continues were marked."""
+    rows: IntArray
+    """New vertices on curves along bands."""
+    bands: tuple[tuple[IntArray, ...], ...]
+    """The vertices along the rows of each, from side to side."""
+    warnings: tuple[Diagnostic, ...]
+    loop: IntArray
+
+    def left_alone(self) -> tuple[Diagnostic, ...]:
+        """The warnings where no surface holds the edges."""
+        rows = [row for band in self.bands for row in band]
+        held = np.intersect1d(self.loop, np.concatenate([self.vertices, *rows])).astype(np.int32)
+        text = f"no surface holds the edges that would run on from {listed(held)}: they are left alone"
+        figures = {"ends": float(len(held)), "no_surface": 1.0}
+        return (*self.warnings, Diagnostic("EDGES_LEFT_ALONE", text, held, "vertex", figures))
+
+    @property
+    def vertices(self) -> IntArray:
+        """All whose slope each side finds: on curves, along bands and on hard edges of the loop, ascending."""
+        found: IntArray = np.unique(np.concatenate([self.rims, self.rows, *self.curves])).astype(np.int32)
+        return found
+
+    @property
+    def for_engine(self) -> tuple[FloatArray, list[IntArray], list[FloatArray], IntArray, IntArray] | None:
+        """What a surface along them is made of; None where all are left alone."""
+        if not self.cut.loops:
+            return None
+        chains = [*self.curves, *(row for band in self.bands for row in band)]
+        edges = [np.column_stack([chain[:-1], chain[1:]]) for chain in chains]
+        kept = np.concatenate([arguments.NO_EDGES, *edges]).astype(np.int32)
+        return self.added, list(self.cut.loops), list(self.cut.normals), self.vertices, kept
+
+    def named(self, names: IntArray, count: int) -> Curves:
+        """In the numbers of a mesh of ``count`` vertices, of which these are ``names``."""
+
+        def name(numbers: IntArray) -> IntArray:
+            here = len(names)
+            known = names[np.minimum(numbers, here - 1)]
+            named: IntArray = np.where(numbers < here, known, numbers - here + count).astype(np.int32)
+            return named
+
+        return replace(
+            self,
+            cut=loops.CutOutline(tuple(map(name, self.cut.loops)), self.cut.normals),
+            curves=tuple(map(name, self.curves)),
+            rims=name(self.rims),
+            rows=name(self.rows),
+            bands=tuple(tuple(map(name, band)) for band in self.bands),
+            warnings=tuple(replace(each, elements=name(each.elements)) for each in self.warnings),
+            loop=name(self.loop),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """What may run through holes: hard edges around them, those among these that were marked, and wires."""
+
+    hard: IntArray
+    marked: set[tuple[int, int]]
+    wires: IntArray
+    run_through: bool = True
+    """Whether anything may: bands, too."""
+
+    @classmethod
+    def of(cls, mesh: tuple[FloatArray, IntArray], given: tuple[Any, Any, Any], bridge: bool) -> Edges:
+        """mesh: vertices and triangles around; given: ``edges``, ``wires`` and ``marked`` of :func:`fairing.fill`."""
+        points, around = mesh
+        edges, wires, marked = given
+        drawn, marks = (
+            arguments.indices_within(name, arguments.integers(name, [] if value is None else value, 2), len(points))
+            for name, value in (("wires", wires), ("marked", marked))
+        )
+        if arguments.choice("edges", edges, EDGES) == "ignored" or bridge:
+            return cls(arguments.NO_EDGES, set(), arguments.NO_EDGES, False)
+        pairs = {(min(pair), max(pair)) for pair in marks.tolist()}
+        return cls(hard_edges(points, around, marked=marks), pairs, drawn)
+
+    def through(
+        self, holes: _core.Holes, points: FloatArray, spacing: tuple[float, bool]
+    ) -> list[Curves | Diagnostic | None]:
+        """What runs through each hole, found by what is around it alone, or why it can't be filled.
+
+        spacing: a length or 0, and whether it is the same everywhere.
+        """
+        if not self.run_through:
+            return []
+        loops, slopes = [loops[0] for loops in holes.loops], holes.slopes(spacing[0])
+        near = may_have_bands([points[loop] for loop in loops], [normals for normals, _ in slopes])
+        near |= _touched(loops, np.concatenate([self.hard, self.wires]), len(points))
+        found: list[Curves | Diagnostic | None] = [None] * len(loops)
+        for k in np.flatnonzero(near).tolist():
+            if not slopes[k][1]:
+                continue
+            near_by, triangles = holes.around(k)
+            names = np.union1d(near_by, self.wires).astype(np.int32)
+            triangles = np.searchsorted(names, near_by).astype(np.int32)[triangles]
+            local = self._within(names)
+            mesh = points[names], triangles
+            try:
+                curves = local.run_on(np.searchsorted(names, loops[k]).astype(np.int32), slopes[k][0], mesh, spacing)
+            except MeshError as error:
+                found[k] = replace(error.diagnostic, elements=names[error.elements])
+            else:
+                found[k] = None if curves is None else curves.named(names, len(points))
+        return found
+
+    def _within(self, names: IntArray) -> Edges:
+        """In numbers of some vertices, ascending, those alone that are between them."""
+
+        def local(edges: IntArray) -> IntArray:
+            places = np.searchsorted(names, edges).clip(max=len(names) - 1)
+            known: IntArray = places[(names[places] == edges).all(axis=1)].astype(np.int32)
+            return known
+
+        marks = local(np.array(sorted(self.marked), dtype=np.int32).reshape(-1, 2))
+        return Edges(local(self.hard), set(map(tuple, marks.tolist())), local(self.wires))
+
+    def run_on(
+        self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray], spacing: tuple[float, bool]
+    ) -> Curves | None:
+        """The curves through a loop with its normals (k, 3); None where nothing runs through it or is left alone."""
+        points = mesh[0]
+        mean = float(np.linalg.norm(np.roll(points[loop], -1, axis=0) - points[loop], axis=1).mean())
+        length, even = spacing
+        wanted = Wanted((length or mean) if even else 0.0, (length or mean) / mean)
+        through, cut = _Finder(loop, normals, mesh, self, wanted).through(points)
+        if cut is None and not through.warnings:
+            return None
+        making = through.making
+        return Curves(
+            making.points[len(points) :],
+            cut if cut is not None else loops.CutOutline((), ()),
+            tuple(making.curves),
+            through.rim,
+            tuple(making.marked),
+            np.concatenate([np.empty(0, np.int32), *making.rows]),
+            tuple(making.bands),
+            tuple(through.warnings),
+            loop,
+        )
+
+
+def _touched(loops: Sequence[IntArray], edges: IntArray, count: int) -> npt.NDArray[np.bool_]:
+    """(l,) the loops with a vertex at which one of the edges ends."""
+    at = np.zeros(count, dtype=bool)
+    at[edges] = True
+    return np.array([at[loop].any() for loop in loops], dtype=bool)
+
+
+@dataclass(frozen=True, eq=False)
+class _Through:
+    """What runs through one loop, and along it."""
+
+    loop: IntArray
+    normals: FloatArray
+    making: Making
+    trees: list[Tree]
+    along: list[range]
+    warnings: list[Diagnostic]
+
+    @property
+    def rim(self) -> IntArray:
+        """The loop's vertices on hard edges along it."""
+        return self.loop[sorted({place % len(self.loop) for run in self.along for place in run})]
+
+    def cut(self, triangles: IntArray) -> loops.CutOutline | None:
+        """The loop in parts; None where nothing runs through it or along it."""
+        if not self.trees and not self.along:
+            return None
+        points = self.making.points
+        sides = loops.outside_normals(self.loop, points, triangles)
+        missing = ~sides.any(axis=1)
+        sides[missing] = self.normals[missing]
+        normals = self.normals.copy()
+        for run in self.along:
+            _take_other_side(run, sides, normals)
+        return loops.cut(self.loop, normals, sides, self.trees, points)
+
+
+@dataclass(frozen=True, eq=False)
+class _Finder:
+    """Looks at one loop."""
+
+    loop: IntArray
+    normals: FloatArray
+    mesh: tuple[FloatArray, IntArray]
+    edges: Edges
+    wanted: Wanted
+
+    def through(self, points: FloatArray) -> tuple[_Through, loops.CutOutline | None]:
+        """What runs through, and the loop cut along it. points: all vertices so far.
+
+        Where curves meet the outline or each other, bands are left out, and then all but drawn edges.
+        """
+        vertices, triangles = self.mesh
+        drawn = loops.drawn(self.loop, self.edges.wires)
+        there = ends_at(self.loop, vertices, triangles, self.edges.hard, self.edges.marked)
+        free = [end for end in there.ends if end.vertex not in drawn.reached]
+        marked = {end.vertex for end in there.ends if end.marked}
+        for ends, with_bands in ((free, self.edges.run_through), (free, False), ([], False)):
+            making = Making(points, self.wanted)
+            making.drawn(drawn, marked)
+            trees, warnings = self._edges(ends, drawn.trees, making)
+            if with_bands:
+                warnings = self._bands(trees, warnings, making)
+            if len(ends) < len(free):
+                warnings = _told(free, range(len(free)), "crossing", "the way on crosses the outline")
+            leaves = {leaf for tree in trees for leaf in tree.leaves}
+            along = there.along + [end.run for end in ends if end.at in leaves and len(end.run)]
+            through = _Through(self.loop, self.normals, making, trees, along, warnings)
+            cut = None if crosses(trees) else through.cut(triangles)
+            if (cut is None and not trees) or (cut is not None and not _is_tangled(cut, making.points)):
+                return through, cut
+        raise loops.refusal("meet its outline or each other", drawn.vertices, "move them apart")
+
+    def _edges(self, ends: list[EdgeEnd], drawn: Sequence[Tree], making: Making) -> tuple[list[Tree], list[Diagnostic]]:
+        lengths = lengths_at(self.mesh[0][self.loop])
+        trees, warnings = list(drawn), []
+        for group in _apart(ends, drawn):
+            matching = matched(group)
+            warnings += _warnings(group, matching)
+            trees += [making.joined(self.loop, joint, group, lengths) for joint in matching.joints]
+        return trees, warnings
+
+    def _bands(self, trees: list[Tree], warnings: list[Diagnostic], making: Making) -> list[Diagnostic]:
+        """Add curves along bands that no hard edge runs in, and return the warnings about ends in none of them."""
+        points = self.mesh[0][self.loop]
+        leaves = {leaf for tree in trees for leaf in tree.leaves}
+        bands = [each for each in bands_at(self.loop, self.mesh[0], self.normals) if not leaves & each.covered]
+        mean = float(lengths_at(points).mean())
+        inside: set[int] = set()
+        for joint in matched([band.end for band in bands]).joints:
+            if joint.centre is None:
+                one, other = (bands[k] for k in joint.ends)
+                if one.covered & other.covered:  # beside each other: nothing lies between
+                    continue
+                trees += making.band(self.loop, one, other, mean)
+                inside |= set(self.loop[sorted(one.covered | other.covered)].tolist())
+        return [each for each in warnings if not inside >= set(each.elements.tolist())]
+
+
+def _is_tangled(cut: loops.CutOutline, points: FloatArray) -> bool:
+    """Whether a part crosses or touches itself, or bounds nothing."""
+    for loop in cut.loops:
+        around = np.column_stack([loop, np.roll(loop, -1)]).astype(np.int32)
+        if (
+            len(loop) < 3
+            or len(_core.crossing_edges(around, points))
+            or any(map(len, _core.touching_edges(around, points)))
+        ):
+            return True
+    return False
+
+
+def _take_other_side(run: range, sides: FloatArray, normals: FloatArray) -> None:
+    """The faces at a hard edge along the loop lie beyond it: normals there are those next to where the edge comes."""
+    count = len(sides)
+    before = run[0] - 1 if run.step > 0 else run[0]
+    for place, after in pairwise(run):
+        sides[min(place, after) % count] = sides[before % count]
+    normals[np.array(run) % count] = sides[before % count]
+
+
+def _apart(ends: Sequence[EdgeEnd], trees: Sequence[Tree]) -> list[list[EdgeEnd]]:
+    """Ends between which no tree lies."""
+    groups: dict[tuple[int, ...], list[EdgeEnd]] = {}
+    for end in ends:
+        groups.setdefault(tuple(gap(tree, end.at) for tree in trees), []).append(end)
+    return list(groups.values())
+
+
+def _warnings(ends: Sequence[EdgeEnd], matching: Matching) -> list[Diagnostic]:
+    """Name the ends that are left alone."""
+    return [
+        *_told(ends, matching.lonely, "lonely", "no other one goes on from there"),
+        *_told(ends, matching.ambiguous, "ambiguous", "they may be joined in several ways"),
+        *_told(ends, matching.too_many, "too_many", "they are too many to be joined"),
+    ]
+
+
+def _told(ends: Sequence[EdgeEnd], which: Sequence[int], figure: str, why: str) -> list[Diagnostic]:
+    if not which:
+        return []
+    where = np.sort(np.array([ends[k].vertex for k in which], dtype=np.int32))
+    what = "1 hard edge ends" if len(where) == 1 else f"{len(where)} hard edges end"
+    text = f"{what} at a hole, at {listed(where)}: {why}"
+    return [Diagnostic("EDGES_LEFT_ALONE", text, where, "vertex", {"ends": float(len(where)), figure: 1.0})]

@@ -1,0 +1,259 @@
+"""``feather`` and ``weights``: vertices of a band around the patch move in part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from fairing import _core
+from fairing.measure import edges_with_uses, hard_edges
+from fairing.options import arguments
+from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
+from fairing.solving import surroundings
+from fairing.solving.outline import boundary_normals
+from fairing.solving.surroundings import Answer, Boundary, Surroundings, marked
+
+Marks = npt.NDArray[np.bool_]
+Call = Callable[[Boundary], Answer]
+LEAST_RINGS = 6  # of triangles around a band that its low-pass surface rests on: half of what counts as detail
+
+
+@dataclass(frozen=True)
+class Fade:
+    """How a change fades out.
+
+    detail: the part of it that is shown; detail_size: what counts as detail, a share of D, 0: chosen; how: the width of
+    the band as a share of D, or the weights (n,) themselves.
+    """
+
+    detail: float
+    detail_size: float
+    how: float | FloatArray
+    threads: int
+    progress: Callable[[float, str], bool | None] | None
+
+
+@dataclass(frozen=True)
+class Band:
+    """What moves, marks (n,): ``faired`` inside the patch, ``freed`` in the band only; ``held`` nowhere."""
+
+    faired: Marks
+    freed: Marks
+    held: Marks
+    weights: FloatArray
+
+
+@dataclass(frozen=True)
+class Part:
+    """Patches whose bands meet: triangles ``inside``, around them, and vertices that stay; D, the band's mean width."""
+
+    inside: IntArray
+    outside: IntArray
+    fixed: IntArray
+    diameter: float
+    width: float
+
+
+def vertex_weights(value: npt.ArrayLike | None, count: int) -> FloatArray | None:
+    """(n,) from 0 to 1, or None."""
+    if value is None:
+        return None
+    weights = np.array(value, dtype=np.float64)
+    if weights.shape != (count,) or not ((weights >= 0) & (weights <= 1)).all():
+        raise ValueError(f"weights: {count} numbers from 0 to 1 are needed, one for each vertex")
+    return weights
+
+
+def width(value: Any, weights: FloatArray | None, refused: dict[str, bool]) -> float:
+    """The feather; ``refused``: arguments beside which it or ``weights`` is, with whether they are there."""
+    share = arguments.finite("feather", value)
+    if share < 0.0:
+        raise ValueError(f"feather: 0 or a positive number is needed, not {value!r}")
+    if share > 0.0 and weights is not None:
+        raise ValueError("feather: is not accepted beside `weights`, which take its place")
+    for name, given in refused.items():
+        if given and (share > 0.0 or weights is not None):
+            raise ValueError(f"{name}: this value is not accepted with `feather` or `weights`; leave it out")
+    return share
+
+
+def solve_feathered(call: Call, given: Boundary, around: Surroundings, fade: Fade) -> Answer:
+    """Solve the patch, round its join with the surroundings, and let the change fade out.
+
+    ``call`` puts back all of the detail. Vertices of the band move by what the rounding asks for, those inside by the
+    whole change, both times their weights.
+    """
+    if isinstance(fade.how, float) and not len(around.rim):
+        raise ValueError(
+            "feather: a band needs the triangles outside: pass them as `outside`, or among the triangles with all "
+            "their vertices in `fixed`"
+        )
+    weights = _faded(given, around, fade.how) if isinstance(fade.how, float) else fade.how
+    band = _band(given, around, weights)
+    parts = _parts(given.vertices, around, band)
+    answer = call(given)
+    full, base = _rounded(answer, parts, band, fade)
+    moving = (band.faired | band.freed) & (weights > 0.0)
+    detail = answer["vertices"] - base
+    for name, shown in (("vertices", fade.detail), ("base", 0.0)):
+        there = full - (1.0 - shown) * detail
+        moved = given.vertices + weights[:, None] * (there - given.vertices)
+        answer[name] = np.where(moving[:, None], moved, given.vertices)
+        answer[name].flags.writeable = False
+    answer["moved"] = np.flatnonzero(band.freed).astype(np.int32)
+    return surroundings.with_join(answer, around)
+
+
+def _rounded(answer: Answer, parts: list[Part], band: Band, fade: Fade) -> tuple[FloatArray, FloatArray]:
+    """The faired mesh (n, 3), its detail included, with round joins; and its base without that."""
+    points = answer["vertices"]
+    full, base = points.copy(), np.where(band.faired[:, None], answer["base"], points)
+    ask = None if fade.progress is None else partial(_ask, fade.progress)
+    for part in parts:
+        triangles = np.concatenate([part.inside, part.outside])
+        sizes = (fade.detail_size, part.diameter, part.width)
+        fair, soft = _core.soft_base(
+            points, triangles, part.fixed, answer["base"], band.faired, sizes, fade.threads, ask
+        )
+        near = _core.feather_weights(points, part.outside, part.inside, part.width, part.fixed[:0])
+        free = np.setdiff1d(triangles, part.fixed)
+        base[free] = fair[free]
+        full[free] += near[free, None] * (soft - fair)[free]
+    return full, base
+
+
+def _ask(progress: Callable[[float, str], bool | None], _fraction: float, _stage: str) -> bool | None:
+    """Whether to go on; nearly all is done."""
+    return progress(1.0, "detail")
+
+
+def feather_weights(
+    vertices: npt.ArrayLike,
+    triangles: npt.ArrayLike,
+    outside: npt.ArrayLike,
+    feather: float,
+    *,
+    fixed: npt.ArrayLike | None = None,
+    creases: npt.ArrayLike | None = None,
+) -> FloatArray:
+    """Return the ``weights`` (n,) that ``feather`` stands for in :func:`fairing.fair`, to be changed by hand.
+
+    1 inside, 1 − s² (3 − 2 s) in the band, s the distance from the boundary over the width, 0 beyond, and on hard edges
+    outside, at which the band ends (:func:`fairing.hard_edges`); ``creases``: (c, 2) edges that are hard whatever they
+    bend. The arguments are those of :func:`fairing.fair`; ``feather`` is above 0.
+    """
+    points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
+    share = width(feather, None, {})
+    if share == 0.0:
+        raise ValueError("feather: a number above 0 is needed: 0 is no band")
+    around = Surroundings.of(points, faces, held, outside)
+    edges = arguments.vertices_of("creases", creases, len(points), 2)
+    return _faded(Boundary(points, held, None), around, share, edges)
+
+
+def _hard(points: FloatArray, around: Surroundings, creases: IntArray) -> IntArray:
+    """Vertices at which bands end: on hard edges outside, and where the boundary is one that belongs to the patch."""
+    outside = hard_edges(points, around.outside, marked=creases)
+    own = boundary_normals(points, around.inside, around.rim, outside=around.outside, creases=creases)
+    return np.union1d(outside, around.rim[own.from_inside]).astype(np.int32)
+
+
+def _faded(given: Boundary, around: Surroundings, share: float, creases: IntArray = arguments.NO_EDGES) -> FloatArray:
+    """Weights of bands, each as wide as its component asks for."""
+    points = given.vertices
+    stops = _hard(points, around, creases)
+    component = _core.components(around.inside, given.fixed, len(points))
+    weights = marked(around.inside, len(points)).astype(np.float64)
+    for number in range(component.max(initial=-1) + 1):
+        inside = around.inside[component == number]
+        rim = points[np.intersect1d(inside, around.rim)]
+        if len(rim):
+            faded = _core.feather_weights(points, inside, around.outside, share * _diameter(rim), stops)
+            np.maximum(weights, faded, out=weights)
+    weights[stops] = 0.0
+    return weights
+
+
+def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
+    """Free the vertices of the triangles outside that have a weight.
+
+    Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch, and
+    hard edges at which the band ends.
+    """
+    count = len(given.vertices)
+    beyond = marked(around.outside, count)
+    fixed = marked(around.rim if given.fixed is None else given.fixed, count)
+    odd = _at_odd_edges(np.concatenate([around.inside, around.outside]), count)
+    ends = marked(_hard(given.vertices, around, arguments.NO_EDGES), count) & (weights == 0.0)
+    held = odd | (fixed & ~beyond) | ends
+    return Band(marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
+
+
+def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
+    """The patches that have a band, with what lies around it. Raises MeshError where nothing would stay."""
+    if not band.freed.any():
+        return []
+    near = _around_band(around, band)
+    both = np.concatenate([around.inside, around.outside[near]])
+    fixed = band.held | marked(around.outside[~near], len(points))
+    component = _core.components(both, np.flatnonzero(fixed & marked(both, len(points))).astype(np.int32), len(points))
+    is_inside = np.arange(len(both)) < len(around.inside)
+    parts = []
+    for number in range(component.max(initial=-1) + 1):
+        inside, outside = both[(component == number) & is_inside], both[(component == number) & ~is_inside]
+        if len(inside) and band.freed[outside].any():
+            parts.append(_part(points, (inside, outside), fixed, band))
+    return parts
+
+
+def _around_band(around: Surroundings, band: Band) -> Marks:
+    """Marks (o,) of the triangles outside in the band, and in as many rings beyond, LEAST_RINGS or more."""
+    reached = marked(around.rim, len(band.weights))
+    left = band.freed & ~reached
+    rings = 0
+    while left.any():
+        reached |= marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
+        if not (left & reached).any():
+            break
+        left &= ~reached
+        rings += 1
+    reached |= band.freed
+    for _ in range(max(rings, LEAST_RINGS)):
+        reached |= marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
+    return np.asarray(reached[around.outside].all(axis=1))
+
+
+def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks, band: Band) -> Part:
+    """Of triangles inside and outside. On a closed mesh that is all near, vertices without a weight stay."""
+    inside, outside = triangles
+    own = np.union1d(inside, outside)
+    stays = own[fixed[own]]
+    if not len(stays):
+        stays = own[~(band.faired | band.freed)[own]]
+    if not len(stays):
+        text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
+        raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
+    edges, uses = edges_with_uses(inside)
+    in_band = marked(outside, len(points))
+    rim = edges[(uses == 1) & in_band[edges].all(axis=1)]
+    length = np.linalg.norm(points[rim[:, 0]] - points[rim[:, 1]], axis=1).sum()
+    corners = points[outside]
+    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
+    width = 2.0 * float((areas * band.weights[outside].mean(axis=1)).sum() / length)
+    return Part(inside, outside, stays.astype(np.int32), _diameter(points[np.unique(rim)]), width)
+
+
+def _diameter(outline: FloatArray) -> float:
+    """D of a patch with this boundary (k, 3)."""
+    return 2.0 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
+
+
+def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
+    """Marks (n,) of the ends of edges that don't have two triangles."""
+    edges, uses = edges_with_uses(triangles)
+    return marked(edges[uses != 2], count)
