@@ -201,7 +201,7 @@ def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> 
         return 1.0, np.setdiff1d(triangles, fixed)[:1]
 
     knobs = fairing.looks.knobs
-    monkeypatch.setattr(fairing, "knobs", most_lifted)
+    monkeypatch.setattr(fairing.looks, "knobs", most_lifted)
     verdict = fair(mesh).verdict
     assert compared[0] == 0.0
     assert compared[1] > 0.1  # what the spoilt one has

@@ -151,7 +151,7 @@ class Surface:
 
     outline: str = "given"
     """One of "given" | "mended": "mended": a noisy boundary is first moved onto the fit of its surroundings, with the
-    two rings outside, as by :func:`fairing.mend_outline`; the normals there are the fit's. ``moved`` names what moved.
+    two rings outside, as far as these leave it; the normals there are the fit's. ``moved`` names what moved.
     Where the fitted boundary gives folds, no solution, or a worst ``join`` above 12° that is larger than with the given
     one, both are solved and the given one is kept (warning OUTLINE_KEPT)."""
 
