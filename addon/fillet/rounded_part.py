@@ -70,7 +70,7 @@ def rounded_part(mesh: MeshArrays, result: fairing.results.FilletResult) -> Roun
 
 
 def _pieces_of_edges(
-    mesh: MeshArrays, result: fairing.FilletResult, triangles: Ints, outside: int
+    mesh: MeshArrays, result: fairing.results.FilletResult, triangles: Ints, outside: int
 ) -> tuple[Ints, Ints]:
     """Return the (c, 2) sides of triangles, but within the fillet, that are pieces of an edge, and (c, 2) its ends."""
     count = len(mesh.positions)

@@ -34,7 +34,7 @@ def interpolate(
         raise ValueError(f"fixed: border vertex {missing[0]} needs a value")
     if held is None or not given.shape[1]:
         return np.zeros((len(points), given.shape[1]))
-    everywhere: FloatArray = _core.interpolate(points, faces, held, given)
+    everywhere: FloatArray = _core.interpolate(points, faces, held, given).copy()
     everywhere[held] = given
     return np.clip(everywhere, given.min(axis=0), given.max(axis=0))
 
