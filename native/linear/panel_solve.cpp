@@ -115,8 +115,8 @@ template <typename Stored>
 void eliminate_vector(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     const int columns = static_cast<int>(panel.cols());
-    for (int j = 0; j < columns; j += columns_at_once) {
-        const int width = std::min(columns_at_once, columns - j);
+    for (int j = 0; j < columns; j += block) {
+        const int width = std::min(block, columns - j);
         const Stored* const first = panel.data() + std::ptrdiff_t(j) * rows;
         for (int k = j; k < j + width; ++k) {
             const Stored* const column = panel.data() + std::ptrdiff_t(k) * rows;
@@ -140,8 +140,8 @@ template <typename Stored>
 void eliminate_lanes(const PanelOf<Stored>& panel, Stored* b) {
     const int rows = static_cast<int>(panel.rows());
     const int columns = static_cast<int>(panel.cols());
-    for (int j = 0; j < columns; j += columns_at_once) {
-        const int width = std::min(columns_at_once, columns - j);
+    for (int j = 0; j < columns; j += block) {
+        const int width = std::min(block, columns - j);
         for (int k = j; k < j + width; ++k) {
             const Stored* const column = panel.data() + std::ptrdiff_t(k) * rows;
             row_of(b, k) /= column[k];
