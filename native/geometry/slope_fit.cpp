@@ -216,14 +216,14 @@ void take(SlopeFit& fit, const Round& round, const Axes& axes) {
 }  // namespace
 
 std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector3> points, const Vector3& start,
-                                   Degree degree, Centre at_centre) {
+                                   Degree wanted, Centre at_centre) {
     if (points.empty() || start.isZero()) return std::nullopt;
-    Fit fit(centre, points, degree, at_centre);
+    Fit fit(centre, points, wanted, at_centre);
     if (!fit.usable()) return std::nullopt;
     SlopeFit result{.normal = start, .scale = fit.scale()};
     const Frame first(start);
     Axes axes{first.u, first.v, false};
-    const bool is_strip = degree == Degree::strip;
+    const bool is_strip = wanted == Degree::strip;
     if (is_strip) axes = turned_into(fit.longest_extent(), start);
     double constant = 0.0;
     for (int k = 0; k < most_rounds; ++k) {
