@@ -49,10 +49,11 @@ class Memory:
             while len(values) > self._most[kind]:
                 values.popitem(last=False)
 
-    def clear(self) -> None:
+    def clear(self, *kinds: str) -> None:
+        """Forget what is kept of these kinds; of all where none is named."""
         with self._lock:
-            for values in self._values.values():
-                values.clear()
+            for kind in kinds or self._values:
+                self._values[kind].clear()
 
 
 memory = Memory(MOST)

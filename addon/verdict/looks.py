@@ -170,7 +170,7 @@ def _points(evidence: Evidence) -> Floats:
 def _unmoved(evidence: Evidence, options: FairOptions) -> Found:
     """Report a run that gives back what was there: what was to go was not selected, or counts as boundary."""
     free, before = evidence.problem.patch.free, evidence.problem.own_points
-    if evidence.points is None or options.remesh or options.factor == 0.0:
+    if evidence.points is None or options.remesh or options.all_keys or options.factor == 0.0:
         return NOTHING
     moved = np.abs(_points(evidence)[free] - before[free]).max(initial=0.0)
     if moved > LEAST_MOVED * np.ptp(before, axis=0).max():

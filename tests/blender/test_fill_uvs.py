@@ -15,7 +15,7 @@ Floats = meshes.Floats
 SIZE = 0.25  # of an island, whose centres lie at 1, 2, 3, …
 
 
-def box_map(obj: bpy.types.Object, name: str = "Map", mirrored: bool = False, apart: float = 1.0) -> None:
+def box_map(obj: bpy.types.Object, name: str = "Map", mirrored: bool = False) -> None:
     """Six islands, one for each side of a blown-up cube; UVs go by the angles of its grid, so that squares stay so."""
     mesh = obj.data
     points = meshes.positions(obj)
@@ -27,7 +27,7 @@ def box_map(obj: bpy.types.Object, name: str = "Map", mirrored: bool = False, ap
             point = points[mesh.loops[corner].vertex_index]
             angles = np.arctan2(np.roll(point, -axis)[1:] * [sign, 1.0], sign * point[axis])
             places[corner] = SIZE * angles * ([-1.0, 1.0] if mirrored else [1.0, 1.0])
-            places[corner] += [apart * (2 * axis + (sign > 0)), 0.0]
+            places[corner] += [2.0 * axis + (sign > 0), 0.0]
     mesh.uv_layers.new(name=name).uv.foreach_set("vector", places.astype(np.float32).ravel())
 
 
@@ -104,15 +104,6 @@ def test_marked_seams_go_on(capfd: pytest.CaptureFixture[str]) -> None:
         assert len(seams) == (before + len(new) if marked else 0)
         assert new <= seams or not marked
         assert f"{len(new)} new edges are seams of UVs" in "".join(capfd.readouterr())
-
-
-def test_what_lies_over_other_islands_is_reported(capfd: pytest.CaptureFixture[str]) -> None:
-    """Where all islands lie on one heap, and where each has its place."""
-    for apart in (0.0, 1.0):
-        obj = open_sphere(HOLES["edge"][0])
-        box_map(obj, apart=apart)
-        assert fill_hole(obj) == {"FINISHED"}
-        assert ("over other faces in the texture" in "".join(capfd.readouterr())) == (apart == 0.0)
 
 
 def test_each_map_has_seams_of_its_own() -> None:
