@@ -44,11 +44,12 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
 // surroundings towards their back.
 struct Means {
     Eigen::Vector2d patch = Eigen::Vector2d::Zero();  // cosine and sine of the angle of its own triangles
-    Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise
+    Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise; between several loops of the way to the next one
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
     double rows_bend = 0.0;                           // likewise, of that arc
     double length = 0.0;
+    double least = fading_bend;  // degrees of a wall
 };
 
 double angle_of(const Eigen::Vector2d& sum) { return std::atan2(sum.y(), sum.x()) / degree; }
@@ -82,8 +83,8 @@ bool is_bevel(const Means& part) {
 bool is_wall(const Means& part) {
     const double film = angle_of(part.film);
     const double dip = part.film.y();
-    const bool bends_away = std::min(film, angle_of(part.patch)) > fading_bend;
-    const bool bends_back = std::max(film, angle_of(part.patch)) < -fading_bend;
+    const bool bends_away = std::min(film, angle_of(part.patch)) > part.least;
+    const bool bends_back = std::max(film, angle_of(part.patch)) < -part.least;
     const bool is_unexplained = part.bend * dip < explained * dip * dip;
     return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
@@ -99,6 +100,11 @@ public:
           parts_(place_.size(), 0) {
         for (std::size_t k = 0; k < rim.vertices.size(); ++k) place_[rim.vertices[k]] = static_cast<int>(k);
         for (const auto& ends : rim.hard) parts_[ends[0]] = parts_[ends[1]] = 1;
+        UnionFind pieces(static_cast<int>(place_.size()));
+        for (const auto& corners : mesh.whole.colwise()) {
+            for (int c : {1, 2}) pieces.join(corners[0], corners[c]);
+        }
+        for (int v = 0; v < static_cast<int>(place_.size()); ++v) pieces_.push_back(pieces.root(v));
     }
 
     [[nodiscard]] Walls walls() const {
@@ -111,7 +117,8 @@ public:
         std::vector<char> held(place_.size(), 0);
         for (int v : rim_.vertices) held[v] = 1;
         Walls result{{}, closing_surface(mesh_.points, mesh_.whole, held)};
-        for (int k = 0; k < size(); ++k) means[parts.root(k)].film += turn(edges_[k], result.film);
+        for (int k = 0; k < size(); ++k)
+            add_film(edges_[k], edges_of_other_loops(k, loops), result.film, means[parts.root(k)]);
         std::vector<char> marks(edges_.size(), 0);
         for (int k = 0; k < size(); ++k) marks[k] = is_wall(means[parts.root(k)]) ? 1 : 0;
         UnionFind rows = joined([](int) { return true; }, marks);
@@ -199,10 +206,36 @@ private:
 
     // Cosine and sine of the angle of the patch's triangle with these points, times the edge's length.
     [[nodiscard]] Eigen::Vector2d turn(const Meeting& edge, const Points& points) const {
-        const Vector3 t = along(edge);
+        return turn(edge, normal_of(points, mesh_.inside, edge.inside).cross(along(edge)));
+    }
+
+    // Of a direction square to the edge.
+    [[nodiscard]] Eigen::Vector2d turn(const Meeting& edge, const Vector3& inwards) const {
         const Vector3 normal = normal_at(edge);
-        const Vector3 inwards = normal_of(points, mesh_.inside, edge.inside).cross(t);
-        return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(t)), -inwards.dot(normal));
+        return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(along(edge))), -inwards.dot(normal));
+    }
+
+    // A film between loops has a waist, also where a tube goes on: there the next loop says where the surface goes.
+    void add_film(const Meeting& edge, const Indices& others, const Points& film, Means& means) const {
+        if (others.empty()) {
+            means.film += turn(edge, film);
+            return;
+        }
+        const auto way = [&](int k) -> Vector3 { return middle(edges_[k]) - middle(edge); };
+        const int next = std::ranges::min(others, {}, [&](int k) { return way(k).squaredNorm(); });
+        const Vector3 t = along(edge);
+        means.film += turn(edge, direction(way(next) - way(next).dot(t) * t));
+        means.least = hard_bend;
+    }
+
+    // Of the same piece of the patch.
+    [[nodiscard]] Indices edges_of_other_loops(int k, UnionFind& loops) const {
+        Indices result;
+        for (int o = 0; o < size(); ++o) {
+            if (loops.root(o) != loops.root(k) && pieces_[edges_[o].ends[0]] == pieces_[edges_[k].ends[0]])
+                result.push_back(o);
+        }
+        return result;
     }
 
     // The surroundings cut across the edge: where their first two rows end, from its middle. Faces in a plane are one.
@@ -279,6 +312,7 @@ private:
     std::vector<Meeting> edges_;
     Indices place_;            // of each vertex in rim_.vertices
     std::vector<char> parts_;  // vertices at which a hard edge outside ends
+    Indices pieces_;           // of the patch, by their vertices
 };
 
 }  // namespace

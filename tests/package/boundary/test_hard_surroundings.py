@@ -72,3 +72,21 @@ def test_a_marked_edge_stops_the_fit() -> None:
     marked = fairing.surrounding_normals(vertices, panel.outside, panel.rim, creases=edges)
     assert np.abs(unmarked.normals - exact).max() > 0.03
     assert np.abs(marked.normals - exact).max() < 0.01
+
+
+@pytest.mark.parametrize("half", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("depth", [0.2, 0.4, 0.8])
+def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:
+    """A film between its ends has a waist, and the patch another one: these are no walls."""
+    around, heights = 48, np.linspace(-3.0, 3.0, 61)
+    radii = 1.0 - depth * np.maximum(0.0, 1.0 - np.abs(heights) / half)
+    angles = 2.0 * np.pi * np.arange(around) / around
+    rings = [[r * np.cos(angles), r * np.sin(angles), np.full(around, z)] for r, z in zip(radii, heights, strict=True)]
+    points = np.moveaxis(np.array(rings), 1, 2).reshape(-1, 3)
+    first = np.arange(60 * around)
+    second = first - first % around + (first + 1) % around
+    halves = [[first, second, second + around], [first, second + around, first + around]]
+    triangles = np.concatenate([np.column_stack(corners) for corners in halves])
+    middle = np.abs(points[triangles, 2].mean(axis=1)) < half
+    (made, _), _ = fairing.fair_faces((points, triangles), np.flatnonzero(middle))
+    assert np.abs(np.hypot(made[:, 0], made[:, 1]) - 1.0).max() < 1e-4
