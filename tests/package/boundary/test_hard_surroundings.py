@@ -7,6 +7,8 @@ import fairing
 import solids
 from solids import FloatArray, IntArray
 
+AROUND = 48  # vertices of a ring
+
 
 def top_of_box(n: int, rows: int) -> tuple[FloatArray, IntArray, IntArray]:
     """A box whose top is selected but for some rows along its edges: vertices, triangles inside and outside."""
@@ -78,15 +80,32 @@ def test_a_marked_edge_stops_the_fit() -> None:
 @pytest.mark.parametrize("depth", [0.2, 0.4, 0.8])
 def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:
     """A film between its ends has a waist, and the patch another one: these are no walls."""
-    around, heights = 48, np.linspace(-3.0, 3.0, 61)
+    heights = np.linspace(-3.0, 3.0, 61)
     radii = 1.0 - depth * np.maximum(0.0, 1.0 - np.abs(heights) / half)
-    angles = 2.0 * np.pi * np.arange(around) / around
-    rings = [[r * np.cos(angles), r * np.sin(angles), np.full(around, z)] for r, z in zip(radii, heights, strict=True)]
-    points = np.moveaxis(np.array(rings), 1, 2).reshape(-1, 3)
-    first = np.arange(60 * around)
-    second = first - first % around + (first + 1) % around
-    halves = [[first, second, second + around], [first, second + around, first + around]]
-    triangles = np.concatenate([np.column_stack(corners) for corners in halves])
+    points, triangles = turned(radii, heights)
     middle = np.abs(points[triangles, 2].mean(axis=1)) < half
     (made, _), _ = fairing.fair_faces((points, triangles), np.flatnonzero(middle))
     assert np.abs(np.hypot(made[:, 0], made[:, 1]) - 1.0).max() < 1e-4
+
+
+def test_a_ring_between_two_walls_is_flat_again() -> None:
+    """Noise on the end of a thick pipe counts for nothing."""
+    radii = np.concatenate([np.ones(11), np.linspace(0.925, 0.4, 8), np.full(10, 0.4)])
+    heights = np.concatenate([np.linspace(-1.0, 0.0, 11), np.zeros(8), np.linspace(-0.1, -1.0, 10)])
+    points, triangles = turned(radii, heights)
+    top = points[triangles, 2].min(axis=1) == 0.0
+    free = slice(11 * AROUND, 18 * AROUND)
+    points[free, 2] += 0.05 * np.random.default_rng(0).normal(size=7 * AROUND)
+    (made, _), _ = fairing.fair_faces((points, triangles), np.flatnonzero(top))
+    assert np.abs(made[free, 2]).max() < 1e-6
+
+
+def turned(radii: FloatArray, heights: FloatArray) -> tuple[FloatArray, IntArray]:
+    """A surface of revolution, from one end of its profile to the other: vertices, triangles."""
+    angles = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    rings = [[r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)] for r, z in zip(radii, heights, strict=True)]
+    points = np.moveaxis(np.array(rings), 1, 2).reshape(-1, 3)
+    first = np.arange((len(radii) - 1) * AROUND)
+    second = first - first % AROUND + (first + 1) % AROUND
+    halves = [[first, second, second + AROUND], [first, second + AROUND, first + AROUND]]
+    return points, np.concatenate([np.column_stack(corners) for corners in halves])
