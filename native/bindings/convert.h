@@ -84,7 +84,7 @@ struct type_caster<Eigen::MatrixXd> {
 
 // Flags are an array of bool in Python.
 template <typename Scalar, typename InPython>
-struct list_of_numbers {
+struct ListOfNumbers {
     PYBIND11_TYPE_CASTER(std::vector<Scalar>, const_name("numpy.ndarray"));
     bool load(handle source, bool /*convert*/) {
         const auto array = fairing::bindings::numbers<InPython>(source);
@@ -99,9 +99,9 @@ struct list_of_numbers {
     }
 };
 template <>
-struct type_caster<std::vector<int>> : list_of_numbers<int, int> {};
+struct type_caster<std::vector<int>> : ListOfNumbers<int, int> {};
 template <>
-struct type_caster<std::vector<char>> : list_of_numbers<char, bool> {};
+struct type_caster<std::vector<char>> : ListOfNumbers<char, bool> {};
 
 // A row for each.
 template <std::size_t Size>

@@ -42,6 +42,7 @@ public:
     // The edges of the ways from each end to the place where all of them meet; none where they are soft.
     [[nodiscard]] std::set<int> way(const Indices& ends) const {
         std::vector<Tree> trees;
+        trees.reserve(ends.size());
         const bool is_pair = ends.size() == 2;
         for (std::size_t k = 0; k < (is_pair ? 1 : ends.size()); ++k)
             trees.push_back(tree(ends[k], is_pair ? ends[1] : none));

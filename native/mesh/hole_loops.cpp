@@ -207,6 +207,7 @@ std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points
         in_order.emplace(begins, std::move(part));
     }
     std::vector<Indices> result;
+    result.reserve(in_order.size());
     for (auto& [begins, part] : in_order) result.push_back(std::move(part));
     return result;
 }
