@@ -151,7 +151,7 @@ def islands(patch: Patch) -> int:
 
 
 class RepeatedSolve:
-    """Solves one patch for positions and normals that move, or for other options, each time from the last answer."""
+    """Solves one patch for positions and normals that move, each time from the last answer, or for other options."""
 
     def __init__(self, patch: Patch, options: FairOptions, reference: Floats | None = None) -> None:
         """Solve nothing yet; raises MeshRefusal where the patch can't be.

@@ -205,9 +205,8 @@ class Solver:
     def change(self, *, threads: int | None = None, **options: Any) -> None:
         """Give some options of the constructor (all that are not about connectivity) other values.
 
-        The next solve starts from the last answer all the same, which is worth it for another load, λ or tolerance,
-        and often for another equation. Raises what the constructor does, TypeError for other names; nothing has
-        changed then.
+        The next answer is that of a new solver, whatever came before; only what was made of the connectivity is kept.
+        Raises what the constructor does, TypeError for other names; nothing has changed then.
         """
         for name in options:
             if name in _OF_CONNECTIVITY:
