@@ -43,21 +43,6 @@ void bind_meshes(py::module_& module) {
             const MaybePoints& fixed_normals, const Wanted& wanted) {
              return expected_remesh_count({vertices, triangles, fixed, fixed_normals}, to_lengths(wanted));
          });
-    bind(
-        module, "quad_mesh", {"vertices", "triangles", "fixed", "fixed_normals", "progress"},
-        [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles,
-           const MaybeIndices& fixed, const MaybePoints& fixed_normals) {
-            return quad_mesh({vertices, triangles, fixed, fixed_normals}, progress);
-        },
-        [](const QuadMesh& mesh) {
-            const QuadShapes& shapes = mesh.shapes;
-            return py::dict("boundary"_a = mesh.boundary, "quads"_a = mesh.pattern.quads,
-                            "triangles"_a = mesh.pattern.triangles, "vertices"_a = mesh.vertices,
-                            "normals"_a = mesh.normals, "triangle"_a = mesh.triangle, "weights"_a = mesh.weights,
-                            "shapes"_a = py::make_tuple(shapes.angle_error, shapes.size_error, shapes.unfit,
-                                                        shapes.widest, shapes.concave),
-                            "poles"_a = mesh.poles, "least_poles"_a = mesh.least_poles);
-        });
 }
 
 }  // namespace

@@ -100,11 +100,6 @@ public:
           parts_(place_.size(), 0) {
         for (std::size_t k = 0; k < rim.vertices.size(); ++k) place_[rim.vertices[k]] = static_cast<int>(k);
         for (const auto& ends : rim.hard) parts_[ends[0]] = parts_[ends[1]] = 1;
-        UnionFind pieces(static_cast<int>(place_.size()));
-        for (const auto& corners : mesh.whole.colwise()) {
-            for (int c : {1, 2}) pieces.join(corners[0], corners[c]);
-        }
-        for (int v = 0; v < static_cast<int>(place_.size()); ++v) pieces_.push_back(pieces.root(v));
     }
 
     [[nodiscard]] Walls walls() const {
@@ -117,8 +112,9 @@ public:
         std::vector<char> held(place_.size(), 0);
         for (int v : rim_.vertices) held[v] = 1;
         Walls result{{}, closing_surface(mesh_.points, mesh_.whole, held)};
+        const std::vector<Place> places = places_of(loops);
         for (int k = 0; k < size(); ++k)
-            add_film(edges_[k], edges_of_other_loops(k, loops), result.film, means[parts.root(k)]);
+            add_film(edges_[k], way_to_next_loop(places, k), result.film, means[parts.root(k)]);
         std::vector<char> marks(edges_.size(), 0);
         for (int k = 0; k < size(); ++k) marks[k] = is_wall(means[parts.root(k)]) ? 1 : 0;
         UnionFind rows = joined([](int) { return true; }, marks);
@@ -215,27 +211,45 @@ private:
         return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(along(edge))), -inwards.dot(normal));
     }
 
-    // A film between loops has a waist, also where a tube goes on: there the next loop says where the surface goes.
-    void add_film(const Meeting& edge, const Indices& others, const Points& film, Means& means) const {
-        if (others.empty()) {
+    // A film between loops has a waist, also where a tube goes on: there the way to the next loop says where it goes.
+    void add_film(const Meeting& edge, const std::optional<Vector3>& way, const Points& film, Means& means) const {
+        if (!way) {
             means.film += turn(edge, film);
             return;
         }
-        const auto way = [&](int k) -> Vector3 { return middle(edges_[k]) - middle(edge); };
-        const int next = std::ranges::min(others, {}, [&](int k) { return way(k).squaredNorm(); });
         const Vector3 t = along(edge);
-        means.film += turn(edge, direction(way(next) - way(next).dot(t) * t));
+        means.film += turn(edge, direction(*way - way->dot(t) * t));
         means.least = hard_bend;
     }
 
-    // Of the same piece of the patch.
-    [[nodiscard]] Indices edges_of_other_loops(int k, UnionFind& loops) const {
-        Indices result;
-        for (int o = 0; o < size(); ++o) {
-            if (loops.root(o) != loops.root(k) && pieces_[edges_[o].ends[0]] == pieces_[edges_[k].ends[0]])
-                result.push_back(o);
+    // Where an edge is: its loop, its piece of the patch, its middle.
+    struct Place {
+        int loop;
+        int piece;
+        Vector3 middle;
+    };
+
+    [[nodiscard]] std::vector<Place> places_of(UnionFind& loops) const {
+        UnionFind pieces(static_cast<int>(place_.size()));
+        for (const auto& corners : mesh_.whole.colwise()) {
+            for (int c : {1, 2}) pieces.join(corners[0], corners[c]);
         }
-        return result;
+        std::vector<Place> places;
+        places.reserve(edges_.size());
+        for (int k = 0; k < size(); ++k)
+            places.push_back({loops.root(k), pieces.root(edges_[k].ends[0]), middle(edges_[k])});
+        return places;
+    }
+
+    // From the edge to the nearest one of another loop of its piece, if there is one.
+    static std::optional<Vector3> way_to_next_loop(const std::vector<Place>& places, int k) {
+        std::optional<Vector3> way;
+        for (const Place& other : places) {
+            if (other.piece != places[k].piece || other.loop == places[k].loop) continue;
+            const Vector3 there = other.middle - places[k].middle;
+            if (!way || there.squaredNorm() < way->squaredNorm()) way = there;
+        }
+        return way;
     }
 
     // The surroundings cut across the edge: where their first two rows end, from its middle. Faces in a plane are one.
@@ -312,7 +326,6 @@ private:
     std::vector<Meeting> edges_;
     Indices place_;            // of each vertex in rim_.vertices
     std::vector<char> parts_;  // vertices at which a hard edge outside ends
-    Indices pieces_;           // of the patch, by their vertices
 };
 
 }  // namespace

@@ -63,7 +63,6 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "needles": (POINTS, FACES),
     "outer_borders": (POINTS, FACES, LOOP),
     "paired_quads": (POINTS, FACES, NO_EDGES),
-    "quad_mesh": (POINTS, FACES, FIXED, NORMALS[FIXED], None),
     "remesh": (POINTS, FACES, None, None, (NONE, NONE), NO_EDGES, (0.0, 0, False, False), 1, None),
     "rounded_edges": (POINTS, POINTS, FACES, np.arange(COUNT, dtype=np.int32), None),
     "seam_kinks": (POINTS, FACES, FIXED, 1.0),
