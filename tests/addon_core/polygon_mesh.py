@@ -1,7 +1,5 @@
 """Polygon meshes as the add-on reads them: grids, and whatever is listed face by face."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 import numpy as np

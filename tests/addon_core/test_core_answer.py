@@ -1,7 +1,5 @@
 """The add-on's way from a mesh to new positions, on a sphere, whose answer is the sphere."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Means of turns, which keep their lengths, and how many vertex groups a new vertex is in."""
 
-from __future__ import annotations
-
 import numpy as np
 from addon.arrays.harmonic import blended, columns, limited_like
 

@@ -1,7 +1,5 @@
 """Normals along the outline: known ones on planes and spheres, from each source."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which hard edges a fair surface must not take away without a word."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

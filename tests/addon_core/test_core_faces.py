@@ -1,7 +1,5 @@
 """Triangles in pairs: the quads cover what the triangles did, and stay on one side of every border."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Feather: the band around the patch moves less and less, and what is to stay in it does."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Holes: which border a selection stands for, what is carried over new faces, and which surface is refused."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from types import SimpleNamespace
 

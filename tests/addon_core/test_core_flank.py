@@ -1,7 +1,5 @@
 """Outlines on the slope of a bump: on a plane, a ball and a pipe, whose own surfaces bend on as they should."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Holes at which hard edges of the mesh end."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

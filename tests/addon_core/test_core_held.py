@@ -1,7 +1,5 @@
 """Curves and borders of a patch: which vertices hold with a slope that the surface finds."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Loose pieces of faces inside holes: which lie where, and how they are joined."""
 
-from __future__ import annotations
-
 import numpy as np
 from addon.arrays.border import border_loops
 from addon.arrays.region import MeshArrays

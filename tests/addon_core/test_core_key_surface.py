@@ -1,7 +1,5 @@
 """Shape keys over a new surface: one of their own where they bend its outline, otherwise what was carried over."""
 
-from __future__ import annotations
-
 import numpy as np
 from addon.arrays.types import Floats
 from addon.remesh.key_surface import NewSurface, Surroundings, key_surfaces

@@ -1,7 +1,5 @@
 """Which edges a new mesh keeps for the sake of what hangs on them."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A live region on arrays: what it reads, and that its answers are the fair ones for where its surroundings are."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The ways to a live region's surface: which are tried, in which order, and what ends them."""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Pins that pull locally: the rest of the surface is that without pins."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is remembered: the values used last, by what they belong to."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

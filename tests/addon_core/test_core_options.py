@@ -1,7 +1,5 @@
 """Options by name: what is refused, what has no effect, and what the engine gets."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any

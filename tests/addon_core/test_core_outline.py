@@ -1,7 +1,5 @@
 """What is odd about an outline: each note where it belongs, and nowhere else."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What the overlay draws: curvature and normals of a sphere, at its borders too."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Keys of pairs."""
 
-from __future__ import annotations
-
 import numpy as np
 from addon.arrays.places import edge_keys, pair_keys, places_of
 

@@ -1,7 +1,5 @@
 """Where a new surface passes through faces that are no part of it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

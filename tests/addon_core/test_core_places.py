@@ -1,7 +1,5 @@
 """How scripts name faces and vertices."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What is counted about triangles: turned over, flat, distorted; and when crossings are looked for."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Half a mesh with a Mirror modifier: the whole is faired, the half moves."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From faces and a selection to the patch: counted by hand on small meshes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """A patch on a new mesh: the surface, where values come from, lines that stay. On a sphere, whose answer is itself."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

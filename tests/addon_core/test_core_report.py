@@ -1,7 +1,5 @@
 """A run as a verdict and figures, each met, missed or reported, by made-up outcomes."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 

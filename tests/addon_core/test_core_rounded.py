@@ -1,7 +1,5 @@
 """Fillets in quads: what is left of cut faces, and where the corners of new ones take their values from."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from addon.arrays.region import MeshArrays

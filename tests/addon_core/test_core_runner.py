@@ -1,7 +1,5 @@
 """Runs in a thread: progress, cancel, errors."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import threading

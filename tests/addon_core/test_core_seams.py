@@ -1,7 +1,5 @@
 """Doubled vertices inside a selection are an open border that stays: what it holds up must not count as good."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from addon.arrays.region import MeshArrays

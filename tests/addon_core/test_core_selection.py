@@ -1,7 +1,5 @@
 """Selections as people make them: loops that enclose, faces left out, outlines to grow, one side of two."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

@@ -1,7 +1,5 @@
 """Which starts have a shape that is no texture to keep."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

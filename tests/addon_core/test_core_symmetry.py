@@ -1,7 +1,5 @@
 """X mirror: the outline by position, the inside by connectivity."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

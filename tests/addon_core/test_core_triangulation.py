@@ -1,7 +1,5 @@
 """Diagonals: wound as the faces, by connectivity alone, regular where that is possible."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from addon.arrays.triangulation import split_quads, zigzag

@@ -1,7 +1,5 @@
 """Tunnels in a selection: the genus of its pieces, and the sentence on it where a result is not good."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from addon.arrays.types import Ints

@@ -1,7 +1,5 @@
 """UVs of new faces: islands go on by themselves, exactly where the surface is flat, with seams from those around."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from addon.arrays.nearest_source import nearest_sources, owners

@@ -1,7 +1,5 @@
 """What is good, what deserves a look, and what must not be written."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Faces of the selection that are wound against the others count as if they were not."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

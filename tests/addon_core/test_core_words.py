@@ -1,7 +1,5 @@
 """Messages: a key and fields, worded in English and in other languages; those of the engine's errors and warnings."""
 
-from __future__ import annotations
-
 import ast
 import json
 import re

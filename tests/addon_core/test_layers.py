@@ -1,7 +1,5 @@
 """The add-on's modules: what touches Blender stays apart from what doesn't, and nobody imports in a ring."""
 
-from __future__ import annotations
-
 import ast
 from pathlib import Path
 

@@ -3,8 +3,6 @@
 Run in a Blender of its own: some of these end it where they are not set aside.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -5,8 +5,6 @@ called from a window, without `temp_override`, which these tests need. Then no o
 Blender crashes: a gate takes no lock of Python.
 """
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Installs the packaged zip into a scratch Blender once; every test starts from an empty file."""
 
-from __future__ import annotations
-
 import importlib
 import os
 import shutil

@@ -1,7 +1,5 @@
 """The installed extension's modules; imported late, when conftest has installed it."""
 
-from __future__ import annotations
-
 import importlib
 from dataclasses import asdict
 from typing import Any

@@ -3,8 +3,6 @@
 Needs scripts, scripts/studio and scripts/lessons on the path.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import bmesh

@@ -1,7 +1,5 @@
 """A letter on a bent plate, joined by a boolean: triangles without area, edges of no length, faces of many corners."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bmesh

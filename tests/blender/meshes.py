@@ -1,7 +1,5 @@
 """Objects to fair, selections, and the bytes of a mesh."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import product

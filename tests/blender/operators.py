@@ -1,7 +1,5 @@
 """The operators as rows of a table: a scene with its selection in edit mode, and options of three runs."""
 
-from __future__ import annotations
-
 import bmesh
 import bpy
 import numpy as np

@@ -1,7 +1,5 @@
 """Runs a few lines in a Blender of their own, the packaged zip installed: for what would spoil the tests' own one."""
 
-from __future__ import annotations
-
 import os
 import subprocess
 import sys

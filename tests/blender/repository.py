@@ -1,7 +1,5 @@
 """Extension repositories for tests, and what a user does with one, in a Blender of its own."""
 
-from __future__ import annotations
-
 import http.server
 import io
 import os

@@ -1,7 +1,5 @@
 """What can't be written to one object is written to none, whatever goes wrong on the way: every bit stays."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

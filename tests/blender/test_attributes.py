@@ -1,7 +1,5 @@
 """Attributes of every type on every domain survive, keep their values outside, and get sensible ones inside."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

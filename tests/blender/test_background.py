@@ -1,7 +1,5 @@
 """Objects faired in a thread, and what the redo panel answers from. The events around it are for the GUI tests."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy
@@ -10,10 +8,6 @@ import pytest
 
 import meshes
 from extension import module
-
-
-def run(work: Any) -> Any:
-    return module("run.runner").Run(work)
 
 
 def tasks_of(obj: Any, faces: Any) -> tuple[Any, Any]:
@@ -73,30 +67,3 @@ def test_factor_is_answered_from_memory_with_the_same_bits() -> None:
     asked.clear()
     job.solve(moved, half, progress)
     assert asked  # another space is another problem
-
-
-def test_redo_with_other_options_has_the_answer_from_scratch(monkeypatch: pytest.MonkeyPatch) -> None:
-    """After a run in the background, whatever came before."""
-    job, options = module("run.job"), module("options.options").FairOptions
-    asked = options.engine_arguments
-    monkeypatch.setattr(options, "engine_arguments", lambda chosen: {**asked(chosen), "tolerance": 1e-9})
-    obj, faces = meshes.domed_grid()
-    meshes.enter(obj, faces)
-    tasks = job.read(bpy.context, options())
-    silent: Any = lambda fraction, stage: True  # noqa: E731
-    for changed in (
-        {"boundary_normals": "AVERAGE"},
-        {"bulge": 0.3},
-        {"bulge": 0.35},
-        {"shape": "MINIMAL_ENERGY"},
-        {"inner_fairness": "CONFORMAL"},
-        {},
-    ):
-        job.memory.clear()
-        (scratch,) = job.solve(tasks, options(**changed), silent)
-        job.memory.clear()
-        job.solve(tasks, options(), silent, ahead=True)
-        job.memory.clear("answer")  # not the solver, which has the last one
-        (again,) = job.solve(tasks, options(**changed), silent)
-        np.testing.assert_allclose(again.positions, scratch.positions, atol=1e-9)
-    job.memory.clear()

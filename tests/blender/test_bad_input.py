@@ -4,57 +4,12 @@ Refused: the mesh keeps every bit, no undo step is added, the elements in questi
 the free vertices keep every bit, what is odd is reported.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import Any
 
 import bpy
 import numpy as np
-import pytest
 
 import meshes
-
-
-def without_selection(contents: dict[str, bytes]) -> dict[str, bytes]:
-    return {key: value for key, value in contents.items() if "select" not in key}
-
-
-def chosen(name: str) -> list[int]:
-    meshes.leave()
-    found = [v.index for v in bpy.data.objects[name].data.vertices if v.select]
-    bpy.ops.object.mode_set(mode="EDIT")
-    return found
-
-
-@contextmanager
-def no_step_added(obj: bpy.types.Object, moving: Any, faces: Any) -> Iterator[dict[str, bytes]]:
-    """Give the contents after a move, `faces` selected; see that an undo afterwards takes back the move."""
-    name = obj.name
-    meshes.enter(obj, moving)
-    bpy.ops.ed.undo_push(message="first")
-    first = meshes.contents_in_edit_mode(name)
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.25))
-    meshes.leave()
-    meshes.enter(obj, faces)
-    bpy.ops.ed.undo_push(message="second")
-    second = meshes.contents_in_edit_mode(name)
-    assert first["POINT position"] != second["POINT position"]
-    yield second
-    bpy.ops.ed.undo()
-    assert meshes.contents_in_edit_mode(name)["POINT position"] == first["POINT position"]
-    meshes.leave()
-
-
-def refusal(obj: bpy.types.Object, faces: Any, **properties: Any) -> tuple[str, list[int]]:
-    """Run what is refused, see that it leaves no trace; return the message and the vertices selected by it."""
-    name = obj.name
-    with no_step_added(obj, faces, faces) as before:
-        with pytest.raises(RuntimeError) as caught:
-            meshes.run(**properties)
-        assert without_selection(meshes.contents_in_edit_mode(name)) == without_selection(before)
-        return str(caught.value), chosen(name)
 
 
 def solved(obj: bpy.types.Object, faces: Any, free: Any = None, **properties: Any) -> str:
@@ -66,18 +21,6 @@ def solved(obj: bpy.types.Object, faces: Any, free: Any = None, **properties: An
     assert moved.any()
     assert np.isfinite(meshes.positions(obj)[moved]).all()
     return str(meshes.report().warnings)
-
-
-def test_a_fin_in_the_selection_is_refused() -> None:
-    obj, _ = meshes.domed_grid()
-    with meshes.rebuilt(obj) as bm:
-        a, b = min(bm.edges, key=lambda edge: sum(v.co.xy.length for v in edge.verts)).verts
-        bm.faces.new((a, b, bm.verts.new((a.co + b.co) / 2.0 + (b.co - a.co).orthogonal())))
-        edge = a.index, b.index
-    # Those that stand on the selection are selected, too.
-    text, selected = refusal(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
-    assert "More than two faces meet at the edge" in text
-    assert selected == sorted(edge)
 
 
 def test_a_closed_component_beside_others_is_left_alone() -> None:
@@ -95,17 +38,6 @@ def test_a_closed_component_beside_others_is_left_alone() -> None:
     free[:count] = meshes.free_vertices(clean, faces)
     assert "A closed part of the selection has nothing to hold it" in solved(obj, everything, free)
     np.testing.assert_allclose(meshes.positions(obj)[:count], meshes.positions(clean), atol=1e-6)
-
-
-@pytest.mark.parametrize("count", [0, 1, 2])
-def test_nothing_to_move_adds_no_undo_step(count: int) -> None:
-    obj, faces = meshes.domed_grid()
-    few = np.zeros_like(faces)
-    few[:count] = True
-    name = obj.name
-    with no_step_added(obj, faces, few) as before:
-        assert meshes.run() == {"CANCELLED"}
-        assert meshes.contents_in_edit_mode(name) == before
 
 
 def test_infinity_elsewhere() -> None:

@@ -1,13 +1,11 @@
 """*Curvature Group*: parts of the selection's boundary along which the curvature outside is continued, too."""
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 import pytest
 
 import meshes
-from extension import inspect, module
+from extension import inspect
 from test_position_group import put
 
 ASPECT = 1.6  # of an egg, which is no harmonic surface
@@ -47,18 +45,6 @@ def test_the_curvature_is_continued_along_the_group_alone() -> None:
     assert abs(parted[below].mean() - tangent[below].mean()) < abs(curved[below].mean() - tangent[below].mean())
 
 
-def test_all_of_the_boundary_is_curvature_for_all() -> None:
-    everywhere = np.array([1.0, 0.0, 0.0])
-    np.testing.assert_array_equal(
-        faired(everywhere, continuity="G2", continuity_group="Loose")[1], faired(None, continuity="G2")[1]
-    )
-
-
-def test_a_part_that_is_tangent_as_asked_is_not_reported() -> None:
-    faired(np.array([0.0, 0.0, 1.0]), continuity="G2", continuity_group="Loose")
-    assert (meshes.report().verdict, meshes.report().warnings) == ("GOOD", "")
-
-
 @pytest.mark.parametrize("remesh", [False, True])
 def test_a_group_off_the_boundary_says_so_and_the_join_is_tangent(remesh: bool) -> None:
     obj, faces, free = rough_egg()
@@ -68,8 +54,3 @@ def test_a_group_off_the_boundary_says_so_and_the_join_is_tangent(remesh: bool) 
     assert meshes.fair(obj, faces, continuity="G2", continuity_group="Loose", remesh=remesh) == {"FINISHED"}
     if not remesh:
         np.testing.assert_array_equal(meshes.positions(obj)[free], faired(None)[1])
-
-
-def test_a_band_has_no_effect_beside_it() -> None:
-    options = module("options.options").FairOptions
-    assert options(continuity="G2", continuity_group="Loose", falloff=0.1).idle == ("falloff",)

@@ -1,7 +1,5 @@
 """Fair Denoise in Blender: roughness goes, the shape, borders and sharp edges stay, and nothing else moves."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bmesh

@@ -1,12 +1,9 @@
 """The examples of the documentation run as they stand there."""
 
-from __future__ import annotations
-
 import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
 import bpy
 import numpy as np
@@ -61,35 +58,6 @@ def test_example_of_the_readme(capsys: pytest.CaptureFixture[str]) -> None:
     exec(compile(code, "README", "exec"), {})
     assert any(line.startswith("True") for line in capsys.readouterr().out.splitlines())
     assert np.abs(np.linalg.norm(meshes.positions(bpy.context.object), axis=1) - 1).max() < 1e-5
-
-
-def test_no_example_selects_in_object_mode() -> None:
-    """What is selected there Blender may replace on the way to edit mode."""
-    assert [code for parameter in EXAMPLES for code in parameter.values if ".select = " in code] == []
-
-
-def visible() -> list[Any]:
-    """Return the options that are offered."""
-    found = bpy.ops.mesh.fair_region.get_rna_type().properties
-    return [option for option in found if option.identifier != "rna_type" and not option.is_hidden]
-
-
-def test_every_option_is_explained() -> None:
-    page = (DOCS / "options.md").read_text()
-    assert [option.name for option in visible() if f"| *{option.name}* `{option.identifier}` |" not in page] == []
-
-
-def test_every_choice_is_explained() -> None:
-    page = (DOCS / "options.md").read_text()
-    for option in visible():
-        if option.type == "ENUM":
-            assert [i.name for i in option.enum_items if f"`{i.identifier}` *{i.name}*" not in page] == []
-
-
-def test_command_is_documented() -> None:
-    text = (DOCS / "blender.md").read_text()
-    assert "--command fair" in text
-    assert "--report json" in text
 
 
 def test_page_of_options_is_that_of_the_list() -> None:

@@ -1,7 +1,5 @@
 """Runs that something else ends: another file, undo, the end of the object, of the extension, of Blender."""
 
-from __future__ import annotations
-
 import threading
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Fair Fill in Blender: the surface over a hole, what belongs to its faces, and what is left as it was."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -186,29 +184,6 @@ def test_two_rims_are_bridged_or_capped() -> None:
     assert meshes.positions(capped)[:, 2].max() > 1.5
 
 
-def refused(text: str, **properties: Any) -> None:
-    """The operator must refuse with these words and change nothing."""
-    obj = bpy.context.edit_object
-    meshes.leave()
-    before = {key: data for key, data in meshes.contents(obj).items() if ".select" not in key}
-    bpy.ops.object.mode_set(mode="EDIT")
-    with pytest.raises(RuntimeError, match=text):
-        fill(**properties)
-    meshes.leave()
-    assert {key: data for key, data in meshes.contents(obj).items() if ".select" not in key} == before
-
-
-def test_a_surface_through_the_mesh_is_written_on_demand_only() -> None:
-    obj = pierced()
-    old = len(obj.data.polygons)
-    select_vertices(obj, lambda co: co.length > 0.9 and co.z < 1.5)
-    refused("through others.*Nothing was changed")
-    select_vertices(obj, lambda co: 0.9 < co.length < 1.1)
-    assert fill(allow_folds=True) == {"FINISHED"}
-    meshes.leave()
-    assert len(obj.data.polygons) > old
-
-
 def test_live_region_does_not_grow() -> None:
     obj = open_sphere()
     layer = obj.data.attributes.new("fair_live", "INT", "FACE")
@@ -243,29 +218,6 @@ def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:
     np.testing.assert_allclose(normals[:old], [(0.0, 0.6, 0.8)] * old, atol=0.02)  # kept as angles
     centres = np.array([polygon.normal[:] for polygon in obj.data.polygons for _ in polygon.loop_indices])
     assert ((normals[old:] * centres[old:]).sum(axis=1) > 0.8).all()
-
-
-def test_a_script_fills_without_edit_mode() -> None:
-    obj = open_sphere(lambda c: abs(c.z) > 0.8)
-    dress(obj)
-    before, old = len(obj.data.polygons), len(obj.data.vertices)
-    upper = [v.index for v in obj.data.vertices if v.co.z > 0.5]
-    (result,) = module().fill_mesh(obj.data, upper)
-    assert result.converged
-    assert len(obj.data.polygons) == before + len(result.triangles)
-    assert border_edges(obj) == 40
-    keys = obj.data.shape_keys.key_blocks
-    basis, wide = (np.array([point.co[:] for point in keys[name].data]) for name in ("Basis", "Wide"))
-    np.testing.assert_array_equal(basis, meshes.positions(obj))
-    offsets = (wide - basis)[:, 2]
-    np.testing.assert_allclose(offsets[:old], 0.25, atol=1e-5)
-    np.testing.assert_allclose(offsets[old:], 0.25, atol=0.05)  # a surface of its own, over twice as wide a hole
-    assert len(module().fill_mesh(obj.data)) == 1
-    assert border_edges(obj) == 0
-    with pytest.raises(ValueError, match="no border"):
-        module().fill_mesh(obj.data)
-    with pytest.raises(IndexError):
-        module().fill_mesh(obj.data, [10**6])
 
 
 def pierced() -> bpy.types.Object:
@@ -307,42 +259,3 @@ def test_a_surface_that_is_not_usable_is_reported_to_scripts(tmp_path: Any) -> N
     assert not target.exists()
     assert module("run.cli").execute([*given, "--allow-folds"]) == 1
     assert target.exists()
-
-
-def test_operator_has_the_documented_properties() -> None:
-    found = [p for p in bpy.ops.mesh.fair_fill.get_rna_type().properties if p.identifier != "rna_type"]
-    assert {p.identifier: p.default for p in found if not p.is_hidden} == {
-        "shape": "AUTOMATIC", "continuity": "G1", "bridge": False, "spacing": 1.0,
-        "quads": False, "longest": 0, "longest_length": 0.0, "allow_folds": False, "run_on": True, "islands": False,
-    }  # fmt: skip
-    assert not any(p.is_hidden for p in found)
-    assert all(p.description for p in found)
-
-
-def corner_counts(obj: bpy.types.Object) -> list[int]:
-    """Of the selected polygons."""
-    return [len(polygon.vertices) for polygon in obj.data.polygons if polygon.select]
-
-
-def test_quads_carry_what_triangles_do() -> None:
-    obj = open_sphere()
-    dress(obj)
-    assert fill_hole(obj, quads=True) == {"FINISHED"}
-    counts = corner_counts(obj)
-    assert counts.count(4) > 0.9 * len(counts)
-    assert border_edges(obj) == 0
-    heat = np.array([item.value for item in obj.data.attributes["heat"].data])
-    sets, numbers = obj.data.attributes[".sculpt_face_set"].data, obj.data.attributes["number"].data
-    for polygon in obj.data.polygons:
-        assert (polygon.material_index, polygon.use_smooth, sets[polygon.index].value) == (1, True, 7)
-        assert {numbers[corner].value for corner in polygon.loop_indices} == {5}
-        for corner in polygon.loop_indices:
-            u = obj.data.uv_layers["Map"].uv[corner].vector[0]
-            assert u == pytest.approx(0.5 + 0.4 * heat[obj.data.loops[corner].vertex_index], abs=1e-5)
-    report = bpy.context.window_manager.fairing_report
-    assert {c.name: c.value for c in report.checks}["New faces"] == str(len(counts))
-    triangles = open_sphere()
-    dress(triangles)
-    distortion = report.distortion
-    assert fill_hole(triangles) == {"FINISHED"}
-    assert distortion == pytest.approx(bpy.context.window_manager.fairing_report.distortion, rel=0.05)

@@ -1,14 +1,11 @@
 """Fair Fill over hard edges: they run on, drawn edges are taken, marks go on."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
 import bpy
 import numpy as np
-import pytest
 
 import meshes
 from extension import module
@@ -108,44 +105,3 @@ def test_other_keys_carry_the_edge_along() -> None:
     lifted = up - base
     assert np.abs(lifted[:, :2]).max() < 1e-6
     assert np.abs(lifted[:, 2] - 1.0 - 0.3 * base[:, 1]).max() < 1e-2
-
-
-def test_drawn_edges_that_cross_are_refused_and_named() -> None:
-    """Nothing is written; the error names the vertices, in words for the artist."""
-    obj = box_edge(wire=[(0.0, 0.5, 0.0)])
-    mesh = obj.data
-    rim = [v.index for v in mesh.vertices if abs(v.co.y - 0.5) < 0.26 and max(abs(v.co.x), abs(v.co.z)) < 0.26]
-    a = min(rim, key=lambda v: mesh.vertices[v].co.x)
-    b = min(rim, key=lambda v: mesh.vertices[v].co.z)
-    mesh.edges.add(1)
-    mesh.edges[len(mesh.edges) - 1].vertices = (a, b)
-    before = meshes.contents(obj)
-    with pytest.raises(ValueError, match="Edges that were drawn across the hole cross each other") as caught:
-        fill(obj)
-    assert {a, b} <= set(np.asarray(caught.value.elements).tolist())
-    assert meshes.contents(obj) == before
-
-
-def test_a_bevel_runs_on_and_the_report_tells() -> None:
-    """Five rows of a quarter circle of radius .15, off it by less than a tenth."""
-    rows, radius = 5, 0.15
-    s = np.concatenate([np.linspace(-1, 0, 13)[:-1], np.linspace(0, 1, rows + 1)[:-1], np.linspace(1, 2, 13)])
-    s, t = np.meshgrid(s, np.arange(25) / 24 - 0.5, indexing="ij")
-    angle = np.clip(s, 0, 1) * np.pi / 2
-    x, z = radius * (np.sin(angle) - 1) + np.minimum(s, 0), radius * (np.cos(angle) - 1) - np.maximum(s - 1, 0)
-    number = np.arange(s.size).reshape(s.shape)
-    quads = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=-1).reshape(-1, 4)
-    points = np.column_stack([x.ravel(), t.ravel(), z.ravel()])
-    centre = np.array([-0.04, 0.0, -0.04])
-    kept = quads[np.linalg.norm(points[quads].mean(axis=1) - centre, axis=1) > 0.36]
-    used, kept = np.unique(kept, return_inverse=True)
-    obj = meshes.add(points[used].tolist(), kept.reshape(-1, 4).tolist(), "Bevel")
-    count = len(obj.data.vertices)
-    rim = [v.index for v in obj.data.vertices if np.linalg.norm(v.co[:] - centre) < 0.4]
-    (result,) = module().fill_mesh(obj.data, rim)
-    assert len(result.bands) == 1
-    new = np.array([v.co[:] for v in obj.data.vertices])[count:]
-    out, high = new[:, 0] + radius, new[:, 2] + radius
-    rolled = np.abs(np.hypot(out, high) - radius)
-    off = np.where((out > 0) & (high > 0), rolled, np.minimum(np.abs(new[:, 0]), np.abs(new[:, 2])))
-    assert off.max() < 0.1 * radius

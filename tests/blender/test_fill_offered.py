@@ -1,7 +1,5 @@
 """Where Fair Fill is offered, what its redo panel has, and what scripts and commands ask of it and of new meshes."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from types import SimpleNamespace
 from typing import Any

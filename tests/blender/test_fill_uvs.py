@@ -1,7 +1,5 @@
 """Fair Fill over seams of UVs: each island goes on by itself, with its scale and its turn; seams go on with it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

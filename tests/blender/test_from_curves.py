@@ -1,7 +1,5 @@
 """Fair From Curves in Blender: faces over edges that have none, and nothing else about the mesh changes."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Any
 
@@ -95,16 +93,6 @@ def test_openings_stay_or_are_filled() -> None:
         assert sum(not edge.smooth for edge in bm.edges) == 64  # the rims
 
 
-def test_spacing_and_quads() -> None:
-    plain, fine, quads = (wired(circles()) for _ in range(3))
-    run(plain)
-    run(fine, spacing=0.5)
-    run(quads, quads=True)
-    assert len(fine.data.polygons) > 2 * len(plain.data.polygons)
-    assert len(quads.data.polygons) < 0.6 * len(plain.data.polygons)
-    assert np.abs(radii(quads) - 1.0).max() < 1e-5
-
-
 def test_edges_marked_sharp_are_creases() -> None:
     """A roof of two planes."""
     ridge = [(0.0, 0.25 * k, 1.0) for k in range(9)]
@@ -118,35 +106,6 @@ def test_edges_marked_sharp_are_creases() -> None:
     assert run(obj) == {"FINISHED"}
     x, _, z = meshes.positions(obj).T
     assert np.abs(z - 1.0 + np.abs(x)).max() < 1e-5
-
-
-def test_what_belongs_to_vertices_is_carried_over() -> None:
-    obj = wired(circles())
-    group = obj.vertex_groups.new(name="Half")
-    for vertex in obj.data.vertices:
-        group.add([vertex.index], 0.5 + 0.4 * vertex.co.x, "REPLACE")
-    obj.data.materials.append(bpy.data.materials.new("First"))
-    obj.data.materials.append(bpy.data.materials.new("Second"))
-    obj.active_material_index = 1
-    obj.shape_key_add(name="Basis")
-    obj.shape_key_add(name="Up").data.foreach_set("co", (meshes.positions(obj) + np.array([0.0, 0.0, 1.0])).ravel())
-    assert run(obj) == {"FINISHED"}
-    weights = [vertex.groups[0].weight for vertex in obj.data.vertices]
-    assert np.corrcoef(weights, meshes.positions(obj)[:, 0])[0, 1] > 0.98
-    assert {polygon.material_index for polygon in obj.data.polygons} == {1}
-    up = np.empty(3 * len(obj.data.vertices), dtype=np.float32)
-    obj.data.shape_keys.key_blocks["Up"].data.foreach_get("co", up)
-    assert up.reshape(-1, 3) - meshes.positions(obj) == pytest.approx(np.tile([0.0, 0.0, 1.0], (len(up) // 3, 1)))
-
-
-def test_faces_beside_and_wires_that_are_not_selected_stay() -> None:
-    obj = wired([*circles(), [(3.0, 0.0, 0.0), (4.0, 0.0, 0.0)]])
-    with meshes.rebuilt(obj) as bm:
-        bm.faces.new([bm.verts.new(p) for p in ((5.0, 0.0, 0.0), (6.0, 0.0, 0.0), (5.0, 1.0, 0.0))])
-    assert run(obj, lambda edge: all(v.co.x < 2.0 for v in edge.verts) or edge.verts[0].co.x > 4.5) == {"FINISHED"}
-    with meshes.rebuilt(obj, write=False) as bm:
-        assert sum(edge.is_wire for edge in bm.edges) == 1
-        assert sum(face.calc_center_median().x > 4.0 for face in bm.faces) == 1
 
 
 @pytest.mark.parametrize("wrong", ["no edge", "open end", "crossing"])
@@ -191,4 +150,3 @@ def test_fair_fill_says_what_is_for_wires() -> None:
     bpy.ops.mesh.select_all(action="SELECT")
     with pytest.raises(RuntimeError, match="Fair From Curves"):
         bpy.ops.mesh.fair_fill("EXEC_DEFAULT", True)
-    meshes.leave()

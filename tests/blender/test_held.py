@@ -1,7 +1,5 @@
 """What holds inside a selection: creases, smooth curves, pins with a radius, open borders."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import Any
 
@@ -97,28 +95,6 @@ def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
     assert len(sharp) == marked
     assert np.sort(np.abs(points[np.unique(sharp)]), axis=1)[:, 1].max() < 1e-6
     assert off_box(points) < 1e-5
-
-
-def test_dented_edges_may_stay_and_half_a_factor_goes_half_way() -> None:
-    """By default they move, with Factor one half half of the way; marks that end inside are held for their angle."""
-    results = {}
-    for name, options in {"held": {"fair_pinned_edges": False}, "half": {"factor": 0.5}, "fair": {}}.items():
-        obj, faces = box()
-        on_edge = np.isclose(meshes.positions(obj), 0.0).sum(axis=1) >= 2
-        before = bumpy(obj, meshes.free_vertices(obj, faces))
-        meshes.fair(obj, faces, **options)
-        results[name] = meshes.positions(obj)[on_edge], before[on_edge]
-    assert results["held"][0].tobytes() == results["held"][1].tobytes()
-    half = 0.5 * (results["fair"][0] + results["fair"][1])
-    assert np.abs(results["half"][0] - half).max() < 1e-6
-    obj, faces = box()
-    for edge in obj.data.edges:
-        ends = [obj.data.vertices[v].co for v in edge.vertices]
-        edge.use_edge_sharp = edge.use_edge_sharp and max(abs(x) for end in ends for x in end) < 0.35
-    before = bumpy(obj, meshes.free_vertices(obj, faces))
-    meshes.fair(obj, faces)
-    assert off_box(meshes.positions(obj)) < 1e-6
-    assert "though not marked" in meshes.report().warnings
 
 
 @pytest.mark.parametrize("border", ["HELD", "FAIRED"])

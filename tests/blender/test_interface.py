@@ -1,7 +1,5 @@
 """Operator, menus, scripts and command as users meet them."""
 
-from __future__ import annotations
-
 import json
 from dataclasses import asdict
 from pathlib import Path
@@ -12,57 +10,31 @@ import numpy as np
 import pytest
 
 import meshes
-
-DEFAULTS = {
-    "factor": 1.0,
-    "shape": "AUTOMATIC",
-    "bulge": 0.0,
-    "continuity": "G1",
-    "boundary_normals": "AUTOMATIC",
-    "remesh": False,
-    "inner_fairness": "AUTOMATIC",
-    "spacing": 1.0,
-    "quads": False,
-    "detail": 0.0,
-    "falloff": 0.0,
-    "smooth_boundary": False,
-    "vertex_group": "",
-    "continuity_group": "",
-    "use_mask": False,
-    "all_keys": False,
-    "pin_group": "",
-    "pin_radius": 0.1,
-    "pin_edges": "AUTOMATIC",
-    "fair_pinned_edges": True,
-    "pin_slope": "AUTOMATIC",
-    "fair_open_borders": False,
-    "fallback": True,
-    "allow_folds": False,
-}
-CHOICES = {
-    "shape": ["AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY", "LEAST_VARIATION"],
-    "inner_fairness": ["AUTOMATIC", "UNIFORM", "CONFORMAL", "INVERSE_DISTANCE", "SHAPE_PRESERVING"],
-    "boundary_normals": ["AUTOMATIC", "SURROUNDING", "INSIDE", "AVERAGE", "CUSTOM"],
-    "continuity": ["G0", "G1", "G2"],
-    "pin_edges": ["AUTOMATIC", "NONE", "SHARP", "SEAM", "CREASE"],
-    "pin_slope": ["AUTOMATIC", "CREASE", "SMOOTH", "AVERAGE"],
-}
+from extension import module
 
 
-def properties() -> Any:
-    return bpy.ops.mesh.fair_region.get_rna_type().properties
+def properties(operator: str) -> Any:
+    return getattr(bpy.ops.mesh, operator).get_rna_type().properties
 
 
-def test_operator_has_the_documented_properties() -> None:
-    found = {p.identifier: p for p in properties() if p.identifier != "rna_type"}
-    assert found.keys() == DEFAULTS.keys()
-    for name, default in DEFAULTS.items():
+@pytest.mark.parametrize(
+    ("operator", "home", "options"),
+    [
+        ("fair_region", "options", "FairOptions"),
+        ("fair_fill", "other_options", "FillOptions"),
+        ("fair_fillet", "other_options", "FilletOptions"),
+    ],
+)
+def test_operators_and_scripts_have_the_same_options(operator: str, home: str, options: str) -> None:
+    """With the same defaults; docs/options.md, which test_documentation.py compares, has them as people read them."""
+    of = getattr(module(f"options.{home}"), options)
+    found = {p.identifier: p for p in properties(operator) if p.identifier in asdict(of())}
+    for name, default in asdict(of()).items():
         assert found[name].default == pytest.approx(default)
         assert found[name].description
         assert not found[name].is_hidden
         assert found[name].is_skip_save  # each click begins with the defaults
-    for name, choices in CHOICES.items():
-        assert [item.identifier for item in found[name].enum_items] == choices
+    assert of.named({}) == of()
 
 
 def test_poll_says_why() -> None:
@@ -83,41 +55,6 @@ def test_every_button_says_that_it_needs_edit_mode(name: str) -> None:
     assert not operator.poll()
     with pytest.raises(RuntimeError, match="edit mode"):
         operator()
-
-
-def test_fair_mesh_is_the_operator() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces = meshes.domed_grid()
-    obj.scale = (1.0, 2.0, 1.0)
-    meshes.fair(obj, faces)
-    scripted, _ = meshes.domed_grid()
-    indices = np.flatnonzero(faces)
-    result = fair_mesh(scripted.data, indices, matrix=obj.matrix_world)
-    assert meshes.positions(scripted).tobytes() == meshes.positions(obj).tobytes()
-    patch = np.unique([v for i in indices for v in obj.data.polygons[i].vertices])
-    world = meshes.positions(obj)[patch] * (1.0, 2.0, 1.0)
-    np.testing.assert_allclose(result.vertices, world, atol=1e-6)
-    assert result.converged
-
-
-def test_fair_mesh_keeps_every_other_bit() -> None:
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    obj, faces = meshes.domed_grid()
-    for name in ("Basis", "Smile"):
-        obj.shape_key_add(name=name)
-    before = meshes.in_edit_mode_once(obj, faces)
-    fair_mesh(obj.data, np.flatnonzero(faces))
-    after = meshes.contents(obj)
-    free = meshes.free_vertices(obj, faces)
-    for name in ("POINT position", "key Basis", "key Smile"):
-        old, new = (np.frombuffer(c[name], np.uint32).reshape(-1, 3) for c in (before, after))
-        np.testing.assert_array_equal((old != new).any(axis=1), free)
-    assert [k for k in before if k.startswith((".", "CORNER", "EDGE", "FACE")) and before[k] != after[k]] == []
-    meshes.edit(obj)  # the positions survive edit mode, keys and all
-    meshes.leave()
-    assert meshes.contents(obj)["POINT position"] == after["POINT position"]
 
 
 @pytest.mark.parametrize("named", [False, True])
@@ -166,13 +103,6 @@ def test_fair_mesh_refuses() -> None:
         fair_mesh(obj.data, indices)
 
 
-def test_fair_mesh_has_the_operators_defaults() -> None:
-    from bl_ext.user_default.intrinsic_fairing.options import options
-
-    assert options.FairOptions.named({}) == options.FairOptions()
-    assert asdict(options.FairOptions()) == DEFAULTS
-
-
 def command(*arguments: str) -> int:
     from bl_ext.user_default.intrinsic_fairing.run import cli
 
@@ -186,16 +116,7 @@ def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     obj.vertex_groups.new(name="Region").add(sorted(inside), 1.0, "REPLACE")
     output = tmp_path / "fair.blend"
     status = command(
-        "--object",
-        "Grid",
-        "--vertex-group",
-        "Region",
-        "--output",
-        str(output),
-        "--report",
-        "json",
-        "--factor",
-        "0.5",
+        "--object", "Grid", "--vertex-group", "Region", "--output", str(output), "--report", "json", "--factor", "0.5"
     )
     assert status == 0
     lines = capsys.readouterr().out.splitlines()

@@ -1,7 +1,5 @@
 """Shape keys: all of them in one run, and a verdict on what is shown."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy
@@ -49,6 +47,15 @@ def test_all_keys_are_faired_each_from_its_own_surroundings() -> None:
     tilted = heights(obj, "Tilted")
     assert np.abs(tilted[:, 2] - 0.4 * tilted[:, 0]).max() < 0.01
     assert np.abs(heights(obj, "Lifted") - heights(obj, "Basis") - [0.0, 0.0, 0.3]).max() < 1e-6
+
+
+def test_a_key_that_is_active_moves_alone() -> None:
+    obj, faces = keyed()
+    obj.active_shape_key_index = 1
+    before = {key.name: heights(obj, key.name) for key in obj.data.shape_keys.key_blocks}
+    meshes.fair(obj, faces)
+    moved = {name for name, there in before.items() if (heights(obj, name) != there).any()}
+    assert moved == {"High"}
 
 
 def test_without_it_keys_follow_the_basis() -> None:

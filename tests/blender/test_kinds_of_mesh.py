@@ -1,7 +1,5 @@
 """Modifiers, multiresolution, open borders, mixed faces: the base mesh is faired, the rest stays."""
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 import pytest
@@ -34,18 +32,6 @@ def test_multiresolution_detail_stays() -> None:
     far = np.abs(before[:, :2]).max(axis=1) > 0.99
     assert changed.any()
     assert not changed[far].any()
-
-
-def test_open_border_stays() -> None:
-    obj, _ = meshes.domed_grid()
-    before = meshes.positions(obj)
-    everything = np.ones(len(obj.data.polygons), dtype=bool)
-    assert meshes.fair(obj, everything) == {"FINISHED"}
-    after = meshes.positions(obj)
-    border = np.isclose(np.abs(meshes.grid_points()[:, :2]).max(axis=1), 1.0)
-    assert after[border].tobytes() == before[border].tobytes()
-    assert (after[~border] != before[~border]).any(axis=1).all()
-    assert f"{border.sum()} border vertices have no faces outside" in meshes.report().warnings
 
 
 def test_selection_and_modes_stay() -> None:

@@ -3,8 +3,6 @@
 What is refused, cancelled or undone leaves the mesh as it was, to the bit; what lies outside is not touched.
 """
 
-from __future__ import annotations
-
 import re
 import threading
 from collections.abc import Callable, Iterator
@@ -414,7 +412,8 @@ def test_a_script_is_the_operator(kind: Kind) -> None:
     np.testing.assert_allclose(meshes.positions(obj), expected[0], atol=1e-6)
 
 
-def test_scripts_refuse_what_is_linked(kind: Kind, tmp_path: Any) -> None:
+@pytest.mark.parametrize("overridden", [False, True])
+def test_scripts_refuse_what_is_linked(kind: Kind, overridden: bool, tmp_path: Any) -> None:
     if kind.operator not in SCRIPTS:
         pytest.skip("scripts have none")
     name = begun(kind).name
@@ -425,6 +424,10 @@ def test_scripts_refuse_what_is_linked(kind: Kind, tmp_path: Any) -> None:
     with bpy.data.libraries.load(path, link=True) as (_, wanted):
         wanted.objects = [name]
     obj = bpy.data.objects[name]
+    if overridden:
+        bpy.context.collection.objects.link(obj)
+        obj = obj.override_create(remap_local_usages=True)
+        obj.data.override_create(remap_local_usages=True)
     before = meshes.contents(obj)
     with pytest.raises(ValueError, match="linked from another file"):
         scripted(obj, kind)

@@ -1,7 +1,5 @@
 """Fair Masked on levels of a Multiresolution modifier, and with dynamic topology."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import bpy
@@ -84,21 +82,6 @@ def test_the_level_that_is_seen_is_faired(source: str, level: int) -> None:
     report = meshes.report()
     assert report.written
     assert report.verdict == "GOOD"
-
-
-def test_the_answer_is_that_of_the_same_mesh_without_levels() -> None:
-    obj = bumpy()
-    obj.modifiers[0].levels = obj.modifiers[0].sculpt_levels = LEVELS - 1
-    applied = obj.copy()
-    with module("mesh.levels").at_level(obj, LEVELS - 1) as shown:
-        applied.data = shown.data.copy()
-    applied.modifiers.clear()
-    bpy.context.scene.collection.objects.link(applied)
-    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="FACE_SET", face_set=7) == {"FINISHED"}
-    bpy.context.view_layer.objects.active = applied
-    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="FACE_SET", face_set=7) == {"FINISHED"}
-    # One shot would lie ten times as far off: Blender smooths what it carries up to the finest level.
-    np.testing.assert_allclose(at(obj, LEVELS - 1), meshes.positions(applied), atol=1e-3)
 
 
 def test_undo_of_a_level() -> None:

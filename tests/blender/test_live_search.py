@@ -3,8 +3,6 @@
 A background process would wait for a search; these tests look at it as a window does, at every tick.
 """
 
-from __future__ import annotations
-
 import threading
 import time
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """*Live Region* while its first surface takes long: Blender goes on, and nothing changes before it is there."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """What Blender shows where the native module doesn't load: in a process of its own, as nobody can load it again."""
 
-from __future__ import annotations
-
 import platform
 from pathlib import Path
 

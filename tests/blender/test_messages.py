@@ -1,7 +1,5 @@
 """What is said to the user: nothing in silence, nothing twice, and one of a kind in the singular."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

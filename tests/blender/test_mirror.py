@@ -1,7 +1,5 @@
 """X mirror: a symmetric selection gives an exactly symmetric result."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bmesh

@@ -1,7 +1,5 @@
 """Half an object with a Mirror modifier: selections that its plane cuts are faired with their image."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -226,4 +224,3 @@ def test_a_face_in_the_plane_is_refused_by_name() -> None:
     select_edges(obj, lambda a, b: a.z > 0.4 and b.z > 0.4 and min(a.x, b.x) < 0.5 < max(a.x, b.x))
     with pytest.raises(RuntimeError, match="A face lies in the Mirror modifier's plane"):
         bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.2)
-    meshes.leave()

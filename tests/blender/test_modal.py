@@ -1,13 +1,10 @@
 """The operator in the background, event by event; the events come from here instead of a window."""
 
-from __future__ import annotations
-
 import threading
 from types import SimpleNamespace
 from typing import Any
 
 import bpy
-import numpy as np
 import pytest
 
 import meshes
@@ -145,45 +142,6 @@ def test_masked_faces_go_to_the_background_too(go_on: threading.Event, monkeypat
     assert meshes.positions(obj).tobytes() == meshes.positions(scripted).tobytes()
 
 
-@pytest.mark.parametrize("end", ["ESC", "the run", "stop_all"])
-def test_the_first_surface_is_shown_meanwhile(end: str, go_on: threading.Event) -> None:
-    """At the next look of the timer; whatever ends the run, the mesh is what the run alone makes of it."""
-    job, preview_of = module("run.job"), module("run.preview")
-    alone, faces = meshes.domed_grid()
-    fair = module("options.options").FairOptions()
-    if end == "the run":
-        meshes.fair(alone, faces)
-        meshes.leave()
-    obj, _ = meshes.domed_grid()
-    before = meshes.in_edit_mode_once(obj, faces)
-    operator = started(obj, faces, go_on)
-    preview = preview_of.Preview(operator._asked.tasks)
-    operator._signs.preview = preview
-    job.memory.clear()
-    job.solve(operator._asked.tasks, fair, lambda *_: True, give=preview.give)  # its thread would do this
-    start = module("mesh.mesh_io").edit_positions(obj.data)
-    assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
-    shown = module("mesh.mesh_io").edit_positions(obj.data)
-    assert np.abs(shown - start).max() > 1e-3
-    if end == "ESC":
-        assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
-    elif end == "stop_all":
-        go_on.set()
-        module("run.background").stop_all()
-    else:
-        go_on.set()
-        assert operator._run.wait(10.0)
-        assert operator.modal(bpy.context, event("TIMER")) == {"FINISHED"}
-    go_on.set()
-    assert operator._run.wait(10.0)
-    meshes.leave()
-    if end == "the run":
-        np.testing.assert_array_equal(meshes.positions(obj), meshes.positions(alone))
-        assert np.abs(meshes.positions(obj) - shown).max() > 1e-6  # it was another surface
-    else:
-        assert meshes.contents(obj) == before
-
-
 @pytest.mark.parametrize("quick", [True, False])
 def test_few_vertices_go_to_the_background_when_they_take_long(
     quick: bool, go_on: threading.Event, monkeypatch: pytest.MonkeyPatch
@@ -237,21 +195,6 @@ def test_only_looking_around_passes_through(go_on: threading.Event) -> None:
         assert operator.modal(bpy.context, event(kind)) == {"RUNNING_MODAL"}
     assert operator.modal(bpy.context, event("ESC", "RELEASE")) == {"RUNNING_MODAL"}
     operator.cancel(bpy.context)
-
-
-def test_a_mesh_that_changed_meanwhile_is_left_alone(go_on: threading.Event) -> None:
-    obj, faces = meshes.domed_grid()
-    operator = started(obj, faces, go_on)
-    bpy.ops.transform.translate(value=(0.0, 0.0, 0.5))
-    meshes.leave()
-    moved = meshes.positions(obj)
-    bpy.ops.object.mode_set(mode="EDIT")
-    go_on.set()
-    assert operator._run.wait(10.0)
-    assert operator.modal(bpy.context, event("TIMER")) == {"CANCELLED"}
-    assert "changed meanwhile" in operator.reported[-1][1]
-    meshes.leave()
-    assert meshes.positions(obj).tobytes() == moved.tobytes()
 
 
 def test_refusal_at_the_end_is_reported(go_on: threading.Event) -> None:

@@ -1,7 +1,5 @@
 """Mesh: New in Blender: other faces for the same surface, what they carry over, and what is left as it was."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from types import SimpleNamespace

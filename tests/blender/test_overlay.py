@@ -1,7 +1,5 @@
 """The quality overlay's figures and switches; its pictures are for the GUI tests."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -1,7 +1,5 @@
 """Who may write: Live rests while a run, its preview or an awaited answer has the meshes, and follows afterwards."""
 
-from __future__ import annotations
-
 import threading
 from collections.abc import Iterator
 from typing import Any

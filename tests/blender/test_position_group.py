@@ -1,7 +1,5 @@
 """*Position Group*: parts of the selection's boundary whose position alone is kept."""
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 import pytest
@@ -43,31 +41,6 @@ def test_the_slope_is_found_along_the_group_and_met_elsewhere() -> None:
     assert meshes.fair(obj, faces, continuity="G0", continuity_group="Loose") == {"FINISHED"}
     assert np.abs(meshes.positions(obj)[free, 2]).max() < 1e-5
     assert (meshes.report().verdict, meshes.report().reason) == ("GOOD", "")
-
-
-@pytest.mark.parametrize("share", [0.3, 0.6])
-def test_a_ball_comes_back_from_what_is_met(share: float) -> None:
-    """Its boundary runs in steps across the quads."""
-    obj = meshes.sphere(48)
-    faces = meshes.faces_where(obj, lambda c: c.z + 0.4 * c.x > 0.3)
-    free = meshes.free_vertices(obj, faces)
-    points = meshes.positions(obj)
-    put(obj, points[:, 1] < np.quantile(points[free, 1], share))
-    points[free] *= 1.0 + 0.1 * np.random.default_rng(2).random((free.sum(), 1))
-    meshes.move(obj, points)
-    assert meshes.fair(obj, faces, continuity="G0", continuity_group="Loose") == {"FINISHED"}
-    assert np.abs(np.linalg.norm(meshes.positions(obj)[free], axis=1) - 1.0).max() < 1e-3
-
-
-def test_all_of_the_boundary_is_a_position_for_all() -> None:
-    """A soap film, but for how its first row is measured where normals are given that count for nothing."""
-    found = []
-    for options in ({"continuity": "G0", "continuity_group": "Loose"}, {"continuity": "G0"}, {}):
-        obj, faces = meshes.domed_grid()
-        put(obj, np.ones(len(obj.data.vertices), dtype=bool))
-        assert meshes.fair(obj, faces, **options) == {"FINISHED"}
-        found.append(meshes.positions(obj))
-    assert 10 * np.abs(found[0] - found[1]).max() < np.abs(found[0] - found[2]).max()
 
 
 @pytest.mark.parametrize("weight", [0.0, 1.0])

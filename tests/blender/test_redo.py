@@ -1,7 +1,5 @@
 """Changes in the redo panel: Blender goes on with the surface before, and the one asked for follows."""
 
-from __future__ import annotations
-
 import gc
 import threading
 import time

@@ -1,7 +1,5 @@
 """What is refused leaves no trace and says where; nothing to do is no error."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

@@ -1,7 +1,5 @@
 """The extension from a repository of its own: added, installed, used and removed, from a server and from a disk."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

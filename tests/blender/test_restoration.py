@@ -5,8 +5,6 @@ normals are 0.27° and 0.037° off (measured), 4.7e-3 and 6.4e-4 rad. Normals th
 make another cap through the same rim, off by less than δ times the radius: those are the bounds.
 """
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 import pytest

@@ -1,7 +1,5 @@
 """Outside edit mode: masks and face sets in sculpt mode with undo, vertex groups and the live region in object mode."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

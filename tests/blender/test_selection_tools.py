@@ -1,7 +1,5 @@
 """What can be done about a selection before a run: loops, left-out faces, bad outlines, the other side."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bmesh
@@ -76,7 +74,6 @@ def test_left_out_faces_are_offered_and_added() -> None:
     assert bpy.ops.mesh.fair_select(what="LEFT_OUT") == {"FINISHED"}
     assert chosen_faces(obj) == np.flatnonzero(faces).tolist()
     assert bpy.ops.mesh.fair_select(what="LEFT_OUT") == {"CANCELLED"}
-    meshes.leave()
 
 
 def folded() -> tuple[bpy.types.Object, Any]:
@@ -112,7 +109,6 @@ def test_bad_outline_vertices_are_marked_and_selected() -> None:
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.context.view_layer.update()
     assert marks.shown(bpy.context) == []  # of another selection
-    meshes.leave()
 
 
 def test_with_x_mirror_one_side_stands_for_both() -> None:

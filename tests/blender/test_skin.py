@@ -1,7 +1,5 @@
 """Keep Detail and Feather as users meet them: on a rough sphere with a dent in it."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bpy

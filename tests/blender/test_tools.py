@@ -3,8 +3,6 @@
 How they feel is for the window: bpy has neither a mouse nor a 3D view.
 """
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 from typing import Any
 

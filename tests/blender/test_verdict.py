@@ -1,7 +1,5 @@
 """Nothing bad is written silently; what helps is a button; a run that was undone is not shown as the last."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -78,7 +76,6 @@ def test_write_it_all_the_same() -> None:
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
     assert module("selection.inspection").last_options(bpy.context).allow_folds is False
-    meshes.leave()
 
 
 def test_grow_by_a_ring() -> None:
@@ -93,7 +90,6 @@ def test_grow_by_a_ring() -> None:
     assert len(selected_faces(obj)) > faces.sum()
     assert meshes.report().free_vertices > free
     assert meshes.report().verdict == "GOOD"
-    meshes.leave()
 
 
 def thorn(height: float = 0.06) -> tuple[bpy.types.Object, Any]:
@@ -118,17 +114,6 @@ def test_a_selection_too_tight_for_its_bump_is_grown_over_it() -> None:
     assert meshes.report().verdict == "GOOD"
     meshes.leave()
     assert meshes.positions(obj)[:, 2].max() < 0.04
-
-
-def test_again_with_even_curvature() -> None:
-    obj, faces = kinked()
-    meshes.enter(obj, faces)
-    with pytest.raises(RuntimeError, match="Not usable"):
-        meshes.run(**NONE)
-    assert bpy.ops.mesh.fair_again(way="EVEN_CURVATURE") == {"FINISHED"}
-    assert module("run.last_run").options().equation == "least_variation"
-    assert meshes.report().written
-    meshes.leave()
 
 
 def pulled_pin(aside: float = 0.25) -> bpy.types.Object:
@@ -184,7 +169,6 @@ def test_automatic_refuses_where_even_vertices_are_not_usable_either(monkeypatch
         meshes.run(pin_group="Pin")
     assert tried == ["AUTOMATIC", "UNIFORM"]
     assert "Uniform was used instead" not in meshes.report().warnings
-    meshes.leave()
 
 
 def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
@@ -195,21 +179,6 @@ def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
     assert "EVEN_SPREAD" in meshes.report().remedies.split(",")
     assert bpy.ops.mesh.fair_again(way="EVEN_SPREAD") == {"FINISHED"}
     assert meshes.report().verdict == "GOOD"
-    meshes.leave()
-
-
-def test_again_with_a_smooth_outline() -> None:
-    obj = meshes.grid(16)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.012 * np.random.default_rng(8).normal(size=len(points))
-    meshes.move(obj, points)
-    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5))
-    meshes.run()
-    worst = meshes.report().join_worst
-    assert bpy.ops.mesh.fair_again(way="SMOOTH_OUTLINE") == {"FINISHED"}
-    assert module("run.last_run").options().smooth_boundary
-    assert meshes.report().join_worst < worst
-    meshes.leave()
 
 
 def test_another_way_that_is_no_better_is_not_written() -> None:
@@ -231,7 +200,6 @@ def test_another_way_that_is_no_better_is_not_written() -> None:
         assert (report.remedies, report.free_vertices) == (left, free)
         assert meshes.contents_in_edit_mode(obj.name) == before
         assert selected_faces(bpy.data.objects[obj.name]) == np.flatnonzero(faces).tolist()
-    meshes.leave()
 
 
 def test_the_region_is_selected_again() -> None:
@@ -248,7 +216,6 @@ def test_the_region_is_selected_again() -> None:
         assert selected_faces(obj) == np.flatnonzero(faces).tolist()
         module("selection.watch").watch.look(bpy.context)
         assert "Select Region Again" not in drawn("VIEW3D_PT_fairing_selection")
-    meshes.leave()
 
 
 def test_the_view_goes_to_the_worst_spot() -> None:
@@ -260,7 +227,6 @@ def test_the_view_goes_to_the_worst_spot() -> None:
     assert np.linalg.norm(np.array(place) - [4.0, 0.0, 0.0]) < 0.6
     assert normal[2] > 0.5 * np.linalg.norm(normal)
     assert 2.0 < size < 10.0
-    meshes.leave()
 
 
 def test_a_changed_mesh_is_not_faired_again() -> None:
@@ -271,7 +237,6 @@ def test_a_changed_mesh_is_not_faired_again() -> None:
     bpy.ops.mesh.subdivide()
     with pytest.raises(RuntimeError, match="other faces by now"):
         bpy.ops.mesh.fair_again(way="GROW")
-    meshes.leave()
 
 
 def test_an_undone_run_is_not_the_last() -> None:
@@ -302,7 +267,6 @@ def test_nothing_is_said_in_both_panels() -> None:
     shown = drawn("VIEW3D_PT_fairing_report").replace("\n", " ")
     assert "single face" not in shown
     assert "Free Vertices" not in shown
-    meshes.leave()
 
 
 def test_text_wraps_at_the_width_that_there_is() -> None:

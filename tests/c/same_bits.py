@@ -1,7 +1,5 @@
 """The C library fills, remeshes and measures to the bits of the Python package: python same_bits.py libfairing.so."""
 
-from __future__ import annotations
-
 import ctypes
 import sys
 

@@ -3,8 +3,6 @@
 An `Input` is a complete call; its `shape` is the exact or clean answer where there is one.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -52,17 +50,17 @@ class Input:
         assert np.isfinite(result.vertices[used & np.isfinite(self.vertices).all(axis=1)]).all()
         return result
 
-    def changed(self, **fields: Any) -> Input:
+    def changed(self, **fields: Any) -> "Input":
         """The same with other fields."""
         return replace(self, **fields)
 
 
-def of_patch(patch: Patch) -> Input:
+def of_patch(patch: Patch) -> "Input":
     """An exact patch, to be found again; weights belong to its own mesh."""
     return Input(patch.vertices, patch.triangles, patch.fixed, patch.fixed_normals, patch.vertices)
 
 
-def on_sphere(free: FloatArray, rim: FloatArray, triangles: IntArray) -> Input:
+def on_sphere(free: FloatArray, rim: FloatArray, triangles: IntArray) -> "Input":
     """Points (n, 3) of the unit sphere, free ones first, then the rim."""
     vertices = np.vstack([free, rim])
     fixed = np.arange(len(free), len(vertices))
@@ -79,14 +77,14 @@ def circle(count: int, polar: float) -> FloatArray:
 POLE = np.array([[0.0, 0.0, 1.0]])
 
 
-def single_fan(valence: int, polar: float = 0.5) -> Input:
+def single_fan(valence: int, polar: float = 0.5) -> "Input":
     """One free vertex, the pole of a spherical cap; its neighbours are the rim."""
     rim = 1 + np.arange(valence)
     triangles = np.column_stack([np.zeros(valence, dtype=int), rim, np.roll(rim, -1)])
     return on_sphere(POLE, circle(valence, polar), triangles)
 
 
-def fan(valence: int) -> Input:
+def fan(valence: int) -> "Input":
     """A pole of the given valence, then three rings of free vertices; the rim lies 45° from the pole."""
     rings = 3
     polar = np.linspace(0.0, np.pi / 4, rings + 2)[1:]
@@ -100,7 +98,7 @@ def fan(valence: int) -> Input:
     return on_sphere(points[:free], points[free:], np.vstack([top, lower, upper]))
 
 
-def subdivided(item: Input, rounds: int) -> Input:
+def subdivided(item: Input, rounds: int) -> "Input":
     """Every triangle split in three at its centre, projected to the unit sphere: clusters of valence 3."""
     vertices, triangles = item.vertices, item.triangles
     for _ in range(rounds):
@@ -112,7 +110,7 @@ def subdivided(item: Input, rounds: int) -> Input:
     return replace(item, vertices=vertices, triangles=triangles, reference=vertices)
 
 
-def with_fin(item: Input) -> Input:
+def with_fin(item: Input) -> "Input":
     """A single triangle stands on the edge between the first two fixed vertices; its third vertex is new."""
     a, b = item.fixed[:2]
     vertices = np.vstack([item.vertices, 1.5 * item.vertices[[a]]])
@@ -120,14 +118,14 @@ def with_fin(item: Input) -> Input:
     return replace(item, vertices=vertices, triangles=triangles, reference=None)
 
 
-def with_pocket(item: Input, turned: bool) -> Input:
+def with_pocket(item: Input, turned: bool) -> "Input":
     """A fin of two triangles on the same three vertices, wound alike or (`turned`) against each other."""
     fin = with_fin(item)
     other = fin.triangles[[-1]][:, [1, 0, 2]] if turned else fin.triangles[[-1]]
     return replace(fin, triangles=np.vstack([fin.triangles, other]))
 
 
-def beside(item: Input, triangles: IntArray, count: int, vertices: FloatArray | None = None) -> Input:
+def beside(item: Input, triangles: IntArray, count: int, vertices: FloatArray | None = None) -> "Input":
     """Another piece whose vertices are all fixed (a triangle's corners by default), at some distance."""
     more = np.eye(3)[:count] if vertices is None else vertices
     first, extra = len(item.vertices), np.arange(len(item.vertices), len(item.vertices) + count)
@@ -142,14 +140,14 @@ def beside(item: Input, triangles: IntArray, count: int, vertices: FloatArray | 
     )
 
 
-def collapsed_outline_edge(patch: Patch) -> Input:
+def collapsed_outline_edge(patch: Patch) -> "Input":
     """Two neighbours on the outline at one place, with one normal."""
     start, normals = patch.vertices.copy(), patch.fixed_normals.copy()
     start[patch.fixed[1]], normals[1] = start[patch.fixed[0]], normals[0]
     return of_patch(patch).changed(vertices=start, reference=start, normals=normals)
 
 
-def flat_ear(patch: Patch) -> Input:
+def flat_ear(patch: Patch) -> "Input":
     """A triangle of the outline whose three vertices lie in a line, the middle one on the outline."""
     a, b = patch.fixed[:2]
     middle = len(patch.vertices)
@@ -176,7 +174,7 @@ def unwelded_seam(patch: Patch) -> tuple[Input, IntArray]:
     return item, np.concatenate([seam, place[seam]])
 
 
-def one_turned(patch: Patch) -> Input:
+def one_turned(patch: Patch) -> "Input":
     """One triangle with three free corners is wound the other way."""
     triangles = patch.triangles.copy()
     inner = int(np.flatnonzero(np.isin(triangles, patch.free).all(axis=1))[0])
@@ -184,7 +182,7 @@ def one_turned(patch: Patch) -> Input:
     return of_patch(patch).changed(triangles=triangles)
 
 
-def with_surroundings(patch: Patch, turned: bool = False) -> Input:
+def with_surroundings(patch: Patch, turned: bool = False) -> "Input":
     """A collar of fixed triangles round a hemisphere, one more circle below; wound against it if `turned`."""
     rim, count = patch.fixed, len(patch.vertices)
     outer = count + np.arange(len(rim))
@@ -197,7 +195,7 @@ def with_surroundings(patch: Patch, turned: bool = False) -> Input:
     return Input(vertices, np.vstack([patch.triangles, collar]), fixed, normals, vertices)
 
 
-def creased(patch: Patch, degrees: float = 70.0) -> Input:
+def creased(patch: Patch, degrees: float = 70.0) -> "Input":
     """Normals of a plane's outline turned to and fro about its x-axis: a crease at every corner of the outline."""
     normals = patch.fixed_normals.copy()
     turn = np.radians(degrees) * np.sign(patch.vertices[patch.fixed, 2] - patch.vertices[patch.fixed, 2].mean())
@@ -206,7 +204,7 @@ def creased(patch: Patch, degrees: float = 70.0) -> Input:
     return of_patch(patch).changed(normals=normals)
 
 
-def needle(patch: Patch, ratio: float) -> Input:
+def needle(patch: Patch, ratio: float) -> "Input":
     """A free vertex moved along an edge to 1 / ratio of its length from the other end, M0 included."""
     start = patch.vertices.copy()
     mid = patch.triangles[np.isin(patch.triangles, patch.free).all(axis=1)][0]

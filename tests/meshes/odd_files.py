@@ -1,7 +1,5 @@
 """Files of one shape as programs write them: an open box of five quads, and files that can't be read."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Callable, Iterable, Sequence
 

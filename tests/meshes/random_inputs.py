@@ -1,7 +1,5 @@
 """Random patches and random damage to them, as hypothesis strategies; every example is a seed and a few numbers."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -13,11 +11,7 @@ from curves import FloatArray
 from hard_inputs import Input
 from meshing import IntArray
 
-HOLES = {
-    "disc": [],
-    "annulus": [(0.0, 0.0, 0.45)],
-    "pair of pants": [(-0.45, 0.0, 0.25), (0.45, 0.1, 0.3)],
-}
+HOLES = {"disc": [], "annulus": [(0.0, 0.0, 0.45)], "pair of pants": [(-0.45, 0.0, 0.25), (0.45, 0.1, 0.3)]}
 
 
 def planar(shape: str, count: int, rng: np.random.Generator) -> tuple[FloatArray, IntArray]:

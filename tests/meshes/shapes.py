@@ -173,10 +173,7 @@ def uniform_laplacian(triangles: IntArray, count: int) -> coo_array:
     i = triangles.ravel()
     j = np.roll(triangles, -1, axis=1).ravel()
     ends = np.unique(np.sort(np.column_stack([i, j]), axis=1), axis=0)
-    rows, columns = (
-        np.concatenate([ends[:, 0], ends[:, 1]]),
-        np.concatenate([ends[:, 1], ends[:, 0]]),
-    )
+    rows, columns = (np.concatenate([ends[:, 0], ends[:, 1]]), np.concatenate([ends[:, 1], ends[:, 0]]))
     weights = coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, count)).tocsr()
     return (diags_array(weights.sum(axis=1)) - weights).tocoo()
 

@@ -5,8 +5,6 @@ bits, so do the arrays given; a refusal names its elements; the result says whet
 tries ten times as many examples, other ones each time.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

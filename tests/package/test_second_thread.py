@@ -1,7 +1,5 @@
 """No call of the engine stops Python's other threads: a thread counts meanwhile."""
 
-from __future__ import annotations
-
 import sys
 import threading
 import time

@@ -90,10 +90,7 @@ def test_tables_are_whole(page: Path) -> None:
 
 @pytest.mark.parametrize(
     ("page", "template"),
-    [
-        ("docs/performance.md", "benchmarks/peers/page.md"),
-        ("docs/paper.md", "benchmarks/paper/page.md"),
-    ],
+    [("docs/performance.md", "benchmarks/peers/page.md"), ("docs/paper.md", "benchmarks/paper/page.md")],
 )
 def test_page_and_template_have_the_same_words(page: str, template: str) -> None:
     words = re.split(r"\{\{\w+\}\}", (ROOT / template).read_text(encoding="utf-8"))

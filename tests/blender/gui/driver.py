@@ -3,8 +3,6 @@
 Runs inside Blender (`--python`), not under pytest.
 """
 
-from __future__ import annotations
-
 import os
 import subprocess
 import traceback

@@ -1,7 +1,5 @@
 """Fair Fillet by the mouse: the width follows, the wheel turns the profile, Esc leaves all, a click is one step."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bmesh

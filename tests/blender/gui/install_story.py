@@ -3,8 +3,6 @@
 FAIRING_REPOSITORY: the address of the repository's folder, without its slash.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import urllib.request

@@ -1,7 +1,5 @@
 """Live in the window: dragging the surroundings or a pin with the mouse, and taking it back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -32,53 +30,6 @@ def live_follows_a_pin() -> Story:
     scenes.select_vertices(np.linalg.norm(scenes.positions(), axis=1) < 1e-6)
     # By 0.3: Live and the operator agree up to 0.19 D, but not at 0.24 D, where both find a surface of their own.
     yield from _follow("live_pin", (0, 58), "Z")
-
-
-def live_begins_in_the_background() -> Story:
-    """The first surface of a large region takes a while: Blender goes on, Esc stops it, the second click brings it."""
-    faces = scenes.large()
-    set_options()
-    with in_view():
-        bpy.ops.view3d.view_all()
-    yield 1.0
-    before, progress = scenes.contents(), bpy.context.window_manager.fairing_progress
-    run_operator("mesh.fair_live_region")
-    yield from wait_until(_runs, 20.0)
-    press("ESC", *middle())
-    yield from wait_until(_rests, 5.0)
-    yield 2.0
-    assert scenes.contents() == before, "the cancelled run left a trace"
-    assert not _is_on()
-    looks = 0
-    run_operator("mesh.fair_live_region")
-    yield from wait_until(_runs, 20.0)
-    while progress.running:
-        looks += 1
-        if looks == 3:
-            screenshot("live_begins")
-        yield 0.05
-    tell(f"live region of {faces} faces, looked at {looks} times meanwhile")
-    assert looks > 2, "Blender did not stay responsive"
-    assert _is_on()
-    assert settled()
-    yield 2.0  # the picture is to show it too
-    screenshot("live_began")
-    assert _off_sphere() < FAIR
-    began = scenes.positions()
-    press("Z", *middle(), ctrl=True)
-    yield 2.0
-    assert scenes.contents() == before, "one step back is the mesh as it was, without a region"
-    press("Z", *middle(), ctrl=True, shift=True)
-    yield 2.0
-    yield from wait_until(settled, 20.0)
-    np.testing.assert_array_equal(scenes.positions(), began)  # nothing has moved around it: nothing to follow
-    bpy.context.window_manager.fairing_live.on = False
-    yield 0.5
-
-
-def _off_sphere() -> float:
-    """By how much a vertex is off the unit sphere at most."""
-    return float(np.abs(np.linalg.norm(scenes.positions(), axis=1) - 1.0).max())
 
 
 def _live() -> Any:

@@ -1,19 +1,10 @@
 """Long runs in a real window: cancelled, finished, and redone from their redo panel."""
 
-from __future__ import annotations
-
 import bpy
 
 import scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from panel import (
-    open_tab,
-    report,
-    run_operator,
-    set_options,
-    solve_to,
-    wait_until,
-)
+from panel import open_tab, report, run_operator, set_options, solve_to, wait_until
 
 
 def in_background() -> Story:

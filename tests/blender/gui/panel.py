@@ -1,7 +1,5 @@
 """The extension's place in the window: its tab, its report, running it, and a drag with the mouse."""
 
-from __future__ import annotations
-
 import os
 import sys
 import time

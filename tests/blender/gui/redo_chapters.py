@@ -1,13 +1,10 @@
 """Changes in the redo panel, in a real window: Blender goes on, and the answer follows."""
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 
 import scenes
-import spoilt_scenes
-from driver import Story, in_view, leave_popup, middle, move_mouse, press, screenshot, view
+from driver import Story, leave_popup, middle, move_mouse, press, screenshot, view
 from panel import (
     change_with,
     open_redo_panel,
@@ -16,7 +13,6 @@ from panel import (
     redo_with,
     report,
     run_operator,
-    run_with,
     set_options,
     wait_until,
 )
@@ -71,47 +67,6 @@ def changes_in_the_redo_panel_do_not_wait() -> Story:
         press("Z", *middle(), ctrl=True, shift=True)
         yield 1.0
         assert (scenes.positions() == last).all(), "redo did not bring the answer back"
-
-
-def changes_outside_edit_mode_do_not_wait() -> Story:
-    """The same in sculpt mode and in object mode; there Blender's own step of undo takes as long as the rest."""
-    progress = bpy.context.window_manager.fairing_progress
-    for mode, subdivisions in (("SCULPT", 6), ("OBJECT", 6), ("SCULPT", 7), ("OBJECT", 7)):
-        spoilt_scenes.large_masked(subdivisions)
-        with in_view():
-            bpy.ops.object.mode_set(mode=mode)
-            bpy.ops.ed.undo_push(message="start")
-        open_tab()
-        yield 1.0
-        before = spoilt_scenes.object_positions()
-        report().free_vertices = 0
-        run_with("fair_masked", source="VERTEX_GROUP")
-
-        def reported() -> bool:
-            return bool(report().free_vertices)
-
-        yield from wait_until(reported, 120.0)
-        yield 1.0
-        first = spoilt_scenes.object_positions()
-        yield from change_with(shape="LEAST_VARIATION")
-        assert progress.following, "the search was too short to be seen"
-        assert (spoilt_scenes.object_positions() == first).all(), "the result before the change is not shown"
-
-        def settled() -> bool:
-            return not progress.following
-
-        yield from wait_until(settled, 120.0)
-        yield 0.5
-        assert bpy.context.mode == mode
-        assert report().verdict == "GOOD", (report().verdict, report().reason)
-        last = spoilt_scenes.object_positions()
-        assert np.abs(last - first).max() > 1e-6
-        press("Z", *middle(), ctrl=True)
-        yield 1.0
-        assert (spoilt_scenes.object_positions() == before).all(), "undo did not take the run back"
-        press("Z", *middle(), ctrl=True, shift=True)
-        yield 1.0
-        assert (spoilt_scenes.object_positions() == last).all(), "redo did not bring the answer back"
 
 
 def a_field_of_the_redo_panel_is_pulled() -> Story:

@@ -1,7 +1,5 @@
 """What the story plays on: Suzanne's ear, and a sphere with many vertices."""
 
-from __future__ import annotations
-
 import sys
 from itertools import pairwise
 from pathlib import Path

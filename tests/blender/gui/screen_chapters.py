@@ -1,7 +1,5 @@
 """What the interface looks like: every panel, menu and tool, one picture each, to be looked at."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import bmesh

@@ -1,7 +1,5 @@
 """Outside edit mode: what is masked or a face set in sculpt mode, with strokes and undo; and holes that are filled."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import bpy
@@ -115,70 +113,6 @@ def _clicked_and_undone(name: str) -> Story:
 
     yield from wait_until(back, 10.0)  # one step; a slow window takes its time
     assert report().undone, "a run that was undone is shown as the last"
-
-
-def level_in_sculpt_mode() -> Story:
-    """The face set that is clicked on a level of a Multiresolution modifier is faired; undo, redo."""
-    spoilt_scenes.levelled()
-    _begin_sculpting()
-    open_tab()
-    yield 0.7
-    before = spoilt_scenes.level_positions()
-    yield 0.7
-    screenshot("level_before")
-    report().free_vertices = 0
-    run_with("fair_masked", source="FACE_SET")
-    yield 0.7
-    press("LEFTMOUSE", *middle())
-    yield from wait_until(_reported, 30.0)
-    yield 1.0
-    assert report().written, report().reason
-    assert bpy.context.mode == "SCULPT"
-    after = spoilt_scenes.level_positions()
-    assert np.abs(after - before).max() > 1e-2
-    yield 0.7
-    screenshot("level_after")
-    for redo, wanted in ((False, before), (True, after)):
-        for _ in range(3):  # a step of another kind may lie in between
-            yield from _undo(redo)
-            if np.array_equal(spoilt_scenes.level_positions(), wanted):
-                break
-        else:
-            raise AssertionError(f"{'redo' if redo else 'undo'} led elsewhere")
-        assert bpy.context.mode == "SCULPT"
-    _sculpt()
-    yield 0.7
-    with in_view():
-        bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def dynamic_topology_in_sculpt_mode() -> Story:
-    """What is masked is faired with dynamic topology on, and goes on so; undo and redo bring each state back."""
-    for steps, wanted in (((), "after"), ((False,), "before"), ((False, True), "after")):
-        tell(f"dynamic topology: {spoilt_scenes.masked()} faces masked")
-        before = spoilt_scenes.object_positions()
-        with in_view():
-            bpy.ops.view3d.view_all()
-            bpy.ops.object.mode_set(mode="SCULPT")
-            bpy.ops.sculpt.dynamic_topology_toggle("EXEC_DEFAULT", True)
-        yield 0.7
-        report().free_vertices = 0
-        run_with("fair_masked", source="MASK")
-        yield from wait_until(_reported, 30.0)
-        yield 1.0
-        assert report().written, report().reason
-        for redo in steps:
-            yield from _undo(redo)
-        assert bpy.context.mode == "SCULPT"
-        screenshot(f"dynamic_{wanted}_{len(steps)}")
-        with in_view():
-            bpy.ops.object.mode_set(mode="OBJECT")
-        found = spoilt_scenes.object_positions()
-        assert len(found) == len(before)
-        moved = np.abs(np.sort(found, axis=0) - np.sort(before, axis=0)).max()
-        off = np.abs(np.linalg.norm(found, axis=1) - 1.0).max()
-        tell(f"moved by {moved:.2g}, {off:.2g} off the sphere")
-        assert (moved > 1e-2) == (wanted == "after") == (off < 1e-3), (moved, off)
 
 
 def brush_in_sculpt_mode() -> Story:

@@ -1,7 +1,5 @@
 """What the story's later chapters play on: outlines in a bad state, half a sphere, masks, face sets, a hole."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 
@@ -10,7 +8,6 @@ import bpy
 import numpy as np
 
 import scenes
-from panel import module
 
 
 def centres() -> Any:
@@ -128,36 +125,12 @@ def masked() -> int:
     return int(np.count_nonzero(upper))
 
 
-def large_masked(subdivisions: int) -> None:
-    """The sphere of scenes.large in object mode, its dented half in a vertex group."""
-    scenes.large(subdivisions)
-    inside = selected_vertices()
-    bpy.ops.object.mode_set(mode="OBJECT")
-    bpy.context.object.vertex_groups.new(name="Dent").add(inside, 1.0, "REPLACE")
-
-
 def face_sets() -> int:
     """A sphere in object mode, its squashed upper half one face set, the rest another; return the first one's size."""
     upper = _squashed_ball()
     layer = bpy.context.object.data.attributes.new(".sculpt_face_set", "INT", "FACE")
     layer.data.foreach_set("value", np.where(upper, 7, 3).astype(np.int32))
     return int(np.count_nonzero(upper))
-
-
-def levelled() -> None:
-    """The ball of face_sets under two levels of a Multiresolution modifier."""
-    face_sets()
-    modifier = bpy.context.object.modifiers.new("Levels", "MULTIRES")
-    for _ in range(2):
-        bpy.ops.object.multires_subdivide(modifier=modifier.name)
-
-
-def level_positions() -> Any:
-    """The positions (n, 3) of the level that brushes show, by an object of its own."""
-    levels, obj = module("mesh.levels"), bpy.context.object
-    level = obj.modifiers[0].sculpt_levels
-    with module("fair.outside").in_object_mode(obj), levels.at_level(obj, level) as shown:
-        return module("mesh.painted").positions(shown.data)
 
 
 def dented() -> None:
@@ -188,20 +161,3 @@ def hole() -> int:
     scenes.select_vertices(np.arange(len(bm.verts)) == rim[0])
     bpy.ops.ed.undo_push(message="scene")
     return 1
-
-
-def large_hole() -> None:
-    """A ball without a cap, the border selected: some 10,000 new vertices."""
-    scenes.clear()
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=7)
-    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
-    bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(bpy.context.object.data)
-    bmesh.ops.delete(bm, geom=[vertex for vertex in bm.verts if vertex.co.z > 0.5], context="VERTS")
-    for vertex in bm.verts:
-        vertex.select = vertex.is_boundary
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(bpy.context.object.data)
-    bpy.ops.ed.undo_push(message="scene")
-    scenes.keep_original()

@@ -1,7 +1,5 @@
 """What an artist does, in a real window: look, fair, adjust, cancel, judge. Makes the guide's pictures."""
 
-from __future__ import annotations
-
 import os
 import sys
 from pathlib import Path
@@ -13,57 +11,16 @@ import numpy as np
 
 import scenes
 from driver import Story, in_view, middle, play, press, screenshot, tell
-from ends_chapters import (
-    another_file_ends_a_run,
-    disabling_ends_a_run,
-    quits_after_a_cancel,
-    quits_during_a_run,
-    quits_during_a_search,
-    undo_and_removal_end_a_run,
-    undo_and_removal_end_a_search,
-)
+from ends_chapters import another_file_ends_a_run, quits_after_a_cancel, quits_during_a_run, quits_during_a_search
 from fillet_chapters import fillet_is_dragged
-from live_chapters import (
-    live_begins_in_the_background,
-    live_follows_a_drag,
-    live_follows_a_pin,
-)
-from long_run_chapters import (
-    cancel_a_hopeless_run,
-    cancel_a_long_run,
-    finish_a_long_run,
-)
-from panel import (
-    extension,
-    module,
-    open_redo_panel,
-    open_tab,
-    redo_with,
-    report,
-    run_operator,
-    set_options,
-    wait_until,
-)
-from redo_chapters import (
-    a_field_of_the_redo_panel_is_pulled,
-    changes_in_the_redo_panel_do_not_wait,
-    changes_outside_edit_mode_do_not_wait,
-)
+from live_chapters import live_follows_a_drag, live_follows_a_pin
+from long_run_chapters import cancel_a_hopeless_run, cancel_a_long_run, finish_a_long_run
+from panel import extension, module, open_redo_panel, open_tab, redo_with, report, run_operator, set_options, wait_until
+from redo_chapters import a_field_of_the_redo_panel_is_pulled, changes_in_the_redo_panel_do_not_wait
 from screen_chapters import SCREENS
-from sculpt_chapters import (
-    brush_in_sculpt_mode,
-    dynamic_topology_in_sculpt_mode,
-    face_set_by_a_click,
-    fills_a_hole,
-    level_in_sculpt_mode,
-    masked_in_sculpt_mode,
-)
+from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
 from tutorial_chapters import tutorial_as_written
-from verdict_chapters import (
-    marks_before_a_run,
-    not_usable,
-    worth_a_look,
-)
+from verdict_chapters import marks_before_a_run, not_usable, worth_a_look
 
 
 def look_before_running() -> Story:
@@ -182,20 +139,6 @@ def _overlay_is_measured() -> bool:
     return np.allclose(surface.positions, scenes.positions(), atol=1e-6)
 
 
-def in_german() -> Story:
-    """Labels follow the interface's language."""
-    view_preferences = bpy.context.preferences.view
-    if "de_DE" not in bpy.app.translations.locales:
-        tell("this Blender has no other languages")
-        return
-    view_preferences.language, view_preferences.use_translate_interface = "de_DE", True
-    yield 1.0
-    assert bpy.app.translations.pgettext_iface("Quality Overlay") == "Qualitätsanzeige"
-    screenshot("german")
-    view_preferences.language = "en_US"
-    yield 0.5
-
-
 CHAPTERS = (
     look_before_running,
     reported_before_running,
@@ -206,7 +149,6 @@ CHAPTERS = (
     finish_a_long_run,
     changes_in_the_redo_panel_do_not_wait,
     a_field_of_the_redo_panel_is_pulled,
-    in_german,
     judge,
     marks_before_a_run,
     worth_a_look,
@@ -215,16 +157,9 @@ CHAPTERS = (
     fillet_is_dragged,
     masked_in_sculpt_mode,
     face_set_by_a_click,
-    level_in_sculpt_mode,
-    dynamic_topology_in_sculpt_mode,
     brush_in_sculpt_mode,
-    changes_outside_edit_mode_do_not_wait,
     live_follows_a_drag,
     live_follows_a_pin,
-    live_begins_in_the_background,
-    undo_and_removal_end_a_run,
-    undo_and_removal_end_a_search,
-    disabling_ends_a_run,
     another_file_ends_a_run,
     tutorial_as_written,
     *SCREENS,

@@ -1,7 +1,5 @@
 """docs/tutorial.md in a window: each lesson's file is opened, and its steps are done as they are written."""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 from typing import Any

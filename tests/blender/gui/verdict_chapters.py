@@ -1,7 +1,5 @@
 """After a run in the window: good, worth a look, not usable; what the buttons do, and marks before a run."""
 
-from __future__ import annotations
-
 from contextlib import suppress
 from typing import Any
 

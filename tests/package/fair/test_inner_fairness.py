@@ -1,7 +1,5 @@
 """Where vertices sit within the surface: Σ λ_ij q_j − q_i is parallel to the normal (§7.3)."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

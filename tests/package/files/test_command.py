@@ -1,7 +1,5 @@
 """python -m fairing on files, with meshio and trimesh where they are installed."""
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,7 +1,5 @@
 """python -m fairing on files as other programs write them: read, filled, and written with all that was in them."""
 
-from __future__ import annotations
-
 import json
 import struct
 import subprocess

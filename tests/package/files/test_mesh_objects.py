@@ -1,7 +1,5 @@
 """One call for meshes as other libraries hold them; each library is the real one, where it is installed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -86,8 +86,7 @@ def test_holes_in_other_surfaces(
 
 
 @pytest.mark.parametrize(
-    ("place", "distance"),
-    [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))],
+    ("place", "distance"), [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))]
 )
 def test_two_outlines_become_a_tube(place: Place, distance: Callable[[FloatArray], FloatArray]) -> None:
     vertices, triangles = holes.sheet(place, (60, 30), holes.band, closed=True)

@@ -1,7 +1,5 @@
 """A hole is a job of its own: filled with others, in any order, it is what it is alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import fairing
