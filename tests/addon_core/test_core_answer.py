@@ -63,17 +63,6 @@ def test_the_factor_blends_between_the_mesh_and_the_answer() -> None:
     np.testing.assert_allclose(half.positions, 0.5 * (start + whole.positions), atol=1e-15)
 
 
-def test_a_symmetric_mesh_gets_a_symmetric_answer() -> None:
-    mesh = replace(spoilt_sphere(), mirror_x=True)
-    done = fair(mesh)
-    where = {tuple(point) for point in done.positions.tolist()}
-    assert all((-x, y, z) in where for x, y, z in where)
-    lopsided = mesh.in_patch.copy()
-    lopsided[np.flatnonzero(lopsided)[0]] = False
-    reported = fair(replace(mesh, in_patch=lopsided)).warnings
-    assert any("not symmetric" in text for text in reported)
-
-
 def counting_kept(ahead: bool = False) -> Kept:
     return Kept(Memory(MOST), ahead)
 
@@ -94,37 +83,6 @@ def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.Monk
     assert np.abs(again.vertices - whole.vertices).max() > 0.01
 
 
-def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh, kept = spoilt_sphere(), counting_kept(ahead=True)
-    solve(mesh, EYE, FairOptions(), kept=kept)
-    monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("a call without its solver"))
-    monkeypatch.setattr(engine, "RepeatedSolve", lambda *_args: pytest.fail("another solver"))
-    other = FairOptions(inner_fairness="INVERSE_DISTANCE")
-    again = outcome(mesh, EYE, other, solve(mesh, EYE, other, kept=kept))
-    np.testing.assert_allclose(np.linalg.norm(again.positions, axis=1), 1.0, atol=1e-6)
-    moved = replace(mesh, positions=1.5 * mesh.positions)
-    with pytest.raises(pytest.fail.Exception, match="another solver"):
-        solve(moved, EYE, FairOptions(), kept=kept)
-
-
-def test_a_cancelled_call_leaves_nothing_behind() -> None:
-    mesh, kept = spoilt_sphere(), counting_kept()
-    with pytest.raises(fairing.Cancelled):
-        solve(mesh, EYE, FairOptions(), lambda *_: False, kept)
-    assert solve(mesh, EYE, FairOptions(), kept=kept).result.converged
-
-
-def test_errors_name_the_vertices_of_the_mesh() -> None:
-    mesh = spoilt_sphere()
-    broken = mesh.positions.copy()
-    vertex = 17 * 8 + 8  # in the middle
-    broken[vertex] = np.nan
-    with pytest.raises(fairing.MeshError) as refusal:
-        solve(replace(mesh, positions=broken), EYE, FairOptions())
-    assert refusal.value.diagnostic.elements.tolist() == [vertex]
-    assert str(refusal.value) == f"Vertex {vertex} has a coordinate that is NaN or infinite"
-
-
 def test_a_patch_that_may_cross_is_looked_at_and_a_clear_one_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = spoilt_sphere()
     solved = solve(mesh, EYE, FairOptions())
@@ -141,30 +99,6 @@ def test_a_patch_that_may_cross_is_looked_at_and_a_clear_one_is_not(monkeypatch:
     assert (len(clear.before.crossing) > 0, len(clear.after.crossing), len(asked)) == (True, 0, 1)
     outcome(mesh, EYE, FairOptions(factor=0.5), solved)  # nobody knows of what lies half-way
     assert len(asked) == 3
-
-
-def rough_surroundings(noise: float) -> MeshArrays:
-    """The sphere with noise everywhere, its outline too."""
-    mesh = grid(16, 0.6, on_sphere)
-    shift = noise * np.random.default_rng(3).normal(size=mesh.positions.shape)
-    return replace(mesh, positions=mesh.positions + shift)
-
-
-def test_a_fitted_boundary_moves_with_what_is_around_it_and_nothing_else() -> None:
-    mesh = rough_surroundings(0.015)
-    patch = pose(mesh, EYE, FairOptions())[0].patch
-    given, fitted = fair(mesh), fair(mesh, smooth_boundary=True)
-    assert np.array_equal(given.vertices, patch.vertices[patch.free])
-    more = np.setdiff1d(fitted.vertices, given.vertices)
-    assert set(more) & set(patch.vertices[patch.outline])
-    assert set(more) - set(patch.vertices)
-    assert fitted.free_count == given.free_count == len(given.vertices)
-    assert (np.diff(fitted.vertices) > 0).all()
-    moved = np.linalg.norm(fitted.positions - mesh.positions[fitted.vertices], axis=1)
-    assert 0.0 < moved[np.isin(fitted.vertices, more)].max() < 0.25 * 2.0 / 16.0
-    # What is moved comes nearer to the sphere that it was before the noise.
-    off = [np.abs(np.linalg.norm(p, axis=1) - 1.0) for p in (fitted.positions, mesh.positions[fitted.vertices])]
-    assert np.median(off[0][np.isin(fitted.vertices, more)]) < 0.7 * np.median(off[1][np.isin(fitted.vertices, more)])
 
 
 def cube_corner(size: int = 13, radius: float = 0.5) -> MeshArrays:

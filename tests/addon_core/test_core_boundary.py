@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from addon.arrays.around import RINGS, numbered, outside_triangles
+from addon.arrays.around import outside_triangles
 from addon.arrays.region import MeshArrays, Patch, make_patch
 from addon.arrays.types import Floats, Mask
 from addon.fair.boundary import average_normals, boundary
@@ -58,34 +58,6 @@ def test_a_border_without_faces_outside_is_reported_and_takes_the_patch_average(
     pinned[12] = True
     inner = replace(mesh, pinned=pinned)
     assert normals_of(inner, make_patch(inner), "SURROUNDING")[1] == reported  # a pin is none of them
-
-
-def test_what_is_not_finite_outside_is_left_out() -> None:
-    mesh = grid(16, 0.6, on_sphere)
-    patch = make_patch(mesh)
-    broken = mesh.positions.copy()
-    broken[17 * 2 + 8] = np.nan  # next to the outline
-    with np.errstate(invalid="ignore"):
-        normals, _ = normals_of(replace(mesh, positions=broken), patch, "SURROUNDING")
-    np.testing.assert_allclose(normals, mesh.positions[patch.vertices[patch.fixed]], atol=1e-9)
-
-
-def test_triangles_around_are_those_within_four_rings() -> None:
-    mesh = grid(20, 0.3)
-    patch = make_patch(mesh)
-    outside = outside_triangles(mesh, patch)
-    rim = np.abs(mesh.positions[patch.vertices]).max()
-    rings = 10.0 * (np.abs(mesh.positions).max(axis=1) - rim)  # how many steps outside, below zero inside
-    assert rings[outside].max() == pytest.approx(RINGS)
-    assert rings[outside].mean(axis=1).min() > 0.0  # none of the patch itself
-    sideways = np.abs(mesh.positions[:, 1]) < rim  # away from the corners, which diagonals cut
-    near = sideways & (rings < RINGS + 0.5)
-    wanted = near[mesh.triangles].all(axis=1) & ~mesh.in_patch[mesh.triangle_faces]
-    assert {*map(tuple, mesh.triangles[wanted].tolist())} <= {*map(tuple, outside.tolist())}
-    vertices, around = numbered(patch, outside)
-    assert np.array_equal(vertices[: len(patch.vertices)], patch.vertices)
-    assert np.array_equal(vertices[around], outside)
-    assert len(np.unique(vertices)) == len(vertices)
 
 
 def test_curvatures_of_the_faces_outside() -> None:

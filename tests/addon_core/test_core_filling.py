@@ -5,7 +5,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from addon.arrays.around import Neighbourhood, nearby
 from addon.arrays.border import BorderRefusal, border_loops
 from addon.arrays.region import MeshArrays, nothing
 from addon.arrays.types import Floats, Ints, Mask
@@ -50,31 +49,6 @@ def test_one_vertex_stands_for_its_whole_loop() -> None:
     # Seen from above the hole is on the left: counter-clockwise.
     around = [(1, 1), (1, 2), (1, 3), (2, 3), (3, 3), (3, 2), (3, 1), (2, 1)]
     assert loop.tolist() == [vertex(*place) for place in around]
-
-
-def test_loops_that_touch_are_kept_apart() -> None:
-    """Two holes share a corner, which alone stands for both, beside another vertex for that one's."""
-    mesh = holed((2, 2), (4, 4))
-    corner = vertex(3, 3)
-    for seeds, count in (
-        ([vertex(1, 1)], 1),
-        ([vertex(1, 1), corner], 1),
-        ([corner], 2),
-        ([vertex(1, 1), vertex(5, 5)], 2),
-    ):
-        loops, left = border_loops(mesh, only(mesh, *seeds))
-        assert ([len(loop) for loop in loops], left) == ([8] * count, [])
-        assert all(corner in loop for loop in loops)
-
-
-def test_faces_wound_against_each_other_are_left() -> None:
-    quads = [quad for number, quad in enumerate(grid_quads(3)) if number != 4]
-    quads[1] = quads[1][::-1]
-    mesh = polygon_mesh(grid_points(3), quads, np.zeros(8, dtype=bool))
-    loops, left = border_loops(mesh, only(mesh, 5))
-    assert not loops
-    assert all("wound against" in each.reason and len(each.spots) for each in left)
-    assert 5 in np.concatenate([each.vertices for each in left])
 
 
 @pytest.mark.parametrize(("value", "text"), [(np.nan, "NaN"), (None, "without length")])
@@ -171,16 +145,6 @@ def test_a_surface_through_the_mesh_is_unusable() -> None:
     assert piece.verdict.grade != UNUSABLE
 
 
-def test_the_outside_of_a_sheet_is_refused() -> None:
-    """Its surface would be the other side of a pillow without any height."""
-    flat = polygon_mesh(grid_points(SIZE), grid_quads(SIZE), np.zeros(SIZE * SIZE, dtype=bool))
-    with pytest.raises(
-        MeshRefusal, match="border of 32 edges through vertex 0 goes around the outside of a flat sheet"
-    ) as error:
-        filled(flat, 0)
-    assert len(error.value.elements) == 32
-
-
 def judged(points: Floats, join: Join, **of_result: object) -> Verdict:
     """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
     (flat, triangles), rim = hexagon(3), 18
@@ -246,61 +210,3 @@ def test_the_curvature_around_is_continued_where_it_can_be() -> None:
     assert notes["G1"] == notes["G2"] == ()
     (note,) = notes["rough"]
     assert "met in slope only, not in curvature. The curvature around it looks like noise" in note
-
-
-def test_unknown_options_are_refused() -> None:
-    for options in (
-        {"shape": "BULGE"},
-        {"longest": -1},
-        {"longest_length": -1.0},
-        {"continuity": "G3"},
-        {"spacing": 0.0},
-        {"spacing": float("nan")},
-    ):
-        with pytest.raises(ValueError, match=next(iter(options))):
-            FillOptions(**options)  # type: ignore[arg-type]
-
-
-def test_a_loop_that_is_no_border_is_refused_in_the_meshs_numbers() -> None:
-    mesh = holed((4, 4))
-    inner = [np.array([vertex(1, 1), vertex(1, 2), vertex(2, 2), vertex(2, 1)])]
-    with pytest.raises(MeshRefusal, match="no loop of border edges") as error:
-        fill(mesh, np.eye(4), inner, FillOptions())
-    assert set(error.value.elements.tolist()) <= set(inner[0].tolist())
-
-
-def test_small_holes_in_one_call_are_as_each_by_itself() -> None:
-    """Of four, six and eight edges; two of them share a corner; one is no loop of border edges."""
-    mesh = holed((2, 2), (4, 4), (6, 6), (2, 6))
-    loops, _ = border_loops(mesh, np.ones(len(mesh.positions), dtype=bool))
-    small = [loop for loop in loops if len(loop) == 8]
-    assert len(small) == 4
-    inner = np.array([vertex(0, 2), vertex(1, 3), vertex(2, 4)])
-    together = fill(mesh, np.eye(4), [*small, inner], FillOptions())
-    assert len(together.left) == 1
-    together = fill(mesh, np.eye(4), small, FillOptions())
-    for loop, piece in zip(small, together.pieces, strict=True):
-        (alone,) = fill(mesh, np.eye(4), [loop], FillOptions()).pieces
-        # The holes are symmetric: rounding may choose which of two new vertices comes first.
-        number = np.linalg.norm(piece.points[:, None] - alone.points, axis=2).argmin(axis=1)
-        np.testing.assert_array_equal(np.sort(number), np.arange(len(alone.points)))
-        np.testing.assert_allclose(piece.points, alone.points[number], atol=1e-4)
-        assert {frozenset(each) for each in number[piece.triangles].tolist()} == {
-            frozenset(each) for each in alone.triangles.tolist()
-        }
-        np.testing.assert_array_equal(piece.around.vertices, alone.around.vertices)
-        assert piece.verdict.grade == alone.verdict.grade
-        one, other = (dict(zip(each.join.vertices.tolist(), each.join.degrees, strict=True)) for each in (piece, alone))
-        assert one == pytest.approx(other, abs=0.05)
-        assert set(piece.join.vertices.tolist()) == {*loop.tolist()}
-
-
-def test_neighbours_are_those_of_the_whole_mesh() -> None:
-    mesh = holed((4, 4))
-    points = mesh.positions.copy()
-    points[vertex(7, 7)] = np.nan
-    start = np.array([vertex(1, 1), vertex(6, 2)])
-    seeds = only(mesh, *start.tolist())
-    finite = np.isfinite(points).all(axis=1)
-    expected = nearby(mesh.triangles[finite[mesh.triangles].all(axis=1)], seeds)
-    np.testing.assert_array_equal(Neighbourhood(points, mesh.triangles).around(start), expected)

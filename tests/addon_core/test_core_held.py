@@ -114,17 +114,6 @@ def test_a_new_mesh_makes_a_dented_edge_fair_and_both_sides_flat(
     assert {tuple(sorted((number[a], number[b]))) for a, b in kept.tolist()} <= sides
 
 
-def test_half_a_factor_takes_a_new_mesh_and_its_edge_half_way() -> None:
-    mesh = with_marks(grid(16, 0.55, folded))
-    dent = mesh.positions.copy()
-    on_edge = np.flatnonzero((np.abs(grid_points(16)[:, 0]) < 1e-9) & (np.abs(grid_points(16)[:, 1]) < 0.3))
-    dent[on_edge] += [0.03, 0.0, 0.03]
-    done = remesh_arrays(replace(mesh, positions=dent), np.eye(4), FairOptions(remesh=True, factor=0.5))
-    half = np.isin(done.vertices, on_edge)
-    assert np.count_nonzero(half) == len(on_edge)
-    np.testing.assert_allclose(done.positions[half][:, [0, 2]], 0.015, atol=1e-9)
-
-
 def dented_fold() -> tuple[MeshArrays, np.ndarray]:  # type: ignore[type-arg]
     """A fold that nobody has marked, thrown about inside the patch, and what is free of it."""
     mesh = grid(16, 0.55, folded)
@@ -148,23 +137,6 @@ def test_an_edge_that_nobody_has_marked_is_held_by_its_angle() -> None:
     rounded = with_pinned_edges(mesh, FairOptions(pin_edges="NONE"), none(mesh))
     assert rounded.held_by_angle is None
     assert off_fold(solve.solve(rounded, np.eye(4), FairOptions(pin_edges="NONE")).result.vertices) > 0.01
-
-
-def test_a_mesh_that_is_read_again_is_not_searched_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh, inside = dented_fold()
-    held = with_pinned_edges(mesh, FairOptions(), none(mesh))
-    moved = replace(mesh, positions=mesh.positions.copy())
-    moved.positions[inside[0]] += 1e-3
-
-    def refused(*_arguments: object, **_rest: object) -> None:
-        raise LookupError
-
-    monkeypatch.setattr("fairing.edges_through", refused)
-    again = with_pinned_edges(replace(mesh, positions=mesh.positions.copy()), FairOptions(), none(mesh))
-    assert held.held_by_angle is not None and again.held_by_angle is not None
-    np.testing.assert_array_equal(again.held_by_angle, held.held_by_angle)
-    with pytest.raises(LookupError):
-        with_pinned_edges(moved, FairOptions(), none(moved))
 
 
 @pytest.mark.parametrize(

@@ -36,20 +36,6 @@ def test_a_larger_ball_comes_back_from_offsets_that_are_too_flat() -> None:
     assert np.abs(np.linalg.norm(found, axis=1) - 1.5).max() < 2e-4
 
 
-def test_it_is_fair_in_the_space_that_the_matrix_leads_to() -> None:
-    surface, around, places = filled()
-    matrix = np.diag([2.0, 1.0, 0.5, 1.0])
-    matrix[:3, 3] = 7.0, -2.0, 1.0
-    local = Surroundings(around.vertices, around.triangles, matrix)
-
-    def back(world: Floats) -> Floats:
-        return (world - matrix[:3, 3]) / np.diag(matrix)[:3]
-
-    (found,) = key_surfaces(surface, local, [back(1.5 * places)], [back(larger(surface))])
-    assert found is not None
-    assert np.abs(np.linalg.norm(local.world(found), axis=1) - 1.5).max() < 2e-4
-
-
 def test_keys_that_move_the_outline_as_a_whole_keep_their_offsets() -> None:
     surface, around, places = filled()
     shift = np.array([0.1, 0.2, 0.3])

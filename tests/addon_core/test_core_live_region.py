@@ -92,26 +92,6 @@ def test_answers_do_not_depend_on_what_came_before() -> None:
     np.testing.assert_allclose(again, direct, atol=1e-5)
 
 
-def test_the_free_vertices_own_positions_do_not_count() -> None:
-    mesh = sphere()
-    region = LiveRegion(mesh, EYE, FairOptions())
-    dented = mesh.positions.copy()
-    dented[region.free] *= 0.9
-    answer = region.answer(dented[region.vertices], EYE)
-    assert answer is not None
-    np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.0, atol=1e-6)
-
-
-def test_answers_are_in_the_meshs_own_coordinates() -> None:
-    mesh = sphere()
-    matrix = np.diag([2.0, 2.0, 2.0, 1.0])
-    matrix[:3, 3] = (5.0, -1.0, 0.5)
-    region = LiveRegion(mesh, matrix, FairOptions())
-    answer = region.answer(mesh.positions[region.vertices], matrix)
-    assert answer is not None
-    np.testing.assert_allclose(np.linalg.norm(answer, axis=1), 1.0, atol=1e-6)
-
-
 def test_no_convergence_is_no_answer_and_a_stop_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = grid(SIZE, 0.35, lambda points: on_sphere(points) * (1.0 + 0.2 * np.sin(3.0 * points[:, :1])))
     asked = FairOptions.engine_arguments
@@ -197,17 +177,6 @@ def test_a_step_longer_than_an_edge_makes_no_hard_edge() -> None:
     answer = region.answer(moved[region.vertices], EYE)
     assert answer is not None
     assert answer[:, 2].max() > 0.1 * outline
-
-
-def test_the_first_surface_is_near_the_answer() -> None:
-    """On the sphere it is nearly the sphere, and where the vertices inside are does not count."""
-    mesh = sphere()
-    region = LiveRegion(mesh, EYE, FairOptions())
-    positions = mesh.positions[region.vertices].copy()
-    first = region.first(positions, EYE)
-    np.testing.assert_allclose(np.linalg.norm(first, axis=1), 1.0, atol=5e-3)
-    positions[np.searchsorted(region.vertices, region.free)] += 0.3
-    np.testing.assert_array_equal(region.first(positions, EYE), first)
 
 
 def test_the_curvature_is_continued_on_the_part_that_asks_for_it_as_by_the_operator() -> None:

@@ -27,21 +27,6 @@ def test_curvature_of_a_selection_is_that_of_the_sphere_up_to_its_border() -> No
     np.testing.assert_allclose(np.linalg.norm(surface.boundary, axis=2), 2.0, rtol=1e-6)
 
 
-def test_a_selection_is_measured_with_what_surrounds_it() -> None:
-    mesh = grid(24, 0.35, lambda points: points + 0.1 * np.sin(5.0 * points[:, [2, 2, 0]]))
-    part, whole = make_surface(mesh, EYE, whole=False), make_surface(mesh, EYE, whole=True)
-    for vertex in drawn(part):
-        (same,) = np.flatnonzero((whole.positions == part.positions[vertex]).all(axis=1))
-        assert part.curvature[vertex] == pytest.approx(whole.curvature[same], abs=1e-9)
-        np.testing.assert_allclose(part.normals[vertex], whole.normals[same], atol=1e-9)
-
-
-def test_all_of_an_object() -> None:
-    surface = make_surface(grid(24, 0.35, on_sphere), EYE, whole=True)
-    assert len(surface.triangles) == 2 * 24**2
-    assert len(drawn(surface)) == 25**2
-
-
 def test_nothing_selected_draws_nothing() -> None:
     mesh = grid(6, 0.67)
     surface = make_surface(replace(mesh, in_patch=np.zeros(36, dtype=bool)), EYE, whole=False)

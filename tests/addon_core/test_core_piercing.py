@@ -59,10 +59,3 @@ def test_what_passed_through_before_is_no_news(anew: bool) -> None:
     lower = mesh.positions.copy()
     lower[-4:, 2] = [-0.9, 0.1, 0.1, -0.9]  # through the dent's floor and through the plain
     assert not reason(replace(mesh, positions=lower), anew)
-
-
-def test_places_that_are_not_finite_are_passed_over() -> None:
-    mesh = dent_below_a_plate(0.01, slope=1.0)
-    odd = mesh.positions.copy()
-    odd[0] = np.nan  # a corner of the plain, far from the dent
-    assert reason(replace(mesh, positions=odd))

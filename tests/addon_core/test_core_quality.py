@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from addon.arrays.around import numbered, outside_triangles
 from addon.arrays.region import Patch, make_patch
-from addon.arrays.types import Floats, Ints
+from addon.arrays.types import Floats
 from addon.fair.engine import Problem
 from addon.verdict import quality
 
-import fairing
 from polygon_mesh import grid, grid_points
 
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
@@ -37,40 +36,6 @@ def test_what_shrinks_to_nothing_counts_for_nothing() -> None:
 def square_patch() -> Patch:
     """The grid of 4 × 4 quads, all of it selected."""
     return make_patch(grid(4, 2.0))
-
-
-LIFTED = grid_points(4) + np.array([0.0, 0.0, 1.0])
-
-
-class Counter:
-    """Names some triangles for each height of the first vertex, and remembers what it was asked."""
-
-    def __init__(self, before: int, after: int) -> None:
-        self.asked: list[str] = []
-        self._answers = {"before": before, "after": after}
-
-    def __call__(self, positions: Floats, _triangles: Ints) -> Ints:
-        name = "after" if positions[0, 2] else "before"
-        self.asked.append(name)
-        return np.arange(self._answers[name])
-
-
-def faces(found: Ints | None) -> int | None:
-    return None if found is None else len(found)
-
-
-def test_crossings_are_looked_for_on_both_sides(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fairing, "self_intersections", Counter(5, 9))  # triangles: two of a face
-    before, after = quality.compare(square_patch(), (grid_points(4), LIFTED), False)
-    assert (faces(before.crossing), faces(after.crossing)) == (3, 5)
-
-
-def test_a_result_that_is_known_to_be_clear_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
-    counter = Counter(6, 10)
-    monkeypatch.setattr(fairing, "self_intersections", counter)
-    before, after = quality.compare(square_patch(), (grid_points(4), LIFTED), True)
-    assert (faces(before.crossing), faces(after.crossing)) == (3, 0)
-    assert counter.asked == ["before"]
 
 
 def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:

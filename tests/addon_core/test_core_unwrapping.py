@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from addon.arrays.nearest_source import nearest_sources, owners
 from addon.arrays.types import Floats, Ints, Mask
 from addon.remesh.unwrapping import RimUVs, Surface, Unwrapped, unwrapped
 
@@ -167,12 +166,3 @@ def test_a_bridge_between_two_islands_has_a_seam_around_its_middle() -> None:
     assert (areas(found) > 0).all()
     texels = areas(found)[is_lower[::3]].mean() / areas(found)[~is_lower[::3]].mean()
     assert texels == pytest.approx(0.25, rel=1e-6)
-
-
-def test_ways_lead_to_the_nearest_source() -> None:
-    links = np.array([[0, 1], [1, 2], [2, 3], [3, 4], [0, 4]])
-    before = nearest_sources(6, links, np.array([1.0, 1.0, 1.0, 1.0, 1.5]), np.array([1, 4]))
-    assert before.tolist() == [1, 1, 1, 4, 4, -1]
-    assert owners(before).tolist() == [1, 1, 1, 4, 4, -1]
-    chain = nearest_sources(4, np.array([[3, 2], [2, 1], [1, 0]]), np.ones(3), np.array([3]))
-    assert owners(chain).tolist() == [3] * 4

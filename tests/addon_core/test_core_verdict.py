@@ -1,8 +1,8 @@
 """What is good, what deserves a look, and what must not be written."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ from addon.verdict.verdict import (
 from addon.words.findings import Origin
 
 import fairing
-from polygon_mesh import grid, on_sphere, polygon_mesh
+from polygon_mesh import grid, on_sphere, polygon_mesh, tube
 
 MESH = grid(12, 0.6, on_sphere)
 FACE = int(np.flatnonzero(MESH.in_patch)[9])
@@ -62,14 +62,7 @@ def fine() -> Evidence:
 @pytest.fixture(scope="module")
 def piped() -> Evidence:
     """The middle of a pipe of 8 rows of 12 quads."""
-    row, column = (index.ravel() for index in np.mgrid[:9, :12])
-    turn = 2.0 * np.pi * column / 12
-    quads = [
-        [12 * k + i, 12 * k + (i + 1) % 12, 12 * k + 12 + (i + 1) % 12, 12 * k + 12 + i]
-        for k in range(8)
-        for i in range(12)
-    ]
-    points = np.column_stack([np.cos(turn), np.sin(turn), 0.5 * row])
+    points, quads = tube(12, (0.5 * np.arange(9)).tolist())
     mesh = polygon_mesh(points, quads, np.repeat((np.arange(8) > 1) & (np.arange(8) < 6), 12))
     problem, _ = pose(mesh, np.eye(4), FairOptions())
     result = solve(mesh, np.eye(4), FairOptions(shape="HARMONIC")).result
@@ -80,24 +73,171 @@ def judged(evidence: Evidence, **options: Any) -> Verdict:
     return judge(evidence, FairOptions(**options))
 
 
-def test_a_clean_result_is_good(fine: Evidence) -> None:
-    assert judged(fine).grade == GOOD
-    assert not judged(fine).remedies
+def warned(code: str, elements: Ints, kind: str = "vertex", **figures: float) -> Callable[[Evidence], Evidence]:
+    """Evidence with this one warning of the engine."""
+    said = fairing.Diagnostic(code, "", elements.astype(np.int32), kind, figures)
+    return lambda fine: replace(fine, result=replace(fine.result, warnings=(said,)))
 
 
-def test_a_hard_edge_that_was_rounded_deserves_a_look(fine: Evidence) -> None:
-    verdict = judged(replace(fine, rounded=ints(3, 8)), smooth_boundary=True)
-    assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [3, 8], (GROW, AS_SELECTED))
-    assert verdict.reason == "Smooth Boundary has rounded a hard edge outside at 2 vertices: turn it off"
+def but(**fields: Any) -> Callable[[Evidence], Evidence]:
+    """Evidence that is fine but for these."""
+    return lambda fine: replace(fine, **fields)
 
 
-def test_a_knob_deserves_a_look(fine: Evidence) -> None:
-    knob = replace(fine, swollen=ints(7, 4))
-    verdict = judged(knob)
-    assert (verdict.grade, verdict.spots.tolist(), verdict.remedies) == (LOOK, [7, 4], (GROW, SMOOTH_OUTLINE))
-    assert verdict.reason == "The surface swells to a knob around 2 vertices: another boundary may avoid it"
-    for meant in ({"detail": 0.5}, {"bulge": 1.0}, {"factor": 0.5}):
-        assert judged(knob, **meant).grade == GOOD, meant
+def after(**counts: Ints) -> Callable[[Evidence], Evidence]:
+    return but(after=replace(CLEAN, **counts))
+
+
+def folded_as_before(*more: int) -> Callable[[Evidence], Evidence]:
+    return but(before=replace(CLEAN, folded=ints(FACE)), after=replace(CLEAN, folded=ints(FACE, *more)))
+
+
+def kinked(*degrees: float) -> Join:
+    """At vertices 9 and 7, the worst first."""
+    return Join(ints(7, 8, 9), np.array(degrees), ints(2, 0))
+
+
+def sloped(is_bump: bool) -> Callable[[Evidence], Evidence]:
+    return lambda fine: replace(fine, flank=Flank(fine.problem.patch.outline[:3], is_bump, 4))
+
+
+def over_a_hard_outline(fine: Evidence) -> Evidence:
+    """The flat top of a box would become a dome."""
+    return replace(fine, join=SEEN, problem=replace(fine.problem, inward=ints(1, 2)))
+
+
+def ended(ending: Any, steps: int) -> Callable[[Evidence], Evidence]:
+    return lambda fine: replace(
+        fine, result=replace(fine.result, converged=False, termination=ending, iterations=steps)
+    )
+
+
+EATEN, MARKED = Eaten(running_on=ints(3, 8)), Eaten(running_on=ints(3, 8), marked=ints(4))
+
+
+class Row(NamedTuple):
+    """`reason` is its beginning where it ends in "…"; `has`, `lacks`: remedies; `good`: options that make it good."""
+
+    change: Callable[[Evidence], Evidence]
+    grade: str = LOOK
+    reason: str | None = None
+    spots: list[int] | None = None
+    options: dict[str, Any] = {}  # noqa: RUF012
+    remedies: tuple[str, ...] | None = None
+    has: tuple[str, ...] = ()
+    lacks: tuple[str, ...] = ()
+    good: tuple[dict[str, Any], ...] = ()
+
+
+DETAIL, BULGE, FACTOR, FILM = {"detail": 0.5}, {"bulge": 1.0}, {"factor": 0.5}, {"continuity": "G0"}
+CONFORMAL, UNIFORM = {"inner_fairness": "CONFORMAL"}, {"inner_fairness": "UNIFORM"}
+SLOPE = "The boundary is on the slope of a {0}, so that the {0} stays…"
+OVER = (GROW_OVER, GROW, SMOOTH_OUTLINE)
+SEARCH = "No fair surface was found: {}. What it came to…"
+ROWS = {
+    "clean": Row(lambda fine: fine, GOOD, remedies=()),
+    "rounded outside": Row(
+        but(rounded=ints(3, 8)), LOOK, "Smooth Boundary has rounded a hard edge outside at 2 vertices: turn it off",
+        [3, 8], {"smooth_boundary": True}, (GROW, AS_SELECTED),
+    ),
+    "knob": Row(
+        but(swollen=ints(7, 4)), LOOK, "The surface swells to a knob around 2 vertices: another boundary may avoid it",
+        [7, 4], remedies=(GROW, SMOOTH_OUTLINE), good=(DETAIL, BULGE, FACTOR),
+    ),
+    "sunk": Row(
+        but(lost=Lost(0.07, ints(3, 4))), LOOK,
+        "The surface sinks by 7% of its width: a ridge, a bevel or a girth is lost", [3, 4], good=(BULGE, FACTOR, FILM),
+    ),
+    "sunk under its skin": Row(but(lost=Lost(0.07, ints(3, 4))), options=DETAIL),
+    "crumpled": Row(but(lost=Lost(is_rougher=True)), LOOK, "The surface is crumpled…", good=(FACTOR,)),
+    "skin gone": Row(
+        but(lost=Lost(is_smoother=True)), LOOK, "The surface is smoother than around…", has=(KEEP_DETAIL,),
+        good=({"detail": 1.0}, FACTOR),
+    ),
+    "border": Row(but(lost=Lost(border=ints(7))), LOOK, None, [7], {"fair_open_borders": True}, has=(HOLD_BORDER,)),
+    "seen": Row(but(join=SEEN), has=(GROW,), lacks=(ADD_LEFT_OUT,)),
+    "over a hard outline": Row(over_a_hard_outline, lacks=(GROW,)),
+    "bump": Row(sloped(True), LOOK, SLOPE.format("bump"), remedies=OVER, good=(DETAIL, BULGE, FACTOR)),
+    "dent": Row(sloped(False), LOOK, SLOPE.format("dent"), remedies=OVER, good=(DETAIL, BULGE, FACTOR)),
+    "fold": Row(after(folded=ints(FACE)), UNUSABLE, "1 face of the result is folded over", CORNERS),
+    "fold of a texture": Row(after(folded=ints(FACE)), UNUSABLE, options=CONFORMAL, has=(EVEN_SPREAD,)),
+    "fold of an even mesh": Row(after(folded=ints(FACE)), UNUSABLE, options=UNIFORM, lacks=(EVEN_SPREAD,)),
+    "fold of a new mesh": Row(
+        after(folded=ints(FACE)), UNUSABLE, options={**CONFORMAL, "remesh": True}, lacks=(EVEN_SPREAD,)
+    ),
+    "crossing of a texture": Row(after(crossing=ints(FACE)), UNUSABLE, options=CONFORMAL, lacks=(EVEN_SPREAD,)),
+    "old fold": Row(folded_as_before(), UNUSABLE, good=(FACTOR,)),
+    "another fold": Row(folded_as_before(OTHER), UNUSABLE, options=FACTOR),
+    "smoothed": Row(
+        warned("NO_SOLUTION", ints(), smoothed=1.0), LOOK,
+        "No fair surface fits these boundary loops: the old shape was smoothed…",
+    ),
+    "harmonic": Row(warned("NO_SOLUTION", ints(), harmonic=1.0), GOOD),  # as Otherwise asks
+    "slope only": Row(warned("G2_NOT_MET", ints(4, 2)), GOOD, options={"continuity": "G2"}),  # a note says so
+    "no skin": Row(
+        warned("REFERENCE_UNUSABLE", ints(), old_skin=1.0), LOOK,
+        "The detail asked for could not be put back: the result is smooth", options={"detail": 1.0},
+    ),
+    "no texture": Row(warned("REFERENCE_UNUSABLE", ints()), GOOD),  # the surface is the same
+    "eaten": Row(
+        but(eaten=EATEN), LOOK, "A hard edge runs on outside, but was rounded off at 2 vertices…", [3, 8]
+    ),
+    "eaten, with a kink": Row(
+        but(eaten=EATEN, join=kinked(12.5, 3.0, 28.0)), LOOK, "A hard edge runs on outside…", [3, 8, 9, 7]
+    ),
+    "eaten, with a large kink": Row(
+        but(eaten=EATEN, join=kinked(12.5, 3.0, 41.0)), LOOK,
+        "A kink shows at 2 vertices of the boundary, of 41° at worst, and hard edges were rounded off at 2 vertices",
+        [9, 7, 3, 8],
+    ),
+    "marked": Row(
+        but(eaten=MARKED), LOOK, "Edges marked sharp were rounded off at 1 vertex…", [4], good=(FACTOR, FILM)
+    ),
+    "marked, with a kink": Row(but(eaten=MARKED, join=kinked(12.5, 3.0, 28.0)), LOOK, "Edges marked sharp…"),
+    "marked, with a large kink": Row(but(eaten=MARKED, join=kinked(12.5, 3.0, 41.0)), LOOK, "A kink shows…"),
+    "kink": Row(
+        but(join=kinked(12.5, 3.0, 31.0)), LOOK, "A kink shows at 2 vertices of the boundary, of 31° at worst", [9, 7],
+        remedies=(GROW, SMOOTH_OUTLINE), good=(FILM, FACTOR),
+    ),
+    "turned back": Row(
+        but(join=Join(ints(7, 8), np.array([12.5, 105.9]), ints(1, 0))), LOOK,
+        "The surface turns back from the slope around it at 2 vertices of the boundary, by 106°",
+    ),
+    "a coarse cage": Row(but(join=Join(ints(7), np.array([20.0]))), GOOD),
+    "needles": Row(after(needles=ints(FACE)), GOOD),
+    "no start": Row(ended("stalled", 0), UNUSABLE, SEARCH.format("no initial surface was found")),
+    "halted": Row(ended("stalled", 14), UNUSABLE, SEARCH.format("the search came to a halt")),
+    "out of steps": Row(ended("iteration_limit", 20), UNUSABLE, SEARCH.format("it was not there after 20 steps")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_a_verdict(fine: Evidence, name: str) -> None:
+    row = ROWS[name]
+    evidence = row.change(fine)
+    found = judged(evidence, **row.options)
+    assert found.grade == row.grade
+    if row.reason is not None and row.reason.endswith("…"):
+        assert found.reason.startswith(row.reason[:-1])
+    elif row.reason is not None:
+        assert found.reason == row.reason
+    assert row.spots is None or found.spots.tolist() == row.spots
+    assert row.remedies is None or found.remedies == row.remedies
+    assert {*row.has} <= {*found.remedies} and not {*row.lacks} & {*found.remedies}
+    assert all(judged(evidence, **options).grade == GOOD for options in row.good)
+
+
+@pytest.mark.parametrize(
+    ("elements", "figures", "reason"),
+    [
+        ((2, 4), {"code": "NO_SOLUTION", "loft": 1.0, "kinks": 2.0}, "2 vertices of the boundary"),
+        ((3,), {"code": "PINS_NOT_SPREAD", "tips": 1.0}, "The surface forms a spike at 1 pinned vertex"),
+    ],
+)
+def test_what_the_engine_names_is_shown(fine: Evidence, elements: Any, figures: Any, reason: str) -> None:
+    verdict = judged(warned(elements=ints(*elements), **figures)(fine))
+    assert verdict.grade == LOOK and reason in verdict.reason
+    assert verdict.spots.tolist() == fine.problem.vertices[list(elements)].tolist()
 
 
 @pytest.mark.parametrize(
@@ -125,46 +265,6 @@ def test_a_waist_and_a_balloon_deserve_a_look_and_even_curvature(
         assert judged(tube, **meant).grade == GOOD, meant
 
 
-def test_a_surface_that_sinks_deserves_a_look(fine: Evidence) -> None:
-    sunk = replace(fine, lost=Lost(0.07, ints(3, 4)))
-    verdict = judged(sunk)
-    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [3, 4])
-    assert verdict.reason == "The surface sinks by 7% of its width: a ridge, a bevel or a girth is lost"
-    for meant in ({"bulge": 1.0}, {"factor": 0.5}, {"continuity": "G0"}):
-        assert judged(sunk, **meant).grade == GOOD, meant
-    assert judged(sunk, detail=0.5).grade == LOOK  # skin is put on what has sunk
-
-
-def test_a_crumpled_surface_deserves_a_look_where_it_bends_most(fine: Evidence) -> None:
-    verdict = judged(replace(fine, lost=Lost(is_rougher=True)))
-    assert verdict.grade == LOOK
-    assert verdict.reason.startswith("The surface is crumpled")
-    assert np.isin(verdict.spots, fine.problem.patch.vertices[fine.problem.patch.free]).all()
-    assert judged(replace(fine, lost=Lost(is_rougher=True)), factor=0.5).grade == GOOD
-
-
-def test_a_skin_that_is_gone_deserves_a_look_and_offers_to_keep_it(fine: Evidence) -> None:
-    smooth = replace(fine, lost=Lost(is_smoother=True))
-    verdict = judged(smooth)
-    assert (verdict.grade, verdict.remedies[0]) == (LOOK, KEEP_DETAIL)
-    assert verdict.reason.startswith("The surface is smoother than around")
-    assert judged(smooth, detail=1.0).grade == GOOD
-    assert judged(smooth, factor=0.5).grade == GOOD
-
-
-def test_a_border_that_moved_far_deserves_a_look_and_offers_to_hold_it(fine: Evidence) -> None:
-    verdict = judged(replace(fine, lost=Lost(border=ints(7))), fair_open_borders=True)
-    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [7])
-    assert HOLD_BORDER in verdict.remedies
-
-
-def test_over_a_hard_outline_nothing_is_grown(fine: Evidence) -> None:
-    """The flat top of a box would become a dome."""
-    hard = replace(fine, join=SEEN, problem=replace(fine.problem, inward=ints(1, 2)))
-    assert GROW in judged(replace(fine, join=SEEN)).remedies
-    assert GROW not in judged(hard).remedies
-
-
 @pytest.mark.parametrize(("at", "is_kept"), [(0.0, True), (None, False)])
 def test_a_shown_key_with_a_shape_of_its_own_deserves_a_look(at: float | None, is_kept: bool) -> None:
     """A hill in the selection; not a key that bends its surroundings, and the selection with them."""
@@ -174,20 +274,6 @@ def test_a_shown_key_with_a_shape_of_its_own_deserves_a_look(at: float | None, i
     found = outcome(keyed, np.eye(4), FairOptions(), solve(keyed, np.eye(4), FairOptions())).verdict
     assert (found.grade == LOOK) == is_kept
     assert ("shape key" in found.reason) == is_kept
-
-
-def test_an_outline_on_a_slope_deserves_a_look_and_offers_the_way_over_it(fine: Evidence) -> None:
-    outline = fine.problem.patch.outline[:3]
-    for is_bump, kind in ((True, "bump"), (False, "dent")):
-        sloped = replace(fine, flank=Flank(outline, is_bump, 4))
-        verdict = judged(sloped)
-        spots = fine.problem.patch.vertices[outline].tolist()
-        assert (verdict.grade, verdict.spots.tolist(), verdict.rings) == (LOOK, spots, 4)
-        assert verdict.remedies == (GROW_OVER, GROW, SMOOTH_OUTLINE)
-        assert verdict.reason.startswith(f"The boundary is on the slope of a {kind}, so that the {kind} stays")
-        for meant in ({"detail": 0.5}, {"bulge": 1.0}, {"factor": 0.5}):
-            assert judged(sloped, **meant).grade == GOOD, meant
-    assert judged(fine).rings == 1
 
 
 @pytest.mark.parametrize("termination", ["stalled", "iteration_limit"])
@@ -220,21 +306,6 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert judged(lost, factor=0.5).grade == UNUSABLE
 
 
-def test_folds_are_not_usable_and_their_corners_are_the_spots(fine: Evidence) -> None:
-    verdict = judged(replace(fine, after=replace(CLEAN, folded=ints(FACE))))
-    assert (verdict.grade, verdict.reason) == (UNUSABLE, "1 face of the result is folded over")
-    assert verdict.spots.tolist() == CORNERS
-
-
-def test_folds_offer_to_spread_vertices_evenly(fine: Evidence) -> None:
-    folded = replace(fine, after=replace(CLEAN, folded=ints(FACE)))
-    assert EVEN_SPREAD in judged(folded, inner_fairness="CONFORMAL").remedies
-    assert EVEN_SPREAD not in judged(folded, inner_fairness="UNIFORM").remedies
-    assert EVEN_SPREAD not in judged(folded, inner_fairness="CONFORMAL", remesh=True).remedies
-    crossing = replace(fine, after=replace(CLEAN, crossing=ints(FACE)))
-    assert EVEN_SPREAD not in judged(crossing, inner_fairness="CONFORMAL").remedies
-
-
 def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
     patch = fine.problem.patch
     pin = int(np.flatnonzero(patch.vertices == CORNERS[0])[0])
@@ -248,8 +319,7 @@ def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
 
 def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
     """The engine says how far the outline lies beside the surface; a mesh that had more folds is better off."""
-    reported = fairing.Diagnostic("NO_SOLUTION", "", np.empty(0, np.int32), "vertex", {"distance": 0.02})
-    low_passed = replace(fine, result=replace(fine.result, warnings=(reported,)))
+    low_passed = warned("NO_SOLUTION", ints(), distance=0.02)(fine)
     rough = replace(CLEAN, folded=ints(FACE, OTHER), crossing=ints(FACE, OTHER))
     calm = replace(CLEAN, folded=ints(FACE), crossing=ints(OTHER))
     verdict = judged(replace(low_passed, before=rough, after=calm))
@@ -263,78 +333,25 @@ def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> N
     assert judged(replace(low_passed, before=unknown, after=calm)).grade == LOOK
 
 
-def test_a_loft_that_lets_slopes_go_deserves_a_look(fine: Evidence) -> None:
-    reported = fairing.Diagnostic("NO_SOLUTION", "", np.array([2, 4], np.int32), "vertex", {"loft": 1.0, "kinks": 2.0})
-    verdict = judged(replace(fine, result=replace(fine.result, warnings=(reported,))))
-    assert verdict.grade == LOOK
-    assert "2 vertices of the boundary" in verdict.reason
-    assert verdict.spots.tolist() == fine.problem.vertices[[2, 4]].tolist()
-
-
-def with_warning(evidence: Evidence, code: str, elements: Ints, **figures: float) -> Evidence:
-    reported = fairing.Diagnostic(code, "", elements.astype(np.int32), "vertex", figures)
-    return replace(evidence, result=replace(evidence.result, warnings=(reported,)))
-
-
 def test_a_smooth_loft_deserves_a_look_where_it_bends_most(fine: Evidence) -> None:
     """One vertex stands out of the sphere: the edges around it bend, and it is among the worst."""
     patch = fine.problem.patch
     points = fine.problem.points.copy()
     spike = patch.free[len(patch.free) // 2]
     points[spike] *= 1.2
-    verdict = judged(replace(with_warning(fine, "NO_SOLUTION", ints(), loft=1.0), points=points))
+    verdict = judged(replace(warned("NO_SOLUTION", ints(), loft=1.0)(fine), points=points))
     assert verdict.grade == LOOK
     assert "loft" in verdict.reason and "stand-in" in verdict.reason
     around = patch.vertices[np.unique(patch.triangles[(patch.triangles == spike).any(axis=1)])]
     assert 0 < len(verdict.spots) <= 0.05 * len(patch.free) + 1
     assert set(verdict.spots) <= set(around)
-    assert judged(with_warning(fine, "NO_SOLUTION", ints(), harmonic=1.0)).grade == GOOD  # as Otherwise asks
-
-
-def test_a_smoothed_shape_deserves_a_look(fine: Evidence) -> None:
-    verdict = judged(with_warning(fine, "NO_SOLUTION", ints(), smoothed=1.0))
-    assert verdict.grade == LOOK
-    assert "old shape" in verdict.reason
-
-
-def test_a_skin_that_was_asked_for_and_is_not_there_deserves_a_look(fine: Evidence) -> None:
-    assert judged(with_warning(fine, "G2_NOT_MET", ints(4, 2)), continuity="G2").grade == GOOD  # a note says so
-    verdict = judged(with_warning(fine, "REFERENCE_UNUSABLE", ints(), old_skin=1.0), detail=1.0)
-    assert (verdict.grade, verdict.reason) == (LOOK, "The detail asked for could not be put back: the result is smooth")
-    assert len(verdict.spots)
-    assert judged(with_warning(fine, "REFERENCE_UNUSABLE", ints())).grade == GOOD  # the surface is the same
 
 
 def test_on_a_new_mesh_the_engines_numbers_are_those_of_the_mesh_that_it_solved(fine: Evidence) -> None:
     own = len(fine.problem.vertices)
     origin = Origin(np.arange(100, 110 + own), np.empty((0, 3), np.int64), ints())
-    reported = replace(with_warning(fine, "PINS_NOT_SPREAD", ints(own + 5), tips=1.0), origin=origin)
+    reported = replace(warned("PINS_NOT_SPREAD", ints(own + 5), tips=1.0)(fine), origin=origin)
     assert judged(reported).spots.tolist() == [own + 105]
-
-
-def test_the_tip_of_a_needle_deserves_a_look(fine: Evidence) -> None:
-    reported = fairing.Diagnostic("PINS_NOT_SPREAD", "", np.array([3], np.int32), "vertex", {"tips": 1.0})
-    verdict = judged(replace(fine, result=replace(fine.result, warnings=(reported,))))
-    assert (verdict.grade, verdict.reason) == (LOOK, "The surface forms a spike at 1 pinned vertex")
-    assert verdict.spots.tolist() == fine.problem.vertices[[3]].tolist()
-
-
-def test_half_way_old_folds_may_be_left(fine: Evidence) -> None:
-    same = replace(fine, before=replace(CLEAN, folded=ints(FACE)), after=replace(CLEAN, folded=ints(FACE)))
-    assert judged(same, factor=0.5).grade == GOOD
-    assert judged(same).grade == UNUSABLE
-    more = replace(same, after=replace(CLEAN, folded=ints(FACE, OTHER)))
-    assert judged(more, factor=0.5).grade == UNUSABLE
-
-
-def test_folds_that_only_the_engine_names_are_not_usable(fine: Evidence) -> None:
-    triangle = int(np.flatnonzero(fine.problem.patch.faces == FACE)[0])
-    warning = fairing.Diagnostic("FOLDED", "", np.array([triangle], dtype=np.int32), "triangle")
-    result = replace(fine.result, converged=False, termination="folded", warnings=(warning,))
-    verdict = judged(replace(fine, result=result, failures=("Folds",)))
-    assert (verdict.grade, verdict.reason) == (UNUSABLE, "Folds")
-    assert set(verdict.spots) <= set(CORNERS)
-    assert len(verdict.spots) == 3
 
 
 @pytest.mark.parametrize(
@@ -349,68 +366,6 @@ def test_crossings_count_where_the_original_had_none(
         assert judged(crossing).spots.tolist() == CORNERS
     unknown = replace(crossing, before=replace(CLEAN, crossing=None))
     assert judged(unknown).grade == UNUSABLE
-
-
-def test_a_hard_edge_that_was_eaten_deserves_a_look(fine: Evidence) -> None:
-    running = replace(fine, eaten=Eaten(running_on=ints(3, 8)))
-    assert judged(running).grade == LOOK
-    assert judged(running).spots.tolist() == [3, 8]
-    assert judged(running).reason.startswith("A hard edge runs on outside, but was rounded off at 2 vertices")
-    assert judged(running).reason.endswith("to keep it")
-    kinked = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 28.0]), ints(2, 0)))
-    assert judged(kinked).reason.endswith("or grow the selection: a kink of 28° shows at the boundary")
-    assert judged(kinked).spots.tolist() == [3, 8, 9, 7]
-    steep = replace(running, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 41.0]), ints(2, 0)))
-    assert judged(steep).reason == (
-        "A kink shows at 2 vertices of the boundary, of 41° at worst, and hard edges were rounded off at 2 vertices"
-    )
-    assert judged(steep).spots.tolist() == [9, 7, 3, 8]
-    marked = replace(fine, eaten=Eaten(running_on=ints(3, 8), marked=ints(4)))
-    assert judged(replace(marked, join=steep.join)).reason.startswith("A kink shows")
-    assert judged(replace(marked, join=kinked.join)).reason.startswith("Edges marked sharp")
-    assert judged(marked).spots.tolist() == [4]
-    assert judged(marked).reason.startswith("Edges marked sharp were rounded off at 1 vertex")
-    for options in ({"factor": 0.5}, {"continuity": "G0"}):
-        assert judged(marked, **options).grade == GOOD
-
-
-def test_a_kink_deserves_a_look_at_its_vertices(fine: Evidence) -> None:
-    kinked = replace(fine, join=Join(ints(7, 8, 9), np.array([12.5, 3.0, 31.0]), ints(2, 0)))
-    verdict = judged(kinked)
-    assert (verdict.grade, verdict.spots.tolist()) == (LOOK, [9, 7])
-    assert verdict.reason == "A kink shows at 2 vertices of the boundary, of 31° at worst"
-    assert verdict.remedies == (GROW, SMOOTH_OUTLINE)
-    turned = replace(fine, join=Join(ints(7, 8), np.array([12.5, 105.9]), ints(1, 0)))
-    assert judged(turned).reason == (
-        "The surface turns back from the slope around it at 2 vertices of the boundary, by 106°"
-    )
-    assert judged(kinked, continuity="G0").grade == GOOD
-    assert judged(kinked, factor=0.5).grade == GOOD
-
-
-def test_what_the_eye_does_not_see_is_good(fine: Evidence) -> None:
-    assert judged(replace(fine, join=Join(ints(7), np.array([20.0])))).grade == GOOD  # a coarse cage
-
-
-def test_needles_are_counted_and_not_worth_a_word(fine: Evidence) -> None:
-    assert judged(replace(fine, after=replace(CLEAN, needles=ints(FACE)))).grade == GOOD
-
-
-@pytest.mark.parametrize(
-    ("ending", "steps", "reported"),
-    [
-        ("stalled", 0, "no initial surface was found"),
-        ("stalled", 14, "the search came to a halt"),
-        ("iteration_limit", 20, "it was not there after 20 steps"),
-    ],
-)
-def test_how_a_search_ended_is_reported_without_a_figure_that_says_nothing(
-    fine: Evidence, ending: str, steps: int, reported: str
-) -> None:
-    result = replace(fine.result, converged=False, termination=ending, iterations=steps)
-    assert judged(replace(fine, result=result)).reason.startswith(
-        f"No fair surface was found: {reported}. What it came to"
-    )
 
 
 def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) -> None:

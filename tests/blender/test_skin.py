@@ -23,10 +23,6 @@ def dented(rim: int = 48) -> tuple[bpy.types.Object, meshes.Mask, meshes.Floats]
     return obj, faces, noise
 
 
-def heights(obj: bpy.types.Object) -> meshes.Floats:
-    return np.asarray(np.linalg.norm(meshes.positions(obj), axis=1) - 1)
-
-
 def fair(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
     """Run; return which vertices moved, after a look at everything else."""
     before = meshes.in_edit_mode_once(obj, faces)

@@ -26,36 +26,7 @@ std::vector<Vector3> half_grid(double size, int rows, int columns, const Height&
 
 const Vector3 tilted = Vector3(-0.1, 0.05, 1.0).normalized();
 
-double error(const std::vector<Vector3>& points, Degree degree) {
-    const auto fit = fit_slopes(Vector3::Zero(), points, tilted, degree);
-    REQUIRE(fit.has_value());
-    return (fit->normal - Vector3::UnitZ()).norm();
-}
-
 }  // namespace
-
-TEST_CASE("slopes from one side are found to second order by quadratic terms, to third by cubic ones") {
-    const auto wavy = [](double x, double y) {
-        return std::sin(x) * std::sin(x) + 0.3 * x * y + 0.2 * y * y * y * y + 0.4 * x * x * x;
-    };
-    const auto at_size = [&](double size, Degree degree) { return error(half_grid(size, 6, 5, wavy), degree); };
-    CHECK(at_size(0.1, Degree::cubic) < 1e-3);
-    CHECK(at_size(0.1, Degree::cubic) / at_size(0.05, Degree::cubic) > 6.0);
-    CHECK(at_size(0.1, Degree::quadratic) / at_size(0.05, Degree::quadratic) > 3.0);
-    CHECK(at_size(0.1, Degree::quadratic) > 3.0 * at_size(0.1, Degree::cubic));
-}
-
-TEST_CASE("the error of a fit tells what its points determine") {
-    const auto cubic = [](double x, double y) { return 0.5 * x * x * x + y * y; };
-    const auto fitted = [&](int rows, Degree degree) {
-        return fit_slopes(Vector3::Zero(), half_grid(0.1, rows, 9, cubic), tilted, degree);
-    };
-    // Six rows show x, x² and x³.
-    CHECK(fitted(6, Degree::cubic)->error < 0.25 * fitted(6, Degree::quadratic)->error);
-    // Two rows beside the origin's don't.
-    CHECK_FALSE(fitted(3, Degree::cubic).has_value());
-    CHECK(fitted(3, Degree::quadratic).has_value());
-}
 
 TEST_CASE("nothing is fitted to points that don't determine a plane, or too few") {
     std::vector<Vector3> line;

@@ -223,14 +223,6 @@ thread = threading.Thread(target=starve)
 thread.start()
 thread.join()
 """
-FORKED = """
-control = fair()
-child = os.fork()
-same = np.array_equal(fair(), control)
-if child == 0:
-    os._exit(0 if same else 1)
-sys.exit(os.waitpid(child, 0)[1] or not same)
-"""
 
 
 def run_alone(script: str) -> str:
@@ -248,9 +240,3 @@ def test_without_memory_it_refuses_and_lives() -> None:
     words = run_alone(STARVED).split()
     assert len(words) == 42
     assert (words[0], words[-2:]) == ("refused", ["solved", "solved"])
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="as above")
-def test_a_fork_goes_on() -> None:
-    """After a solve with several threads, parent and child solve again, at the same time."""
-    run_alone(FORKED)

@@ -241,6 +241,7 @@ ROWS: dict[str, Row] = {
     "fair: least energy": _run(ball, lambda s, **k: s.fair(equation="minimal_energy", **k), 1e-7),
     "fair: least variation": _run(ball, lambda s, **k: s.fair(equation="least_variation", **k), 2e-3),
     "fair: a tube": _run(tube, Scene.fair, 1e-6),
+    "fair: automatic": _run(tube, lambda s, **k: s.fair(equation="automatic", **k), 1e-3),
     "Solver": _run(ball, solved_again, 1e-8),
     "fill": _run(ball, lambda s, **k: surface(s.points, fairing.fill(s.points, s.outside, **k)), 3e-2),
     "fill: edges": _run(box, lambda s, **k: surface(s.points, fairing.fill(s.points, s.outside, **k)), 2e-2),

@@ -65,12 +65,6 @@ def click(x: int, y: int) -> Story:
         yield 0.15
 
 
-def point(x: int, y: int) -> Story:
-    """Move the pointer."""
-    view()[0].event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
-    yield 0.15
-
-
 def middle() -> tuple[int, int]:
     """The middle of the 3D view."""
     region = view()[2]

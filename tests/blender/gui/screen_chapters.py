@@ -2,7 +2,6 @@
 
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
@@ -179,7 +178,7 @@ def lasso_and_paint_fair() -> Story:
 
 
 def arrows_pull_the_last_run() -> Story:
-    """The middle of a faired region is pulled up, and back by one step; and a fillet is pulled wider.
+    """The middle of a faired region is pulled up, and back by one step.
 
     Once with answers at once, once with answers that follow.
     """
@@ -225,44 +224,8 @@ def _arrows_are_pulled() -> Story:
     press("Z", *middle(), ctrl=True)
     yield 1.0
     assert (scenes.positions() == before).all(), "one step back is not where it began"
-    yield from _wider_fillet()
     with in_view():
         bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
-
-
-def _wider_fillet() -> Story:
-    scenes.clear()
-    bpy.ops.mesh.primitive_cube_add()
-    scenes.start(np.arange(6) == 0)
-    with in_view():
-        bpy.ops.view3d.view_all()
-        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.fillet")
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(bpy.context.object.data)
-    for edge in bm.edges:
-        edge.select_set(all(v.co.x > 0.0 and v.co.z > 0.0 for v in edge.verts))
-    bpy.ops.ed.undo_push(message="edge")
-    with in_view():
-        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3)
-    yield 1.5
-    screenshot("arrow_width")
-    foot, away = module("fillet.operator").handle.flank
-    count = len(scenes.positions())
-    begin, end = _in_window(foot + 0.35 * away, foot + 0.9 * away)
-    yield from _pull(begin, end)
-
-    def wider() -> bool:
-        return bpy.context.active_operator.properties.width > 0.5 and len(scenes.positions()) != 8
-
-    yield from wait_until(wider, 10.0)
-    yield 1.0
-    screenshot("arrow_width_pulled")
-    tell(f"width pulled to {bpy.context.active_operator.properties.width:.3f}")
-    assert 8 < len(scenes.positions()) < count, "a wider fillet of wider triangles has fewer vertices"
-    press("Z", *middle(), ctrl=True)
-    yield 1.0
-    assert len(scenes.positions()) == 8, "one step back is not the cube"
 
 
 def _ends_of_arrow() -> tuple[Any, Any]:

@@ -8,7 +8,7 @@ import numpy as np
 import spoilt_scenes
 from driver import Story, in_view, middle, press, screenshot, tell
 from extension import module
-from panel import drag_over, open_redo_panel, open_tab, report, run_operator, run_with, wait_until
+from panel import drag_over, open_tab, report, run_with, wait_until
 
 
 def _reported() -> bool:
@@ -143,27 +143,3 @@ def brush_in_sculpt_mode() -> Story:
     yield from wait_until(back, 10.0)
     with in_view():
         bpy.ops.object.mode_set(mode="OBJECT")
-
-
-def fills_a_hole() -> Story:
-    """One vertex of a hole's outline is selected: the hole is filled, and the redo panel makes it finer."""
-    tell(f"hole: {spoilt_scenes.hole()} vertex selected")
-    faces = spoilt_scenes.face_count()
-    with in_view():
-        bpy.ops.view3d.view_all()
-    open_tab()
-    yield 0.7
-    screenshot("fill_before")
-    run_operator("mesh.fair_fill")
-    yield from wait_until(lambda: spoilt_scenes.face_count() > faces, 20.0)  # in the background on a busy machine
-    yield 1.0
-    screenshot("fill_after")
-    yield from open_redo_panel()
-    screenshot("fill_redo")
-    yield from _undo()
-    assert spoilt_scenes.face_count() == faces
-    with in_view():
-        bpy.ops.object.mode_set(mode="OBJECT")
-    open_tab()
-    yield 0.7
-    screenshot("object_mode")

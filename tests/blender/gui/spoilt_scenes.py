@@ -41,17 +41,6 @@ def mask() -> Any:
     return values
 
 
-def selected_vertices() -> list[int]:
-    """The vertices that are selected in edit mode."""
-    bm = bmesh.from_edit_mesh(bpy.context.object.data)
-    return [vertex.index for vertex in bm.verts if vertex.select]
-
-
-def face_count() -> int:
-    """The number of faces in edit mode."""
-    return len(bmesh.from_edit_mesh(bpy.context.object.data).faces)
-
-
 def _hills(points: Any) -> Any:
     points[:, 2] = 0.25 * np.cos(1.6 * points[:, 0]) * np.cos(1.3 * points[:, 1])
     return points
@@ -71,19 +60,6 @@ def spoilt_rim(size: int = 48) -> int:
 
     move(crumple)
     return scenes.start(np.linalg.norm(centres()[:, :2], axis=1) < 0.8)
-
-
-def thorn(size: int = 24) -> int:
-    """A plain, its middle selected; one vertex of the outline stands up."""
-    scenes.clear()
-    bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=2.0)
-
-    def raised(points: Any) -> Any:
-        points[np.linalg.norm(points[:, :2] - [-0.5, 0.0], axis=1).argmin(), 2] = 0.06
-        return points
-
-    move(raised)
-    return scenes.start(np.abs(centres()[:, :2]).max(axis=1) < 0.5)
 
 
 def _ball() -> None:

@@ -15,12 +15,11 @@ from ends_chapters import another_file_ends_a_run, quits_after_a_cancel, quits_d
 from fillet_chapters import fillet_is_dragged
 from live_chapters import live_follows_a_drag, live_follows_a_pin
 from long_run_chapters import cancel_a_hopeless_run, cancel_a_long_run, finish_a_long_run
-from panel import extension, module, open_redo_panel, open_tab, redo_with, report, run_operator, set_options, wait_until
+from panel import extension, module, open_redo_panel, open_tab, redo_with, report, run_operator, wait_until
 from redo_chapters import a_field_of_the_redo_panel_is_pulled, changes_in_the_redo_panel_do_not_wait
 from screen_chapters import SCREENS
-from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, fills_a_hole, masked_in_sculpt_mode
-from tutorial_chapters import tutorial_as_written
-from verdict_chapters import marks_before_a_run, not_usable, worth_a_look
+from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, masked_in_sculpt_mode
+from verdict_chapters import marks_before_a_run, not_usable
 
 
 def look_before_running() -> Story:
@@ -98,47 +97,6 @@ def adjust_in_redo_panel() -> Story:
     screenshot("redo")
 
 
-def judge() -> Story:
-    """Reflection lines and curvature of the ear before and after."""
-    scenes.ear()
-    set_options()
-    with in_view():
-        bpy.ops.view3d.view_selected()
-    settings = bpy.context.window_manager.fairing_overlay
-    settings.scope = "OBJECT"
-    settings.show = True
-    yield 1.0
-    screenshot("zebra_before")
-    report().free_vertices = 0
-    run_operator()
-    yield 2.0
-    assert report().free_vertices
-    screenshot("zebra_after")
-    for name, look in (("stripes", {"stripes": 40}), ("direction", {"axis": (1.0, 0.0, 0.0)})):
-        for option, value in look.items():
-            setattr(settings, option, value)
-        yield 1.0
-        screenshot(f"zebra_{name}")
-        for option in look:
-            settings.property_unset(option)
-    settings.mode = "CURVATURE"
-    yield 1.0
-    screenshot("curvature_after")
-    bpy.ops.ed.undo()
-    yield from wait_until(_overlay_is_measured, 20.0)
-    yield 1.0
-    screenshot("curvature_before")
-    settings.show = False
-    yield 0.5
-    bpy.ops.wm.save_userpref()  # the command line finds the extension enabled
-
-
-def _overlay_is_measured() -> bool:
-    """Whether the overlay shows the mesh as it is: it is measured between two redraws, which take a while here."""
-    (surface,) = module("overlay.overlay").overlay.surfaces
-    return np.allclose(surface.positions, scenes.positions(), atol=1e-6)
-
-
 CHAPTERS = (
     look_before_running,
     reported_before_running,
@@ -149,11 +107,8 @@ CHAPTERS = (
     finish_a_long_run,
     changes_in_the_redo_panel_do_not_wait,
     a_field_of_the_redo_panel_is_pulled,
-    judge,
     marks_before_a_run,
-    worth_a_look,
     not_usable,
-    fills_a_hole,
     fillet_is_dragged,
     masked_in_sculpt_mode,
     face_set_by_a_click,
@@ -161,7 +116,6 @@ CHAPTERS = (
     live_follows_a_drag,
     live_follows_a_pin,
     another_file_ends_a_run,
-    tutorial_as_written,
     *SCREENS,
 )
 # Each ends Blender, so that it has one of its own; they are played only where they are named.
@@ -175,6 +129,7 @@ def story() -> Story:
     assert not unknown, f"there is no chapter {', '.join(sorted(unknown))}"
     extension()
     yield 1.0
+    bpy.ops.wm.save_userpref()  # the command line finds the extension enabled
     press("ESC", *middle())  # the splash screen of a first start
     yield 0.5
     for chapter in (*CHAPTERS, *ENDINGS):

@@ -16,10 +16,6 @@ def reported() -> bool:
     return bool(report().free_vertices)
 
 
-def idle() -> bool:
-    return not bpy.context.window_manager.fairing_progress.running
-
-
 def run_and_wait(**options: Any) -> Story:
     """Run the operator with its defaults, apart from these.
 
@@ -68,25 +64,6 @@ def marks_before_a_run() -> Story:
             bpy.ops.mesh.fair_select("EXEC_DEFAULT", True, what=what)
         yield from _look()
         screenshot(f"marks_{what.lower()}")
-
-
-def worth_a_look() -> Story:
-    """A vertex of the outline stands out: written, and the button shows where."""
-    yield from framed(spoilt_scenes.thorn)
-    yield from run_and_wait()
-    assert (report().verdict, report().written) == ("LOOK", True), report().reason
-    tell(f"look here: {report().reason}")
-    screenshot("look")
-    run_operator("mesh.fair_select", what="SPOTS")
-    yield 1.0
-    chosen = spoilt_scenes.selected_vertices()
-    assert 0 < len(chosen) < 10, chosen
-    screenshot("look_spots")
-    for _ in range(2):  # the selection of the spots, then the run
-        press("Z", *middle(), ctrl=True)
-        yield 0.7
-    assert report().undone
-    screenshot("look_undone")
 
 
 def not_usable() -> Story:

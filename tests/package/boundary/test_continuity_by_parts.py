@@ -91,25 +91,6 @@ def test_curvature_is_continued_where_it_is_asked_for() -> None:
     assert errors[2] == patch.error(plain.vertices)
 
 
-@pytest.mark.parametrize("seed", [3, 4])
-def test_tangent_at_one_end_of_a_tube_and_curvature_at_the_other(seed: int) -> None:
-    """κ = Δ_B H is harmonic and vanishes where nothing but the slope is met: r H′ = F, F′ = r κ, r κ′ = 1.2."""
-    profile = curves.OdeCurve(
-        0.0, 1.4, (1.0, 0.0, np.pi / 2, 0.5, 0.2, 0.0),
-        lambda _, q: 2 * q[3] - np.sin(q[2]) / q[0], lambda _, q: (q[4] / q[0], q[0] * q[5], 1.2 / q[0]),
-    )  # fmt: skip
-    errors = []
-    for n_free in (300, 1200):
-        patch = shapes.on_domain(Domain(Revolution(profile, -1), "tube"), n_free, Style(jitter=0.6, seed=seed))
-        tangent = patch.vertices[patch.fixed][:, 2] < 0.5
-        wrong = patch.mean_curvature[patch.fixed] + tangent  # where it does not count
-        result = faired(patch, np.where(tangent, "G1", "G2"), curvatures=wrong)
-        assert result.converged and result.continuity == "G2" and not result.warnings
-        errors.append(patch.error(result.vertices))
-    assert errors[1] < 0.3 * errors[0] and errors[1] < 5e-4
-    assert patch.error(faired(patch, ["G1"] * len(tangent)).vertices) > 5e-3
-
-
 def test_a_part_that_is_tangent_as_asked_is_no_reason_to_warn() -> None:
     """Where it is asked for and not known it is."""
     patch = shapes.torus(500)
@@ -124,21 +105,6 @@ def test_a_part_that_is_tangent_as_asked_is_no_reason_to_warn() -> None:
     (warning,) = faired(patch, kinds, curvatures=curvatures).warnings
     assert warning.code == "G2_NOT_MET"
     assert set(patch.fixed[unknown]) <= set(warning.elements) < set(patch.fixed[asked])  # with arcs too short for waves
-
-
-def test_a_solver_and_a_new_mesh_continue_it_on_a_part_too() -> None:
-    patch = shapes.torus(500)
-    curvatures = patch.mean_curvature[patch.fixed]
-    x = patch.vertices[patch.fixed][:, 0]
-    kinds = np.where(x <= np.median(x), "G2", "G1")
-    start = shapes.start_from_nothing(patch)
-    one = faired(patch, kinds, curvatures=curvatures)
-    solver = fairing.Solver(patch.triangles, fixed=patch.fixed, continuity="G2")
-    again = solver.solve(start, patch.fixed_normals, fixed_curvatures=curvatures, continuity=kinds)
-    assert np.array_equal(again.vertices, one.vertices) and not again.warnings
-    held = fairing.Boundary(patch.fixed, patch.fixed_normals, curvatures, continuity=kinds)
-    new = fairing.remesh(start, patch.triangles, held)
-    assert new.continuity == "G2" and not new.warnings
 
 
 def test_what_contradicts_is_refused_with_a_word_on_what_is_needed() -> None:

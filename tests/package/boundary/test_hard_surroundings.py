@@ -49,33 +49,6 @@ def test_a_crease_beside_the_boundary_does_not_bend_the_join(rings: float, conti
     assert panel.error(result.vertices) < 1e-3
 
 
-def test_what_one_row_does_not_show_is_in_the_error() -> None:
-    """A row of a panel that bends says nothing of its bend across: its normals are as far off as their errors say."""
-    panel = solids.panel(1)
-    found = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
-    off = np.linalg.norm(found.normals - panel.normals[panel.rim], axis=1)
-    assert 1e-3 < off.max() < 0.01
-    at_row = np.abs(panel.clean[panel.rim, 1] - 0.3) < 1e-9
-    assert 0.1 * found.errors[at_row].mean() < off[at_row].mean() < found.errors[at_row].mean()
-    assert np.median(found.errors[at_row]) > 20 * np.median(found.errors[~at_row])
-    assert np.isnan(found.trusted_curvatures[at_row]).sum() > 5
-
-
-def test_a_marked_edge_stops_the_fit() -> None:
-    """The crease bends by 17°: no hard edge unless it is marked."""
-    panel = solids.panel(1)
-    y = panel.clean[:, 1]
-    vertices = panel.clean.copy()
-    vertices[:, 2] -= 0.3 * np.maximum(0.0, y - 0.35)
-    row = np.flatnonzero(np.abs(y - 0.35) < 1e-9)
-    edges = np.column_stack([row[:-1], row[1:]])
-    exact = panel.normals[panel.rim]
-    unmarked = fairing.surrounding_normals(vertices, panel.outside, panel.rim)
-    marked = fairing.surrounding_normals(vertices, panel.outside, panel.rim, creases=edges)
-    assert np.abs(unmarked.normals - exact).max() > 0.03
-    assert np.abs(marked.normals - exact).max() < 0.01
-
-
 @pytest.mark.parametrize("half", [0.5, 1.0, 2.0])
 @pytest.mark.parametrize("depth", [0.2, 0.4, 0.8])
 def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:

@@ -38,14 +38,6 @@ def test_the_fair_curve_does_not_drift_within_the_surface() -> None:
     assert np.linalg.norm(places[0] - places[1], axis=1).max() < 0.01 * window.border_edge
 
 
-def test_a_held_border_stays() -> None:
-    window = windows.window("cylinder", 24, 3)
-    start = window.noisy(0.25, 4)
-    result = fair(window, start)
-    assert np.array_equal(result.vertices[window.border], start[window.border])
-    assert "OPEN_BORDER_IN_SELECTION" in {reported.code for reported in result.warnings}
-
-
 def test_a_border_between_held_ends_meets_them() -> None:
     """Two thirds of the window are in the selection; the rest of its border is fixed."""
     window = windows.window("sphere", 48, 5)

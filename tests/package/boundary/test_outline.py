@@ -1,7 +1,6 @@
 """Noisy, bad and visible outlines: standard errors, mending, growing, and the measure of the join."""
 
 from dataclasses import dataclass
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -72,21 +71,6 @@ def test_normals_of_noisy_surroundings(noise: float) -> None:
         errors.append(np.degrees(found.errors))
     assert np.median(np.concatenate(angles)) < 35 * noise
     assert 0.4 < np.median(np.concatenate(angles) / np.concatenate(errors)) < 1.6
-
-
-def test_mending_keeps_all_beyond_two_rings() -> None:
-    case = ball(0.1)
-    fitted = SimpleNamespace(**fairing._core.mend_outline(case.noisy, case.outside, case.outline))
-    reached = case.outline
-    for _ in range(2):
-        reached = np.union1d(reached, case.outside[np.isin(case.outside, reached).any(axis=1)])
-    assert np.isin(case.outline, fitted.moved).all()
-    assert np.isin(fitted.moved, reached).all()
-    rest = np.setdiff1d(np.arange(len(case.noisy)), fitted.moved)
-    assert np.array_equal(fitted.vertices[rest], case.noisy[rest])
-    before = np.linalg.norm(case.noisy[case.outline], axis=1) - 1
-    after = np.linalg.norm(fitted.vertices[case.outline], axis=1) - 1
-    assert np.sqrt((after**2).mean()) < 0.6 * np.sqrt((before**2).mean())
 
 
 def options_of(case: Ball) -> dict[str, Any]:

@@ -1,7 +1,5 @@
 """`fairing.hierarchy`: levels of a progressive mesh by half-edge collapses (§7.4)."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
@@ -12,13 +10,6 @@ import shapes
 from test_fixed_curves import make_capsule
 
 
-@pytest.mark.parametrize("levels", [1, 2, 3, 5])
-def test_the_number_of_levels_is_the_callers(levels: int) -> None:
-    patch = shapes.cap(2000)
-    result = fairing.hierarchy(patch.vertices, patch.triangles, levels=levels)
-    assert len(result) == levels
-
-
 @pytest.mark.parametrize("make", ["disk", "blend"])
 def test_every_level_has_the_topology_and_the_outline_of_the_mesh(make: str) -> None:
     patch = shapes.cap(2000) if make == "disk" else blend.cylinder_blend(2000)
@@ -27,13 +18,6 @@ def test_every_level_has_the_topology_and_the_outline_of_the_mesh(make: str) -> 
         assert np.array_equal(np.unique(triangles), vertices)
         assert measures.is_oriented_manifold(triangles)
         assert measures.euler_number(triangles) == measures.euler_number(patch.triangles)
-
-
-def test_levels_are_nested() -> None:
-    patch = shapes.cylinder(2000)
-    result = fairing.hierarchy(patch.vertices, patch.triangles, levels=4)
-    for (coarse, _), (fine, _) in pairwise(result):
-        assert np.isin(coarse, fine).all()
 
 
 def test_fixed_curves_inside_the_mesh_stay() -> None:

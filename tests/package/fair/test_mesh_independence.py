@@ -38,11 +38,3 @@ def test_two_meshes_of_the_blend_agree(one: tuple[float, ...], other: tuple[floa
     assert second_converged
     distance = measures.two_sided_distance((first_vertices, first.triangles), (second_vertices, second.triangles))
     assert distance <= 0.003 * first.diameter
-
-
-def test_blend_is_symmetric() -> None:
-    """The surface, not the mesh, has the plane of the axes as a mirror."""
-    patch, vertices, _ = faired(0.6, 2, 4000)
-    mirrored = vertices * np.array([1.0, 1.0, -1.0])
-    distance = measures.two_sided_distance((vertices, patch.triangles), (mirrored, patch.triangles[:, ::-1]))
-    assert distance <= 0.003 * patch.diameter

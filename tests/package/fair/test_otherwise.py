@@ -42,15 +42,6 @@ def test_an_accepted_surface_is_returned_with_its_girth(length: float, lean: flo
     assert result.girth[1] == pytest.approx(max(1.0, radii(result)[inner].max()), abs=0.02)
 
 
-def test_automatic_is_harmonic_where_there_is_no_tube() -> None:
-    ring = shapes.cap(300)
-    result = fairing.fair(
-        ring.vertices, ring.triangles, fixed=ring.fixed, fixed_normals=ring.fixed_normals, equation="automatic"
-    )
-    assert result.equation == "harmonic"
-    assert result.girth is None
-
-
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
     balloon = tubes.pipe(7.0, -10.0, seed=3).faired(equation="harmonic", otherwise="stop")
     assert balloon.converged

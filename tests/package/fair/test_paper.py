@@ -20,7 +20,6 @@ import six_arms
 import tetrathing
 from fairing import _core
 from shapes import Patch, Style
-from test_fixed_curves import make_capsule
 
 MILD = Style(jitter=0.3)
 PAPER_FIELDS = [field.name for field in fields(fairing.PaperOptions)]
@@ -72,27 +71,6 @@ def test_surfaces_with_harmonic_curvature_are_reproduced(family: str, goal: floa
 # §7.5: the boundary and other equations
 
 
-@pytest.mark.parametrize("family", ["cap", "cylinder", "catenoid", "clothoid"])
-def test_the_boundary_is_met_with_tangent_continuity(family: str) -> None:
-    """G1: the surface's own normals turn into the prescribed ones."""
-    _, result = solved(family)
-    assert result.boundary_angle.max() < 1.0
-
-
-def test_a_fixed_curve_inside_the_mesh_separates_two_patches() -> None:
-    """As the circles of the tetrathing do (Fig. 8): a sphere above, a cylinder below."""
-    capsule = make_capsule(300)
-    fixed = np.concatenate([capsule.rim, capsule.circle])
-    normals = capsule.vertices[fixed] * np.array([1.0, 1.0, 0.0])
-    result = fairing.fair(
-        capsule.vertices, capsule.triangles,
-        fixed=fixed, fixed_normals=normals, method="paper", max_iterations=1000,
-    )  # fmt: skip
-    assert result.converged
-    assert np.abs(np.linalg.norm(result.vertices[capsule.above], axis=1) - 1).max() < 0.02
-    assert np.abs(np.linalg.norm(result.vertices[capsule.below, :2], axis=1) - 1).max() < 0.02
-
-
 FIGURES: dict[str, Callable[[], blend.Blend]] = {
     "cylinder blend, Fig. 1": lambda: blend.cylinder_blend(820, jitter=0.3, seed=5),
     "six arms": lambda: six_arms.six_arms(2000, jitter=0.3, seed=5),
@@ -113,33 +91,7 @@ def test_both_methods_find_the_same_surface_on_the_papers_figures(figure: str) -
     assert np.linalg.norm(paper.vertices - fast.vertices, axis=1).max() < 1e-6 * diameter
 
 
-def test_minimal_energy_surfaces_reproduce_spheres() -> None:
-    patch = shapes.cap(300, MILD, half_angle=60)
-    result = fair(patch, equation="minimal_energy")
-    assert result.converged
-    assert patch.error(result.vertices) < 3e-3
-
-
-def test_a_load_lifts_a_flat_disc_to_the_height_of_the_clamped_plate() -> None:
-    """Δ_B H = load; for small loads w = −(load/32)(a² − r²)², H being ½ Δw with outward normals."""
-    patch = shapes.cap(400, MILD, half_angle=0.01)
-    radius = 0.5 * patch.diameter
-    bulge = 0.1
-    result = fair(patch, equation="constant", load=8 * bulge / radius**3)
-    assert result.converged
-    height = (result.vertices[:, 2] - patch.vertices[:, 2].mean()).max()
-    assert height == pytest.approx(bulge * radius / 4, rel=0.05)
-
-
 # §7.3: inner fairness
-
-
-@pytest.mark.parametrize("kind", ["uniform", "conformal", "inverse_distance", "shape_preserving"])
-def test_inner_fairness_moves_vertices_within_the_surface_only(kind: str) -> None:
-    patch, _ = solved("cylinder")
-    result = fair(patch, inner_fairness=kind, reference=patch.vertices)
-    assert result.converged
-    assert patch.error(result.vertices) < 3e-3
 
 
 # §7: construction and options

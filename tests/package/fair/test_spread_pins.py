@@ -117,38 +117,6 @@ def test_the_pin_acts_on_its_own_side_of_a_slit() -> None:
     assert np.abs(result.vertices[beyond, 2]).max() < 0.01 * 0.02
 
 
-def pulled_sideways(n_free: int, pull: float, **options: object) -> tuple[fairing.FairResult, Patch, int]:
-    """A hemisphere whose apex is pinned a share of D to one side of where it was, and that vertex."""
-    patch = shapes.cap(n_free)
-    held = patch.vertices[patch.fixed]
-    middle = held.mean(axis=0)
-    across, _, up = np.linalg.svd(held - middle)[2]
-    apex = patch.free[np.argmax(np.abs((patch.vertices[patch.free] - middle) @ up))]
-    start = patch.vertices.copy()
-    start[apex] += pull * size(patch) * across
-    result = fairing.fair(
-        start, patch.triangles, fixed=np.append(patch.fixed, apex),
-        fixed_normals=np.vstack([patch.fixed_normals, np.zeros(3)]), **options,
-    )  # fmt: skip
-    assert np.array_equal(result.vertices[apex], start[apex])
-    return result, patch, int(apex)
-
-
-@pytest.mark.parametrize("pull", [0.15, 0.3])
-def test_a_pin_pulled_sideways_has_a_radius_too(pull: float) -> None:
-    """Its neighbours would fold: it is led there on another mesh. Two meshes agree, and nothing is folded."""
-    peaks = []
-    for n_free in (500, 1000):
-        result, patch, apex = pulled_sideways(n_free, pull)
-        assert result.converged
-        assert not {reported.code for reported in result.warnings}
-        assert len(fairing.looks.flipped_triangles(result.vertices, patch.triangles)) == 0
-        peaks.append(float(result.mean_curvature[apex]) * size(patch))
-    assert peaks[0] == pytest.approx(peaks[1], rel=0.03)
-    sharp, patch, apex = pulled_sideways(1000, pull, pin_radius=0)
-    assert abs(float(sharp.mean_curvature[apex])) * size(patch) > 1.1 * abs(peaks[1])
-
-
 def test_a_folded_surface_has_no_spread_pins() -> None:
     """A pin that goes up and aside: the first surface with the radius is folded, the pin is led to another one."""
     patch = shapes.plane(300)

@@ -243,20 +243,6 @@ def test_objects_of_a_scene_stay(tmp_path: Path) -> None:
     assert report["not_written"] == ["object"]
 
 
-def test_nothing_to_fill_is_good(tmp_path: Path) -> None:
-    """A closed mesh is copied as it is; the outer border of a sheet stays open, and the report says so."""
-    closed = odd_files.ply(faces=[*odd_files.QUADS, (4, 5, 6, 7)])
-    (tmp_path / "closed.ply").write_bytes(closed)
-    sheet = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"
-    (tmp_path / "sheet.obj").write_text(sheet)
-    names = tmp_path / "closed.ply", tmp_path / "sheet.obj"
-    status, reports = report_of(tmp_path, "fill", *names, "--into", tmp_path / "out")
-    assert (status, [report["verdict"] for report in reports]) == (0, ["good", "good"])
-    assert "outside of a sheet" in reports[1]["reason"]
-    assert (tmp_path / "out" / "closed_filled.ply").read_bytes() == closed
-    assert (tmp_path / "out" / "sheet_filled.obj").read_text() == sheet
-
-
 def test_a_surface_through_other_faces_is_never_good(tmp_path: Path) -> None:
     """A ball lies in the way of a tube's new wall."""
     points, triangles = holed()
@@ -290,14 +276,6 @@ def test_pieces_that_are_wound_the_other_way_are_turned(tmp_path: Path) -> None:
     assert len(said.elements) == 200
 
 
-def test_triangles_that_are_none_or_there_twice_stop_nothing() -> None:
-    points, triangles = holed()
-    odd = np.concatenate([triangles, [[0, 0, 1], [200, 200, 201], [9, 9, 9]], np.roll(triangles[7:400:9], 1, axis=1)])
-    mesh, result = fairing.fill_holes((points, odd), longest=20)
-    assert result.converged and len(result.loops) == 1 and np.array_equal(mesh[1][: len(odd)], odd)
-    assert not result.warnings
-
-
 @pytest.mark.parametrize("begin", range(6))
 def test_a_concave_face_is_cut_within_itself(begin: int) -> None:
     """Whatever its first corner; where it is one."""
@@ -306,11 +284,6 @@ def test_a_concave_face_is_cut_within_itself(begin: int) -> None:
     at = mesh.points[mesh.own]
     areas = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])[:, 2] / 2
     assert len(areas) == 4 and (areas > 0).all() and areas.sum() == pytest.approx(3.0)
-
-
-def test_a_face_with_a_corner_that_is_no_number_is_cut_all_the_same() -> None:
-    corners = np.array([(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, np.nan), (1, 2, 0), (0, 2, 0)], float)
-    assert Parts(corners, Polygons.of([range(6)])).own.shape == (4, 3)
 
 
 def test_each_hole_has_a_row_of_its_own(tmp_path: Path) -> None:
@@ -330,12 +303,3 @@ def test_each_hole_has_a_row_of_its_own(tmp_path: Path) -> None:
     assert others and all(each["verdict"] == "unusable" and each["reason"] for each in others)
     assert report["reason"].startswith(f"{len(others)} of {1 + len(others)} holes can't be filled")
     assert abs(radius(mesh.points[len(places) :]) - 1).max() < 1e-4 and len(mesh.points) > len(places)
-
-
-def test_the_same_message_is_said_once(tmp_path: Path) -> None:
-    points, triangles = holed()
-    several = np.concatenate([points + np.array([0, 0, 4 * k]) for k in range(3)])
-    mesh = several, np.concatenate([triangles + k * len(points) for k in range(3)])
-    (tmp_path / "three.off").write_text(odd_files.off(mesh[0], mesh[1]))
-    status, (report,) = report_of(tmp_path, "fill", tmp_path / "three.off", "--longest", 20)
-    assert status == 0 and len({each["message"] for each in report["warnings"]}) == len(report["warnings"])

@@ -200,18 +200,6 @@ def test_edges_of_a_librarys_mesh(library: Callable[[], Any]) -> None:
     assert abs(at - points[:, 2]).max() < 0.2
 
 
-def test_edges_of_polygons_are_rounded_by_quads() -> None:
-    """A cube of six quads: rows along its edges, three blocks at each corner, and the data of one old face on each."""
-    corner = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
-    (points, faces), result = fairing.fillet_edges((corner, quads), width=0.2, faces="quads")
-    sizes = [len(face) for face in faces]
-    assert (sizes.count(4), sizes.count(3)) == (12 * 8 + 8 * 48, result.outside)
-    used = {v for face in faces for v in face}
-    assert used == set(range(len(points)))
-    assert points.min() > -1e-9 and points.max() < 1 + 1e-9
-
-
 def test_arrays_and_polygons() -> None:
     points, quads, selected = dented()
     mesh, result = fairing.fair_faces((points, quads), selected)
@@ -223,19 +211,6 @@ def test_arrays_and_polygons() -> None:
     of_lists, _ = fairing.fair_faces((points, mixed), [*selected, False])
     assert [len(face) for face in of_lists[1]] == [len(face) for face in mixed]
     assert abs(radius(of_lists[0]) - 1).max() < 1e-4
-
-
-def test_options_reach_the_engine() -> None:
-    points, quads, selected = dented()
-    stages: list[str] = []
-    _, result = fairing.fair_faces(
-        (points, quads), selected, equation="soap_film", progress=lambda fraction, stage: stages.append(stage)
-    )
-    assert result.equation == "soap_film" and stages
-    with pytest.raises(ValueError, match="tolerance"):
-        fairing.fair_faces((points, quads), selected, tolerance=-1.0)
-    with pytest.raises(fairing.Cancelled):
-        fairing.fill_holes(holed(), longest=20, progress=lambda fraction, stage: False)
 
 
 def test_a_seam_is_no_border() -> None:
@@ -287,13 +262,3 @@ def test_selected_by_a_name(caplog: pytest.LogCaptureFixture) -> None:
         fair, result = fairing.fair_faces(mesh, "on")
     assert abs(radius(fair.points) - 1).max() < 1e-4
     assert any("fair_faces" in line and result.termination in line for line in caplog.messages)
-
-
-def test_what_holds_no_surface_is_refused() -> None:
-    library = pytest.importorskip("meshio")
-    solid = library.Mesh(np.eye(4)[:, :3], [("tetra", [[0, 1, 2, 3]])])
-    with pytest.raises(ValueError, match="tetra"):
-        fairing.fill_holes(solid)
-    lines = pytest.importorskip("pyvista").PolyData(np.eye(3), lines=[2, 0, 1])
-    with pytest.raises(ValueError, match="lines"):
-        fairing.fill_holes(lines)

@@ -5,7 +5,6 @@ import pytest
 
 import creased
 import fairing
-import holes
 from creased import Hole
 
 TENTH = 0.1  # of the radius
@@ -46,20 +45,6 @@ def test_a_rolled_edge_runs_on(n: int, options: dict[str, float], bound: float) 
 
 def test_without_the_rule_it_swells() -> None:
     assert off(creased.in_bevel(20, 1), 0.12, edges="ignored") > 0.4
-
-
-@pytest.mark.parametrize("half_angle", [20, 60, 90, 130])
-def test_a_ball_has_no_bands(half_angle: float) -> None:
-    vertices, triangles = holes.bowl(48, half_angle)
-    assert fairing.fill(vertices, triangles, [np.arange(48)]).bands == ()
-
-
-@pytest.mark.parametrize("noise", [0.1, 0.3])
-def test_noise_has_no_bands(noise: float) -> None:
-    """A flat mesh with noise of so many edges."""
-    hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, 0.0)], 16)
-    rough = hole.vertices + noise / 16 * np.random.default_rng(2).normal(size=hole.vertices.shape)
-    assert fairing.fill(rough, hole.triangles, [hole.loop]).bands == ()
 
 
 def test_a_band_that_ends_in_the_hole_is_no_band_through_it() -> None:

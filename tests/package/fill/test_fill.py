@@ -33,25 +33,6 @@ def test_a_hemisphere_comes_back(edges: int, bound: float) -> None:
     assert abs(result.mean_curvature + 1).max() < 60 * bound
 
 
-@pytest.mark.parametrize("stretch", [(1.0, 1.0, 1.6), (1.0, 1.0, 0.6), (0.7, 1.0, 1.3)])
-def test_what_bulges_out_far_is_found_although_it_is_no_ball(stretch: tuple[float, float, float]) -> None:
-    vertices, triangles = holes.bowl(48, 150)
-    result = fairing.fill(vertices * stretch, triangles, [np.arange(48)])
-    assert (result.converged, result.equation, result.warnings) == (True, "harmonic", ())
-
-
-def test_the_surface_does_not_depend_on_the_spacing() -> None:
-    edge = 2 * np.sin(np.pi / 24)
-    results = [fairing.fill(*holes.bowl(24), spacing=factor * edge) for factor in (0.25, 0.5, 1.0, 2.0, 4.0)]
-    heights = [apex(result) for result in results]
-    assert max(heights) - min(heights) < 1e-3
-    counts = [len(result.vertices) for result in results]
-    assert counts == sorted(counts, reverse=True)
-    assert counts[0] > 8 * counts[2]
-    for result in results:
-        assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 3e-4
-
-
 Place = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
 
 
@@ -128,36 +109,6 @@ def test_three_outlines_become_a_blend() -> None:
     assert {*np.sign(top[:, 2])} == {-1.0, 1.0}
 
 
-def elbow(radius: float, bend: float = 90.0, around: int = 32) -> tuple[FloatArray, IntArray]:
-    """Two open tubes with a part of a torus of radius 1 around the origin between them; outward normals."""
-    part, faces = holes.sheet(
-        lambda u, v: (1 + radius * np.cos(2 * np.pi * u), -v, radius * np.sin(2 * np.pi * u)), (around, 8),
-        lambda u, v: np.zeros(len(u), dtype=bool), closed=True,
-    )  # fmt: skip
-    half = np.radians(bend / 2)
-    mirror = np.array([[np.cos(2 * half), np.sin(2 * half), 0], [np.sin(2 * half), -np.cos(2 * half), 0], [0, 0, 1]])
-    return np.concatenate([part, part @ mirror]), np.concatenate([faces, faces[:, ::-1] + len(part)])
-
-
-@pytest.mark.parametrize(
-    ("radius", "otherwise"), [(0.4, "stop"), *((r, "least_variation") for r in (0.4, 0.3, 0.25, 0.2, 0.15))]
-)
-def test_an_elbow_keeps_its_width(radius: float, otherwise: str) -> None:
-    """The harmonic one has a waist of two thirds, or is none; that of least variation begins at a swept tube."""
-    vertices, triangles = elbow(radius)
-    loops = [
-        loop for loop in fairing.boundary_loops(triangles) if (np.abs(vertices[loop, :2]).min(axis=1) < 1e-9).all()
-    ]
-    result = fairing.fill(vertices, triangles, loops, bridge=True, otherwise=otherwise)
-    away = np.hypot(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1, result.vertices[:, 2])
-    assert result.converged
-    if otherwise == "stop":
-        assert (result.equation, away.min() < 0.3) == ("harmonic", True)
-        return
-    assert result.equation == "least_variation"
-    assert np.abs(away - radius).max() < 0.02
-
-
 def test_a_hole_around_a_limb_does_not_close_it() -> None:
     """All of a cylinder but a strip along it. The triangulation of least area cuts across: no harmonic surface grew."""
 
@@ -173,25 +124,6 @@ def test_a_hole_around_a_limb_does_not_close_it() -> None:
     assert len(loops) == 1
     assert (result.converged, result.equation) == (True, "harmonic")
     assert np.abs(np.hypot(result.vertices[:, 0], result.vertices[:, 1]) - 1).max() < 1e-4
-
-
-def jagged(seed: int, edges: int = 80) -> FloatArray:
-    """A flat outline that goes in and out by more than the length of its edges."""
-    rng = np.random.default_rng(seed)
-    turn = 2 * np.pi * (np.arange(edges) + rng.uniform(-0.3, 0.3, edges)) / edges
-    return np.column_stack([np.cos(turn), np.sin(turn), 0 * turn]) * (1 + rng.uniform(-0.12, 0.12, (edges, 1)))
-
-
-@pytest.mark.parametrize("seed", range(24))
-def test_angles_at_a_jagged_outline(seed: int) -> None:
-    """Small ones where it forces them alone: with an edge on it, in one of two hundred triangles."""
-    outline = jagged(seed)
-    count = len(outline)
-    result = fairing.fill(outline, EMPTY, [np.arange(count)], normals=np.tile([0.0, 0.0, 1.0], (count, 1)))
-    least = holes.angles(np.concatenate([outline, result.vertices]), result.triangles).min(axis=1)
-    assert (least < 25.0).mean() < 0.005 and least.min() > 20.0
-    assert least[(result.triangles < count).sum(axis=1) < 2].min() > 28.0
-    assert np.bincount(holes.edges_of(result.triangles).ravel())[count:].max() <= 9
 
 
 @pytest.mark.parametrize("order", ["forward", "backward"])

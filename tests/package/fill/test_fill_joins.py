@@ -96,23 +96,6 @@ def test_a_rough_outline_keeps_the_tangent_join_and_says_so() -> None:
     np.testing.assert_array_equal(curved.vertices, tangent.vertices)
 
 
-def test_equations_without_such_a_join_are_refused_at_once() -> None:
-    reported: list[str] = []
-    with pytest.raises(ValueError, match="continuity: 'G2' is not accepted with equation 'least_variation'"):
-        filled(
-            "torus", 20, continuity="G2", equation="least_variation", progress=lambda _, stage: reported.append(stage)
-        )
-    assert not reported
-
-
-def test_two_outlines_without_faces_around_have_no_curvature_to_continue() -> None:
-    ring = np.linspace(0.0, 2.0 * np.pi, 25)[:-1]
-    circle = np.column_stack([np.cos(ring), np.sin(ring), 0 * ring])
-    normals = circle.copy()
-    with pytest.raises(ValueError, match="pass fixed_curvatures"):
-        fairing.fill(circle, np.empty((0, 3), int), [np.arange(24)], normals=normals, continuity="G2")
-
-
 def test_a_bridge_continues_curvature_too() -> None:
     """Between two parts of an ellipsoid's side, which no harmonic surface is."""
 

@@ -122,18 +122,6 @@ def test_no_kink_at_a_wire_inside_but_at_a_crease() -> None:
     assert np.abs(smooth.vertices[:, 2] + np.abs(smooth.vertices[:, 0])).max() > 1e-2
 
 
-def test_a_cage_of_few_edges() -> None:
-    """A cube's twelve edges, which has no smooth surface at its corners, still has one."""
-    corners = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
-    wires = [(a, b) for a in range(8) for b in range(a) if np.abs(corners[a] - corners[b]).sum() == 1.0]
-    result = fairing.surface_from_curves(corners, wires, creases=wires)
-    assert result.converged and len(result.cells) == 6
-    at = whole(corners, result)[result.triangles]
-    normals = np.cross(at[:, 1] - at[:, 0], at[:, 2] - at[:, 0])
-    assert np.einsum("ij,ij->i", at[:, 0] - 0.5, normals).sum() > 0.0
-    assert np.isclose(np.linalg.norm(normals, axis=1).sum() / 2.0, 6.0)
-
-
 def refused(code: str, points: networks.Floats, wires: object, **options: object) -> list[int]:
     before = points.copy()
     with pytest.raises(fairing.MeshError) as reported:

@@ -221,12 +221,3 @@ def test_pins_and_kept_edges_leave_no_rows() -> None:
     assert result.quads is not None
     sides = {frozenset(pair) for face in faces_of(result) for pair in zip(face, face[1:] + face[:1], strict=True)}
     assert frozenset(again.tolist()) in sides
-
-
-def test_triangles_stay_as_they_were() -> None:
-    vertices, triangles, *_ = holes.bowl(20)
-    plain = fairing.fill(vertices, triangles)
-    assert plain.quads is None
-    assert np.array_equal(plain.vertices, fairing.fill(vertices, triangles, faces="triangles").vertices)
-    with pytest.raises(ValueError, match="faces"):
-        fairing.fill(vertices, triangles, faces="hexagons")

@@ -9,13 +9,6 @@ import creased
 import fairing
 from creased import FloatArray, Hole, IntArray
 
-PROFILES: dict[str, list[tuple[float, float]]] = {
-    "two edges": [(-1.0, -1.0), (-0.15, 0.0), (0.15, 0.0), (1.0, -1.0)],
-    "two edges, near each other": [(-1.0, -1.0), (-0.05, 0.0), (0.05, 0.0), (1.0, -1.0)],
-    "a convex and a concave edge": [(-1.0, 0.0), (-0.25, 0.0), (-0.25, -0.4), (1.0, -0.4)],
-    "three edges": [(-1.0, -0.5), (-0.3, 0.0), (0.0, -0.3), (0.3, 0.0), (1.0, -0.5)],
-}
-
 
 def filled(hole: Hole, **options: object) -> fairing.FillResult:
     return fairing.fill(hole.vertices, hole.triangles, [hole.loop], **options)  # type: ignore[arg-type]
@@ -54,17 +47,6 @@ def test_an_edge_runs_on(make: Callable[[int, int], Hole], curves: int, bound: f
     assert hole.error(result.vertices) < bound
     assert hole.edge_error(on_curves(hole, result)) < bound
     assert least_angle(np.concatenate([hole.vertices, result.vertices]), result.triangles) > 15
-
-
-@pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES.keys())
-@pytest.mark.parametrize("n", [16, 24])
-def test_several_edges_run_through_one_hole(profile: list[tuple[float, float]], n: int) -> None:
-    hole = creased.in_profile(profile, n)
-    result = filled(hole)
-    assert len(result.curves) == len(profile) - 2
-    assert hole.error(result.vertices) < 1e-9
-    assert hole.edge_error(on_curves(hole, result)) < 1e-9
-    assert not result.warnings
 
 
 def test_the_edge_is_rounded_where_that_is_asked_for() -> None:
@@ -156,13 +138,6 @@ def test_drawn_edges_that_cross_are_refused_with_their_places() -> None:
         fairing.fill(vertices, hole.triangles, [hole.loop], wires=[[0, 999999]])
 
 
-def test_a_loose_end_of_a_wire_changes_nothing() -> None:
-    hole = creased.in_box_edge(10, 1)
-    vertices, wires = drawn_across(hole, np.array([[0.0, 0.5, 0.0]]))
-    result = fairing.fill(vertices, hole.triangles, [hole.loop], wires=wires[:1])
-    assert np.array_equal(result.vertices, filled(hole).vertices)
-
-
 def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
     """Its outline runs along a box edge: flat to roundoff, where normals from beyond the edge make a bulge."""
     box = creased.box_edge(12, 1)
@@ -188,34 +163,6 @@ def test_where_no_surface_holds_the_edge_it_is_left_alone() -> None:
     assert result.curves == ()
     assert result.equation == smooth.equation
     assert len(result.vertices) == pytest.approx(len(smooth.vertices), rel=0.1)
-
-
-def test_holes_with_and_without_edges_are_filled_in_one_call() -> None:
-    """Each as by itself; triangles, fixed vertices and curves name the same places."""
-    hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (0.0, -1.0)], 16, radius=0.25)
-    away = np.linalg.norm(hole.vertices - [-0.6, 0.5, 0.0], axis=1) < 0.2
-    kept = hole.triangles[~away[hole.triangles].all(axis=1)]
-    loops = [loop for loop in fairing.boundary_loops(kept) if len(loop) < 40]
-    assert len(loops) == 2
-    both = fairing.fill(hole.vertices, kept, loops)
-    single = [fairing.fill(hole.vertices, kept, [loop]) for loop in loops]
-    assert len(both.vertices) == sum(len(each.vertices) for each in single)
-    assert len(both.triangles) == sum(len(each.triangles) for each in single)
-    assert hole.error(both.vertices) < 1e-9
-    points = np.concatenate([hole.vertices, both.vertices])
-    assert np.abs(points[both.curves[0]][:, [0, 2]]).max() < 1e-9
-    assert set(np.concatenate([*loops, both.curves[0]]).tolist()) == set(both.fixed.tolist())
-    assert len(both.boundary_angle) == len(both.fixed) == len(both.join)
-    faces = points[both.triangles]
-    area = 0.5 * np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1).sum()
-    assert area == pytest.approx(sum(_flat_area(hole.vertices[loop]) for loop in loops), rel=1e-9)
-    assert [loop.tolist() for loop in both.loops] == [each.loops[0].tolist() for each in single]
-
-
-def _flat_area(loop: FloatArray) -> float:
-    """Over a loop on the faces z = 0 and x = 0 of a box, unfolded."""
-    u, v = loop[:, 0] - loop[:, 2], loop[:, 1]
-    return 0.5 * abs(float((u * np.roll(v, -1) - v * np.roll(u, -1)).sum()))
 
 
 def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:

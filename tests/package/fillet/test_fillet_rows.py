@@ -127,19 +127,6 @@ def test_a_box_gets_a_pole_at_each_corner_and_keeps_its_loops(count: int) -> Non
     assert abs(_distances(result, triangulated, vertices)).max() < 1e-3 * np.sqrt(12)
 
 
-@pytest.mark.parametrize("share", [1, 2, 3])
-def test_the_spacing_says_how_many_rows_there_are(share: int) -> None:
-    vertices, triangles, seam = wedges.wedge(90, rows=3)
-    options = {"width": WIDTH, "faces": "quads", "neighbours": without_diagonals(vertices, triangles, 2)}
-    result = fairing.fillet(vertices, triangles, seam, spacing=WIDTH / share, **options)
-    assert result.quads is not None
-    assert len(result.quads.quads) % (2 * share) == 0
-    points = np.concatenate([vertices, result.vertices])
-    column = points[np.unique(result.quads.quads)]
-    middle = column[np.abs(column[:, 2] - 2 / 3) < 1e-3]
-    assert len(middle) == 2 * share + 1
-
-
 def test_a_seam_that_fades_out_has_two_poles_at_each_end() -> None:
     vertices, triangles = solids.box(4)
     counted = without_diagonals(vertices, triangles)
@@ -212,11 +199,3 @@ def test_where_fillets_run_into_each_other_pairs_stand_in_and_that_is_said() -> 
     assert len(result.quads.quads) > 100
     _, faces = whole(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
-
-
-def test_faces_are_triangles_or_quads() -> None:
-    vertices, triangles = solids.box(1)
-    with pytest.raises(ValueError, match="faces"):
-        fairing.fillet(vertices, triangles, width=0.2, faces="polygons")
-    with pytest.raises((ValueError, fairing.MeshError)):
-        fairing.fillet(vertices, triangles, width=0.2, faces="quads", neighbours=[[0, 99]])

@@ -53,16 +53,6 @@ def test_a_cylinder_does_not_sink_and_a_hollow_one_does() -> None:
         assert hollow / 1.98 / 2.0 < share < hollow / 0.84
 
 
-def test_lines_that_leave_to_the_other_side_see_no_hollow() -> None:
-    """A dome swells: it is above them."""
-    assert depth(-0.1) == 0.0
-
-
-def test_normals_are_one_for_each_vertex() -> None:
-    with pytest.raises(ValueError, match="normals: expected one for each of 4 vertices"):
-        fairing.looks.sunken(np.eye(4)[:, :3], [[0, 1, 2], [0, 2, 3]], np.zeros((3, 3)))
-
-
 def lost_grain(noise: float, where: str, kept: float = 0.0, ridges: bool = False) -> bool:
     """Whether grain of that many cells is lost where the patch is smoothed to a share of it."""
     x, y, triangles, inside = sheet()

@@ -10,7 +10,6 @@ import fairing
 import measures
 import shapes
 import solids
-from bad_inputs import ball_of_meridians
 from meshing import face_normals
 from shapes import Patch, Style
 
@@ -46,10 +45,6 @@ def test_spheres_have_exact_curvatures_and_normals(style: str) -> None:
     assert angles(patch, rings=2).max() < 1e-8
 
 
-def test_planes_have_no_curvature() -> None:
-    assert curvature_error(shapes.plane(300)).max() < 1e-12
-
-
 @pytest.mark.parametrize("style", STYLES)
 @pytest.mark.parametrize("name", ["cylinder", "unduloid", "linear_flux", "torus", "clothoid"])
 def test_the_error_of_h_falls_with_the_edge_length(name: str, style: str) -> None:
@@ -61,15 +56,6 @@ def test_the_error_of_h_falls_with_the_edge_length(name: str, style: str) -> Non
     assert errors[1] < 0.02
 
 
-@pytest.mark.parametrize("name", ["cylinder", "catenoid", "torus", "clothoid"])
-def test_fitted_normals_are_of_second_order(name: str) -> None:
-    """Order above 1.5 in the rms; averaged normals reach 1 on irregular meshes."""
-    coarse, fine = (getattr(shapes, name)(n) for n in (500, 4000))
-    errors = [float(np.sqrt((angles(p) ** 2).mean())) for p in (coarse, fine)]
-    assert measures.observed_order((len(coarse.free), len(fine.free)), (errors[0], errors[1])) > 1.5
-    assert errors[1] < 0.2 * float(np.sqrt((angles(fine, "averaged") ** 2).mean()))
-
-
 def test_averaged_normals_are_normalised_sums_of_cross_products() -> None:
     patch = shapes.torus(500)
     total = np.zeros_like(patch.vertices)
@@ -78,15 +64,6 @@ def test_averaged_normals_are_normalised_sums_of_cross_products() -> None:
     expected = total / np.linalg.norm(total, axis=1)[:, None]
     result = fairing.vertex_normals(patch.vertices, patch.triangles, normals="averaged")
     assert np.abs(result - expected).max() < 1e-12
-
-
-@pytest.mark.parametrize("exponent", [-460, -40, 40, 460])
-def test_the_smallest_and_the_largest_meshes_have_the_same_bits(exponent: int) -> None:
-    """Scaled by a power of two, by up to 1e-138 and 1e138: squares of areas are no numbers there."""
-    vertices, triangles = ball_of_meridians(12, 8)
-    scale = 2.0**exponent
-    larger = fairing.mean_curvature(scale * vertices, triangles) * scale
-    assert np.array_equal(larger, fairing.mean_curvature(vertices, triangles))
 
 
 def stiffness(vertices: Any, triangles: Any) -> Any:
