@@ -1,17 +1,24 @@
-"""Which hard edges a fair surface must not take away without a word."""
+"""What a verdict looks at: edges that are gone, seams, faces passed through, spoilt starts, triangles."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from addon.arrays.region import MeshArrays
-from addon.arrays.types import Ints, Mask
+from addon.arrays.around import numbered, outside_triangles
+from addon.arrays.region import MeshArrays, Patch, make_patch
+from addon.arrays.types import Floats, Ints, Mask
 from addon.fair.engine import Problem
-from addon.fair.solve import pose
+from addon.fair.solve import pose, solve
 from addon.options.options import FairOptions
+from addon.remesh.remeshing import remesh_arrays
+from addon.verdict import quality
 from addon.verdict.eaten import Eaten, eaten_edges
+from addon.verdict.outcome import Fairing, outcome
+from addon.verdict.quality import is_spoilt
+from addon.verdict.verdict import LOOK
 
-from polygon_mesh import grid_points, grid_quads, polygon_mesh
+from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 SIZE = 20  # faces along each side of [−1, 1]²
 HALF = 0.45  # of the selected square's side
@@ -122,3 +129,200 @@ def test_a_pinned_edge_that_gets_blunter_is_not_missed(pinned: bool) -> None:
     after = problem.points.copy()
     after[problem.patch.free, 2] *= 0.5
     assert (len(eaten_edges(problem, after, None).running_on) == 0) == pinned
+
+
+# Doubled vertices inside a selection are an open border that stays: what it holds up must not count as good.
+SIZE_SEAMS = 16
+
+
+EYE = np.eye(4)
+
+
+def slit_sphere(height: float, split: bool = True) -> MeshArrays:
+    """A side of a cubic sphere with a bump in its selected middle, whose middle row is doubled inside."""
+    points, quads = grid_points(SIZE_SEAMS), np.array(grid_quads(SIZE_SEAMS))
+    selected = grid(SIZE_SEAMS, 0.6).in_patch
+    row = np.flatnonzero((points[:, 1] == 0.0) & (np.abs(points[:, 0]) < 0.4))
+    doubles = len(points) + np.arange(len(row))
+    above = quads[:, 0] >= (SIZE_SEAMS // 2) * (SIZE_SEAMS + 1)
+    if split:
+        twin = np.arange(len(points))
+        twin[row] = doubles
+        quads[above] = twin[quads[above]]
+        points = np.concatenate([points, points[row]])
+    bump = 1.0 + height * np.exp(-((points**2).sum(axis=1)) / 0.05)
+    return polygon_mesh(on_sphere(points) * bump[:, None], quads.tolist(), selected)
+
+
+def fair(mesh: MeshArrays, matrix: Floats = EYE) -> Fairing:
+    options = FairOptions()
+    return outcome(mesh, matrix, options, solve(mesh, matrix, options))
+
+
+def test_a_crest_on_a_doubled_seam_is_not_good() -> None:
+    done = fair(slit_sphere(0.3))
+    assert done.verdict.grade == "LOOK"
+    assert "seam of doubled vertices" in done.verdict.reason
+    mesh = slit_sphere(0.3)
+    on_row = np.flatnonzero((np.abs(mesh.positions[:, 1]) < 1e-9) & (np.abs(mesh.positions[:, 0]) < 0.45))
+    assert set(done.verdict.spots) <= set(on_row)
+    assert len(done.verdict.spots) > 6
+
+
+@pytest.mark.parametrize("mesh", [slit_sphere(0.0), slit_sphere(0.3, split=False)])
+def test_a_seam_that_holds_nothing_up_is_fine(mesh: MeshArrays) -> None:
+    assert fair(mesh).verdict.grade == "GOOD"
+
+
+# Where a new surface passes through faces that are no part of it.
+SIZE_PIERCING = 12
+
+
+def dent_below_a_plate(height: float, slope: float = 0.0) -> MeshArrays:
+    """A plain with a dent, which is selected, and a plate over its middle, at heights around this one."""
+    points = grid_points(SIZE_PIERCING)
+    selected = np.abs(points[np.array(grid_quads(SIZE_PIERCING))].mean(axis=1)).max(axis=1) < 0.6
+    points[:, 2] = -0.8 * np.clip(0.5 - np.hypot(points[:, 0], points[:, 1]), 0.0, None)
+    plate = np.array([[-0.1, -0.1, 0.0], [0.1, -0.1, 0.0], [0.1, 0.1, 0.0], [-0.1, 0.1, 0.0]])
+    plate[:, 2] = height + slope * plate[:, 0]
+    quads = [*grid_quads(SIZE_PIERCING), [len(points) + k for k in range(4)]]
+    return polygon_mesh(np.concatenate([points, plate]), quads, [*selected, False])
+
+
+def reason(mesh: MeshArrays, anew: bool = False) -> str:
+    if anew:
+        verdict = remesh_arrays(mesh, np.eye(4), FairOptions(remesh=True)).verdict
+    else:
+        verdict = outcome(mesh, np.eye(4), FairOptions(), solve(mesh, np.eye(4), FairOptions())).verdict
+    if "passes through faces outside" not in verdict.reason:
+        return ""
+    assert verdict.grade == LOOK
+    near = np.abs(mesh.positions[verdict.spots, :2]).max(axis=1)
+    assert near.max() < 0.35  # beside the plate
+    return verdict.reason
+
+
+def test_a_surface_that_rises_through_a_plate_is_worth_a_look() -> None:
+    assert reason(dent_below_a_plate(0.01, slope=1.0))
+
+
+def test_a_new_mesh_that_rises_through_a_plate_is_worth_a_look() -> None:
+    assert reason(dent_below_a_plate(0.01, slope=1.0), anew=True)
+
+
+@pytest.mark.parametrize("anew", [False, True])
+def test_a_plate_above_is_no_matter(anew: bool) -> None:
+    assert not reason(dent_below_a_plate(0.2), anew)
+
+
+@pytest.mark.parametrize("anew", [False, True])
+def test_what_passed_through_before_is_no_news(anew: bool) -> None:
+    mesh = dent_below_a_plate(0.0, slope=1.0)
+    lower = mesh.positions.copy()
+    lower[-4:, 2] = [-0.9, 0.1, 0.1, -0.9]  # through the dent's floor and through the plain
+    assert not reason(replace(mesh, positions=lower), anew)
+
+
+# Which starts have a shape that is no texture to keep.
+MESH = grid(12, 0.6, on_sphere)
+
+
+SPIKE = 1.6  # edges over its neighbours, from which a vertex is pulled out
+
+
+def lifted(vertex: int, by: float) -> MeshArrays:
+    positions = MESH.positions.copy()
+    positions[vertex] *= 1.0 + by
+    return replace(MESH, positions=positions)
+
+
+def test_a_spike_is_distinguished_from_a_bump() -> None:
+    inside = MESH.corner_vertices[MESH.in_patch[MESH.corner_faces]]
+    outside = MESH.corner_vertices[~MESH.in_patch[MESH.corner_faces]]
+    middle = int(np.setdiff1d(inside, outside)[10])
+    edge = float(np.linalg.norm(np.subtract(*MESH.positions[MESH.edges[0]])))
+    assert not is_spoilt(MESH)
+    assert not is_spoilt(lifted(middle, 0.8 * edge))
+    assert is_spoilt(lifted(middle, 3.0 * SPIKE * edge))
+    assert is_spoilt(lifted(middle, -3.0 * SPIKE * edge))
+    pinned = MESH.pinned.copy()
+    pinned[middle] = True  # a pin that was pulled out
+    assert is_spoilt(replace(lifted(middle, 3.0 * SPIKE * edge), pinned=pinned))
+    assert not is_spoilt(lifted(int(np.intersect1d(inside, outside)[0]), 3.0 * SPIKE * edge))  # it stays
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_a_crumpled_patch_is_distinguished_from_a_rough_mesh(seed: int) -> None:
+    """By noise in edges of the mesh, of the patch alone and of all of it."""
+    inside = np.setdiff1d(
+        MESH.corner_vertices[MESH.in_patch[MESH.corner_faces]], MESH.corner_vertices[~MESH.in_patch[MESH.corner_faces]]
+    )
+    edge = float(np.linalg.norm(np.subtract(*MESH.positions[MESH.edges[0]])))
+    noise = edge * np.random.default_rng(seed).normal(size=MESH.positions.shape)
+    patch_only = np.zeros_like(noise)
+    patch_only[inside] = noise[inside]
+    assert not is_spoilt(replace(MESH, positions=MESH.positions + 0.1 * patch_only))
+    assert is_spoilt(replace(MESH, positions=MESH.positions + 0.5 * patch_only))
+    rough = MESH.positions + 0.5 * noise
+    assert not is_spoilt(replace(MESH, positions=rough))
+    rough[0] = np.nan  # far away
+    assert not is_spoilt(replace(MESH, positions=rough))
+
+
+# What is counted about triangles: turned over, flat, distorted; and when crossings are looked for.
+QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+TWO = np.array([[0, 1, 2], [0, 2, 3]])
+
+
+@pytest.mark.parametrize(("stretch", "distortion"), [(1.0, 0.0), (2.0, 1.0), (0.5, 1.0), (1.5, 0.5)])
+def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: float) -> None:
+    stretched = QUAD * (stretch, 1.0, 1.0)  # singular values 1 and stretch: ratio max/min − 1
+    assert quality.texture_distortion(QUAD, stretched, TWO) == pytest.approx(distortion, abs=1e-12)
+    turned = 3.0 * QUAD[:, [1, 2, 0]] + 7.0  # a similarity
+    assert quality.texture_distortion(QUAD, turned, TWO) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_what_shrinks_to_nothing_counts_for_nothing() -> None:
+    """Two squares: one keeps its shape, the other is stretched threefold and a thousandth as large."""
+    squares = np.concatenate([QUAD, QUAD + np.array([5.0, 0.0, 0.0])])
+    both = np.concatenate([TWO, TWO + len(QUAD)])
+    after = np.concatenate([QUAD, 1e-3 * QUAD * [3.0, 1.0, 1.0]])
+    assert quality.texture_distortion(squares, after, both) < 1e-5
+    assert quality.texture_distortion(after, squares, both) > 0.1
+
+
+def square_patch() -> Patch:
+    """The grid of 4 × 4 quads, all of it selected."""
+    return make_patch(grid(4, 2.0))
+
+
+def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:
+    patch = square_patch()
+    points = grid_points(4)
+    assert len(quality.folded(patch, points)) == 0
+    points[12, :2] = (0.9, 0.9)  # the middle, across the corner of the quad above to the right
+    found = quality.folded(patch, points)
+    assert len(found) > 0
+    assert set(found) <= {5, 6, 9, 10}
+
+
+def bent_problem(degrees: float, shape: Callable[[Floats], Floats] = lambda p: p) -> Problem:
+    """A plane of quads whose selected middle is turned down along its outline."""
+    mesh = grid(16, 0.3)
+    patch = make_patch(mesh)
+    points = shape(mesh.positions)
+    slope = np.tan(np.radians(degrees))
+    inside = np.abs(points[:, :2]).max(axis=1) < 0.3
+    points[inside, 2] -= slope * np.minimum(points[inside, 0] + 0.25, 0.125)
+    vertices, outside = numbered(patch, outside_triangles(mesh, patch))
+    return Problem(patch, points[vertices], np.empty((0, 3)), vertices, outside)
+
+
+def test_the_join_is_seen_where_the_bend_is() -> None:
+    problem = bent_problem(30.0)
+    join = quality.join(problem, problem.points)
+    assert join.worst == pytest.approx(30.0)
+    flat = bent_problem(0.0)
+    assert quality.join(flat, flat.points).worst == pytest.approx(0.0, abs=1e-9)

@@ -8,15 +8,22 @@ import pytest
 from addon.arrays.border import BorderRefusal, border_loops
 from addon.arrays.region import MeshArrays, nothing
 from addon.arrays.types import Floats, Ints, Mask
+from addon.fill.across import reported
 from addon.fill.filling import fill
+from addon.fill.holes import Borders, chosen_borders
+from addon.fill.islands import islands_inside
 from addon.fill.pieces import Piece
 from addon.fill.report import make_fill_report
-from addon.fill.verdict import Surface, judge
+from addon.fill.verdict import Surface, hard_ends, judge
+from addon.mirror.reflected import Whole
 from addon.options.other_options import FillOptions
+from addon.remesh.key_surface import NewSurface, Surroundings, key_surfaces
 from addon.verdict.quality import Join
 from addon.verdict.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from addon.words.sentences import MeshRefusal
 
+import fairing
+import holes
 from polygon_mesh import grid_points, grid_quads, hexagon, on_sphere, polygon_mesh, tube
 
 SIZE = 8
@@ -210,3 +217,178 @@ def test_the_curvature_around_is_continued_where_it_can_be() -> None:
     assert notes["G1"] == notes["G2"] == ()
     (note,) = notes["rough"]
     assert "met in slope only, not in curvature. The curvature around it looks like noise" in note
+
+
+# Loose pieces of faces inside holes: which lie where, and how they are joined.
+SIZE_ISLANDS = 16
+
+
+def ball_with_island(away: float = 0.0) -> tuple[MeshArrays, list[Ints]]:
+    """Part of a sphere with a hole of 8 × 8 faces and a piece of 2 × 2 in its middle, lifted by `away`; its loops."""
+    quads = np.array(grid_quads(SIZE_ISLANDS))
+    rows, columns = np.divmod(np.arange(SIZE_ISLANDS * SIZE_ISLANDS), SIZE_ISLANDS)
+    far = np.maximum(np.abs(rows - 7.5), np.abs(columns - 7.5))
+    kept = quads[(far > 4) | (far < 1)]
+    points = on_sphere(grid_points(SIZE_ISLANDS))
+    points[np.unique(quads[far < 1])] += [0.0, 0.0, away]
+    mesh = polygon_mesh(points, kept.tolist(), np.zeros(len(kept), dtype=bool))
+    loops, left = border_loops(mesh, np.ones(len(points), dtype=bool))
+    assert not left
+    return mesh, sorted(loops, key=len)
+
+
+def test_an_island_is_found_in_its_hole() -> None:
+    mesh, loops = ball_with_island()
+    assert [len(loop) for loop in loops] == [8, 32, 64]
+    assert islands_inside(mesh, loops, np.array([True, False, True])) == {0: 1}
+    far, _ = ball_with_island(away=5.0)
+    assert islands_inside(far, loops, np.array([True, False, True])) == {}
+
+
+def test_an_island_is_joined_with_its_hole_where_that_is_asked_for() -> None:
+    mesh, loops = ball_with_island()
+    options = FillOptions(islands=True)
+    chosen = chosen_borders(np.eye(4), Borders(Whole.of(mesh), loops[:2]), options, True)
+    assert [len(loop) for loop in chosen.loops] == [8, 32]
+    done = fill(mesh, np.eye(4), chosen.loops, options)
+    (piece,) = done.pieces
+    assert not done.left
+    assert [len(loop) for loop in piece.loops] == [32, 8]
+    assert np.abs(np.linalg.norm(piece.positions, axis=1) - 1.0).max() < 5e-3
+    edges = np.sort(
+        np.concatenate([piece.triangles[:, [0, 1]], piece.triangles[:, [1, 2]], piece.triangles[:, [2, 0]]])
+    )
+    names, uses = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    assert len(piece.points) - len(names) + len(piece.triangles) == 0  # a ring
+    assert np.count_nonzero(uses == 1) == 40
+    plain = FillOptions()
+    alone = chosen_borders(np.eye(4), Borders(Whole.of(mesh), loops[:2]), plain, True)
+    assert [len(loop) for loop in alone.loops] == [32]
+
+
+# Shape keys over a new surface: one of their own where they bend its outline, otherwise what was carried over.
+RIM = 32
+
+
+def filled_keys(half_angle: float = 60.0) -> tuple[NewSurface, Surroundings, Floats]:
+    """A cap over a hole in the unit sphere; what is around it, its rim first, and its new vertices."""
+    vertices, triangles = holes.bowl(RIM, half_angle)
+    result = fairing.fill(vertices, triangles, [np.arange(RIM)])
+    number = np.arange(len(vertices) + len(result.vertices))
+    number[len(vertices) :] += RIM - len(vertices)
+    surface = NewSurface(np.concatenate([vertices[:RIM], result.vertices]), number[result.triangles], result.equation)
+    return surface, Surroundings(np.arange(len(vertices)), triangles, np.eye(4)), vertices
+
+
+def larger(surface: NewSurface, factor: float = 1.5) -> Floats:
+    """Where offsets that are carried over lead for a key of another size: too flat."""
+    flat = factor * surface.points[RIM:]
+    flat[:, 2] -= 0.04 * factor * (1 - np.hypot(flat[:, 0], flat[:, 1]) / factor)
+    return flat
+
+
+def test_a_larger_ball_comes_back_from_offsets_that_are_too_flat() -> None:
+    surface, around, places = filled_keys()
+    carried = larger(surface)
+    (found,) = key_surfaces(surface, around, [1.5 * places], [carried])
+    assert found is not None
+    assert np.abs(np.linalg.norm(carried, axis=1) - 1.5).max() > 0.02
+    assert np.abs(np.linalg.norm(found, axis=1) - 1.5).max() < 2e-4
+
+
+def test_keys_that_move_the_outline_as_a_whole_keep_their_offsets() -> None:
+    surface, around, places = filled_keys()
+    shift = np.array([0.1, 0.2, 0.3])
+    still, aside = surface.points[RIM:], surface.points[RIM:] + shift
+    assert key_surfaces(surface, around, [places, places + shift], [still, aside]) == [None, None]
+
+
+def test_a_key_without_a_surface_keeps_its_offsets() -> None:
+    surface, around, places = filled_keys()
+    broken = 1.5 * places
+    broken[3] = np.nan
+    point = np.zeros_like(places)
+    carried = larger(surface)
+    assert key_surfaces(surface, around, [broken, point], [carried, carried]) == [None, None]
+    loft = NewSurface(surface.points, surface.triangles, "loft")
+    assert key_surfaces(loft, around, [1.5 * places], [carried]) == [None]
+
+
+def test_a_surface_through_itself_is_not_taken() -> None:
+    """The rim as a figure eight: whatever comes out, it is no better than what was carried over."""
+    surface, around, places = filled_keys()
+    turn = np.arctan2(places[:, 1], places[:, 0])
+    eight = np.column_stack([np.sin(turn), np.sin(2 * turn), 0.1 * places[:, 2]]) * np.hypot(*places[:, :2].T)[:, None]
+    assert key_surfaces(surface, around, [eight], [larger(surface)]) == [None]
+
+
+# Holes at which hard edges of the mesh end.
+SIZE_ENDS = 24  # faces along each side of [−1, 1]²
+
+
+def roof(degrees: float, hole_at: float) -> MeshArrays:
+    """Two slopes that meet in a ridge along x, with a square hole of 6 × 6 faces around (0, hole_at)."""
+    flat = grid_points(SIZE_ENDS)
+    points = flat.copy()
+    points[:, 2] = -np.tan(np.radians(degrees) / 2.0) * np.abs(flat[:, 1])
+    quads = np.array(grid_quads(SIZE_ENDS))
+    away = np.abs(flat[quads].mean(axis=1) - [0.0, hole_at, 0.0])[:, :2].max(axis=1)
+    left = quads[away > 0.26]
+    return polygon_mesh(points, left.tolist(), np.zeros(len(left), dtype=bool))
+
+
+def rim(mesh: MeshArrays, hole_at: float) -> Ints:
+    chosen = np.abs(grid_points(SIZE_ENDS)[:, :2] - [0.0, hole_at]).max(axis=1) < 0.3
+    ((loop,), _) = border_loops(mesh, chosen)
+    return loop
+
+
+@pytest.mark.parametrize("degrees", [90.0, 50.0])
+def test_a_ridge_ends_on_both_sides_of_a_hole(degrees: float) -> None:
+    mesh = roof(degrees, 0.0)
+    loop = rim(mesh, 0.0)
+    ends = mesh.positions[hard_ends(mesh, loop, mesh.triangles)]
+    np.testing.assert_allclose(ends, [[-0.25, 0.0, 0.0], [0.25, 0.0, 0.0]], atol=1e-12)
+    (piece,) = fill(mesh, np.eye(4), [loop], FillOptions(allow_folds=True, run_on=False)).pieces
+    assert piece.verdict.grade != GOOD
+
+
+@pytest.mark.parametrize("degrees", [90.0, 50.0])
+def test_a_ridge_runs_on_through_a_hole(degrees: float) -> None:
+    """The two slopes come back, the report says why, and no quad lies over the ridge."""
+    mesh = roof(degrees, 0.0)
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(quads=True)).pieces
+    assert piece.verdict.grade == GOOD
+    assert reported([piece.across, piece.across]) == "2 run on"
+    slope = np.tan(np.radians(degrees) / 2.0)
+    np.testing.assert_allclose(piece.points[:, 2], -slope * np.abs(piece.points[:, 1]), atol=1e-9)
+    on_ridge = np.unique(piece.across.edges)
+    np.testing.assert_allclose(piece.points[on_ridge, 1:], 0.0, atol=1e-9)
+    lines = np.empty((0, 2), dtype=np.int64)
+    polygons = piece.faces(np.zeros(len(piece.triangles), dtype=np.int64), lines).polygons
+    assert max(map(len, polygons)) == 4
+    for polygon in polygons:
+        sides = np.sign(np.round(piece.points[polygon, 1], 9))
+        assert not {-1.0, 1.0} <= set(sides.tolist())
+    assert not len(piece.across.sharp)
+
+
+def test_the_surface_over_it_is_worth_a_look_though_no_kink_is_seen() -> None:
+    """A ridge of 36° leaves kinks that the mesh's own bends hide."""
+    mesh = roof(36.0, 0.0)
+    (piece,) = fill(mesh, np.eye(4), [rim(mesh, 0.0)], FillOptions(run_on=False)).pieces
+    assert (piece.verdict.grade, len(piece.join.seen)) == (LOOK, 0)
+    assert "Hard edges end at the hole, at 2 vertices" in piece.verdict.reason
+
+
+@pytest.mark.parametrize(("degrees", "hole_at"), [(20.0, 0.0), (90.0, 0.5)])
+def test_soft_ridges_and_those_beside_the_hole_don_t_count(degrees: float, hole_at: float) -> None:
+    mesh = roof(degrees, hole_at)
+    assert len(hard_ends(mesh, rim(mesh, hole_at), mesh.triangles)) == 0
+
+
+@pytest.mark.parametrize("noise", [0.02, 0.04])
+def test_noise_around_a_hole_has_no_hard_edges(noise: float) -> None:
+    mesh = roof(0.0, 0.0)
+    rough = mesh.positions + np.random.default_rng(3).normal(scale=noise, size=mesh.positions.shape)
+    assert len(hard_ends(replace(mesh, positions=rough), rim(mesh, 0.0), mesh.triangles)) == 0

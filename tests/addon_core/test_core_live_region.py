@@ -1,6 +1,8 @@
 """A live region on arrays: what it reads, and that its answers are the fair ones for where its surroundings are."""
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -10,7 +12,7 @@ from addon.arrays.types import Floats, Ints, Mask
 from addon.fair.boundary import boundary
 from addon.fair.held_curves import none, with_pinned_edges
 from addon.fair.solve import solve
-from addon.live.region import LiveRegion, Surroundings, surroundings
+from addon.live.region import LiveRegion, Surroundings, first, sought, surroundings
 from addon.options.options import FairOptions
 
 import fairing
@@ -209,3 +211,44 @@ def test_a_lone_pin_pulls_as_by_the_operator_and_stays_where_it_is_put() -> None
         assert answer is not None
         expected = solve(replace(mesh, positions=places.copy()), EYE, options).result.vertices
         np.testing.assert_allclose(answer, expected[np.isin(make_patch(mesh).vertices, region.free)], atol=1e-6)
+
+
+# The ways to a live region's surface: which are tried, in which order, and what ends them.
+NOWHERE: Any = None
+
+
+def region(solvable: str, tried: list[str], failing: type[Exception] | None = None) -> Any:
+    """A region whose one way to a surface is named; the others give none, or fail."""
+
+    def way(name: str) -> Any:
+        def ask(*_arguments: Any) -> Any:
+            tried.append(name)
+            if name == solvable:
+                return np.zeros((1, 3))
+            if failing is not None:
+                raise failing("no")
+            return None
+
+        return ask
+
+    return SimpleNamespace(**{name: way(name) for name in ("answer", "afresh", "stand_in")})
+
+
+def test_a_search_that_was_stopped_tries_no_other_way() -> None:
+    tried: list[str] = []
+    go_on = iter([True, False])
+    assert sought(region("stand_in", tried), NOWHERE, NOWHERE, lambda *_: next(go_on)).positions is None
+    assert tried == ["answer"]
+
+
+def test_a_new_region_without_any_surface_is_refused() -> None:
+    with pytest.raises(fairing.SolverError, match="No fair surface was found for the region"):
+        first(region("", []), NOWHERE, NOWHERE, lambda *_: True)
+
+
+@pytest.mark.parametrize("kind", [fairing.Cancelled, ValueError])
+def test_who_cancels_or_gives_bad_input_gets_no_other_surface(kind: type[Exception]) -> None:
+    tried: list[str] = []
+    with pytest.raises(kind):
+        first(region("stand_in", tried, kind), NOWHERE, NOWHERE, lambda *_: True)
+    assert tried == ["answer"]

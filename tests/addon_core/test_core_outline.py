@@ -1,4 +1,4 @@
-"""What is odd about an outline: each note where it belongs, and nowhere else."""
+"""What is odd about an outline, and what the overlay draws."""
 
 from dataclasses import replace
 
@@ -14,8 +14,9 @@ from addon.arrays.outline import (
     two_sided_edges,
 )
 from addon.arrays.types import Floats
+from addon.overlay.data import Surface, make_surface
 
-from polygon_mesh import grid, grid_points, grid_quads, polygon_mesh
+from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
 
 
 def bent_grid(degrees: float) -> Floats:
@@ -91,3 +92,30 @@ def test_precision_far_from_the_origin(far: float, reported: bool) -> None:
     """float32 steps at 10⁴ are 9.8e-4 apart; the grid's edges 1/3, coarse where that ratio exceeds 1e-3."""
     mesh = grid(6, 0.67, lambda points: points + far)
     assert bool(precision_note(mesh)) == reported
+
+
+# What the overlay draws: curvature and normals of a sphere, at its borders too.
+EYE = np.eye(4)
+
+
+def drawn(surface: Surface) -> np.ndarray:
+    return np.unique(surface.triangles)
+
+
+def test_curvature_of_a_selection_is_that_of_the_sphere_up_to_its_border() -> None:
+    surface = make_surface(grid(24, 0.35, on_sphere), 2.0 * EYE + np.diag([0.0, 0.0, 0.0, -1.0]), whole=False)
+    shown = drawn(surface)
+    assert len(surface.triangles) == 2 * 8**2
+    assert len(shown) == 9**2
+    np.testing.assert_allclose(surface.curvature[shown], -0.5, rtol=2e-2)  # convex, radius 2
+    np.testing.assert_allclose(surface.normals[shown], surface.positions[shown] / 2.0, atol=1e-2)
+    assert surface.usual("CURVATURE") == pytest.approx(0.5, rel=2e-2)
+    assert surface.boundary.shape == (4 * 8, 2, 3)
+    np.testing.assert_allclose(np.linalg.norm(surface.boundary, axis=2), 2.0, rtol=1e-6)
+
+
+def test_nothing_selected_draws_nothing() -> None:
+    mesh = grid(6, 0.67)
+    surface = make_surface(replace(mesh, in_patch=np.zeros(36, dtype=bool)), EYE, whole=False)
+    assert len(surface.triangles) == 0
+    assert surface.usual("CURVATURE") == 0.0

@@ -1,14 +1,17 @@
-"""Fair Fill over hard edges: they run on, drawn edges are taken, marks go on."""
+"""Fair Fill over hard edges, in rows of quads, over seams of UVs: each goes on."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import Any
 
+import bmesh
 import bpy
 import numpy as np
+import pytest
 
 import meshes
 from extension import module
+from test_fill import Chosen, fill_hole, open_sphere
 
 SIZE = 12
 
@@ -105,3 +108,197 @@ def test_other_keys_carry_the_edge_along() -> None:
     lifted = up - base
     assert np.abs(lifted[:, :2]).max() < 1e-6
     assert np.abs(lifted[:, 2] - 1.0 - 0.3 * base[:, 1]).max() < 1e-2
+
+
+# Fair Fill with Quads: rows go on through the hole, one step of undo takes them back, a refusal changes nothing.
+def pipe(columns: int = 32, rows: int = 20) -> bpy.types.Object:
+    """An open cylinder of quads around the z-axis, without those of a window 8 wide and 6 high."""
+    turn, height = np.meshgrid(2 * np.pi * np.arange(columns) / columns, np.linspace(-1.5, 1.5, rows + 1))
+    points = np.stack([np.cos(turn), np.sin(turn), height], axis=-1).reshape(-1, 3)
+    faces = [
+        [columns * j + i, columns * j + (i + 1) % columns, columns * (j + 1) + (i + 1) % columns, columns * (j + 1) + i]
+        for j in range(rows)
+        for i in range(columns)
+        if not (8 <= i < 16 and 7 <= j < 13)
+    ]
+    return meshes.add(points, faces, "Pipe")
+
+
+def select_border(obj: bpy.types.Object, chosen: Callable[[Any], bool]) -> None:
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for vertex in bm.verts:
+        vertex.select = vertex.is_boundary and chosen(vertex.co)
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
+def test_an_edge_loop_runs_through() -> None:
+    """Select Loop on one edge of the fill reaches both ends of the pipe, and its ring goes all around."""
+    obj = pipe()
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    new = [face for face in bm.faces if face.select]
+    assert [len(face.verts) for face in new] == [4] * 48
+    assert max(abs(vertex.co.xy.length - 1) for face in new for vertex in face.verts) < 5e-3
+    inside = [edge for face in new for edge in face.edges if all(other.select for other in edge.link_faces)]
+    upright = [e for e in inside if len({round(v.co.z, 2) for v in e.verts}) == 2]
+    for edge in (upright[0], upright[-1]):
+        assert _loop_length(edge) == 20
+        assert _ring_length(edge) == 32
+
+
+def _loop_length(edge: Any) -> int:
+    """Edges straight on in both directions, over vertices of four edges."""
+    count = 1
+    for vertex in edge.verts:
+        here, at = edge, vertex
+        while len(at.link_edges) == 4:
+            beside = {other for face in here.link_faces for other in face.edges}
+            (here,) = (other for other in at.link_edges if other not in beside)
+            at = here.other_vert(at)
+            count += 1
+    return count
+
+
+def _ring_length(edge: Any) -> int:
+    """Edges opposite to each other, face by face, until the first one comes again."""
+    count, here, face = 1, edge, edge.link_faces[0]
+    while True:
+        here = next(other for other in face.edges if not set(other.verts) & set(here.verts))
+        if here == edge:
+            return count
+        face = next(other for other in here.link_faces if other != face)
+        count += 1
+
+
+def test_a_region_is_meshed_anew_in_rows() -> None:
+    """Its rows go on from those around, and its corners carry what the old ones did."""
+    obj = pipe()
+    select_border(obj, lambda place: abs(place.z) < 1.2)
+    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
+    meshes.leave()
+    layer = obj.data.uv_layers.new(name="Map")
+    for corner in obj.data.loops:
+        layer.uv[corner.index].vector = (obj.data.vertices[corner.vertex_index].co.z, 0.5)
+    count = len(obj.data.polygons)
+    chosen = [abs(polygon.center.z) < 0.5 and polygon.center.x > 0.3 for polygon in obj.data.polygons]
+    meshes.enter(obj, np.array(chosen))
+    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", remesh=True, quads=True) == {"FINISHED"}
+    meshes.leave()
+    assert [len(polygon.vertices) for polygon in obj.data.polygons] == [4] * count
+    for corner in obj.data.loops:
+        u = obj.data.uv_layers["Map"].uv[corner.index].vector[0]
+        assert abs(u - obj.data.vertices[corner.vertex_index].co.z) < 0.01
+    assert "no rows" not in bpy.context.window_manager.fairing_report.warnings
+
+
+# Fair Fill over seams of UVs: each island goes on by itself, with its scale and its turn; seams go on with it.
+Floats = meshes.Floats
+
+
+SIZE_UVS = 0.25  # of an island, whose centres lie at 1, 2, 3, …
+
+
+def box_map(obj: bpy.types.Object, name: str = "Map", mirrored: bool = False) -> None:
+    """Six islands, one for each side of a blown-up cube; UVs go by the angles of its grid, so that squares stay so."""
+    mesh = obj.data
+    points = meshes.positions(obj)
+    places = np.zeros((len(mesh.loops), 2))
+    for polygon in mesh.polygons:
+        axis = int(np.abs(polygon.center).argmax())
+        sign = 1.0 if polygon.center[axis] > 0.0 else -1.0
+        for corner in polygon.loop_indices:
+            point = points[mesh.loops[corner].vertex_index]
+            angles = np.arctan2(np.roll(point, -axis)[1:] * [sign, 1.0], sign * point[axis])
+            places[corner] = SIZE_UVS * angles * ([-1.0, 1.0] if mirrored else [1.0, 1.0])
+            places[corner] += [2.0 * axis + (sign > 0), 0.0]
+    mesh.uv_layers.new(name=name).uv.foreach_set("vector", places.astype(np.float32).ravel())
+
+
+def mark_seams(obj: bpy.types.Object) -> int:
+    """Mark the edges where the sides of the cube meet; return how many there are."""
+    sides: dict[Any, set[int]] = {}
+    for polygon in obj.data.polygons:
+        axis = int(np.abs(polygon.center).argmax())
+        for key in polygon.edge_keys:
+            sides.setdefault(key, set()).add(2 * axis + (polygon.center[axis] > 0.0))
+    for edge in obj.data.edges:
+        edge.use_seam = len(sides[tuple(sorted(edge.vertices))]) > 1
+    return sum(edge.use_seam for edge in obj.data.edges)
+
+
+def places(obj: bpy.types.Object, polygon: Any, name: str = "Map") -> Floats:
+    uv = obj.data.uv_layers[name].uv
+    return np.array([uv[corner].vector[:] for corner in polygon.loop_indices])
+
+
+def flat_area(rows: Floats) -> float:
+    x, y = rows.T
+    return float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
+
+
+def parted(obj: bpy.types.Object, name: str = "Map") -> set[Any]:
+    """The edges between new polygons where UVs part."""
+    found: dict[Any, set[Any]] = {}
+    for polygon in obj.data.polygons:
+        if polygon.select:
+            of = dict(zip(polygon.vertices, map(tuple, places(obj, polygon, name).round(5)), strict=True))
+            for key in polygon.edge_keys:
+                found.setdefault(key, set()).add(tuple(of[vertex] for vertex in key))
+    return {key for key, both in found.items() if len(both) > 1}
+
+
+HOLES: dict[str, tuple[Chosen, int]] = {
+    "edge": (lambda c: c.x + c.y > 1.25, 2),
+    "corner": (lambda c: c.x + c.y + c.z > 1.45, 3),
+    "side and more": (lambda c: c.z > 0.4, 4),
+}
+
+
+@pytest.mark.parametrize("quads", [False, True])
+@pytest.mark.parametrize("mirrored", [False, True])
+@pytest.mark.parametrize("name", HOLES)
+def test_islands_go_on_by_themselves(name: str, mirrored: bool, quads: bool) -> None:
+    removed, islands = HOLES[name]
+    obj = open_sphere(removed)
+    box_map(obj, mirrored=mirrored)
+    assert fill_hole(obj, quads=quads) == {"FINISHED"}
+    used = set()
+    for polygon in obj.data.polygons:
+        if not polygon.select:
+            continue
+        rows = places(obj, polygon)
+        assert np.ptp(rows, axis=0).max() < 0.1  # no face from island to island
+        used.add(int(np.round(rows[:, 0].mean())))
+        area = flat_area(rows) * (-1.0 if mirrored else 1.0)
+        assert 0.4 < area / (SIZE_UVS**2 * polygon.area) < 2.5  # not turned over; about as much texture as around
+    assert len(used) == islands
+    assert bpy.context.window_manager.fairing_report.distortion < 0.1
+    assert parted(obj)
+
+
+def test_marked_seams_go_on(capfd: pytest.CaptureFixture[str]) -> None:
+    for marked in (True, False):
+        obj = open_sphere(HOLES["corner"][0])
+        box_map(obj)
+        before = mark_seams(obj) if marked else 0
+        assert fill_hole(obj) == {"FINISHED"}
+        new = parted(obj)
+        seams = {tuple(sorted(edge.vertices)) for edge in obj.data.edges if edge.use_seam}
+        assert len(seams) == (before + len(new) if marked else 0)
+        assert new <= seams or not marked
+        assert f"{len(new)} new edges are seams of UVs" in "".join(capfd.readouterr())
+
+
+def test_each_map_has_seams_of_its_own() -> None:
+    obj = open_sphere(HOLES["edge"][0])
+    box_map(obj, "Box")
+    points = meshes.positions(obj)[[loop.vertex_index for loop in obj.data.loops], 1:]
+    obj.data.uv_layers.new(name="Plain").uv.foreach_set("vector", points.astype(np.float32).ravel())
+    assert fill_hole(obj, quads=True) == {"FINISHED"}
+    assert parted(obj, "Box")
+    assert not parted(obj, "Plain")
+    assert {len(polygon.vertices) for polygon in obj.data.polygons if polygon.select} == {4}

@@ -170,7 +170,7 @@ def test_a_refusal_leaves_every_bit(kind: Kind, spoil: Callable[[Any], None]) ->
     """And adds no step of undo; a selection goes at most to what the refusal is about."""
     moves = kind.operator == "fair_denoise" or (kind.operator == "fair_region" and not kind.first.get("remesh"))
     if spoil is levelled and moves:
-        pytest.skip("levels stay: test_kinds_of_mesh.py")
+        pytest.skip("levels stay: test_restoration.py")
     if spoil is with_nan and kind.first.get("bridge"):
         pytest.skip("the other hole is filled: test_fill_each.py")
     if spoil is locked and kind.first.get("all_keys"):

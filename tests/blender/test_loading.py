@@ -1,7 +1,9 @@
-"""What Blender shows where the native module doesn't load: in a process of its own, as nobody can load it again."""
+"""Blender in a process of its own: where the native module doesn't load, and how it ends after all was used."""
 
 import platform
 from pathlib import Path
+
+import pytest
 
 import own_process
 from extension import module
@@ -60,3 +62,35 @@ def test_another_extensions_module_of_the_usual_name(tmp_path: Path) -> None:
     lines = 'from extension import module\nprint("ENGINE", module().fairing.__name__, module("loading").problem())'
     printed = own_process.run(lines, tmp_path, foreign).stdout
     assert printed.partition("ENGINE ")[2].strip() == engine_name()
+
+
+# Blender ends as it should after everything that listens has been used: a process of its own, and its exit status.
+USE = """
+import addon_utils
+import meshes
+
+manager = bpy.context.window_manager
+obj, faces = meshes.domed_grid()
+meshes.fair(obj, faces)
+manager.fairing_overlay.show = True
+meshes.edit(obj)
+bpy.ops.mesh.fair_live_region()
+assert manager.fairing_live.on
+"""
+
+
+ENDINGS = {
+    "in use": "",
+    "disabled": "addon_utils.disable('bl_ext.user_default.intrinsic_fairing')",
+    "disabled and enabled": """
+for _ in range(20):
+    addon_utils.disable('bl_ext.user_default.intrinsic_fairing')
+    addon_utils.enable('bl_ext.user_default.intrinsic_fairing')
+""",
+}
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_blender_ends_well(ending: str, tmp_path: Path) -> None:
+    ended = own_process.run(USE + ENDINGS[ending], tmp_path)
+    assert "Error" not in ended.stderr

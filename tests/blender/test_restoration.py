@@ -1,15 +1,13 @@
-"""Closed forms through the operator: half a sphere, given only what lies around it, comes back.
+"""Closed forms through the operator, detail and feather, and kinds of mesh that keep the rest."""
 
-A cubic fitted to the surroundings is of third order in slopes: with 48 and 96 edges on the rim its
-normals are 0.27° and 0.037° off (measured), 4.7e-3 and 6.4e-4 rad. Normals that all lean by δ
-make another cap through the same rim, off by less than δ times the radius: those are the bounds.
-"""
+from typing import Any
 
 import bpy
 import numpy as np
 import pytest
 
 import meshes
+from extension import module
 
 UPPER = 1e-3  # centres above this height are in the upper half
 BOUND = {48: 4.7e-3, 96: 6.4e-4}
@@ -80,3 +78,127 @@ def _mark(obj: bpy.types.Object, vertices: meshes.Mask, kind: str) -> None:
     else:
         name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
         obj.data.edges.foreach_set(name, marked.tolist())
+
+
+# Keep Detail and Feather as users meet them: on a rough sphere with a dent in it.
+NOISE = 0.01
+
+
+LIMIT = 0.4  # faces above this height are selected
+
+
+def dented(rim: int = 48) -> tuple[bpy.types.Object, meshes.Mask, meshes.Floats]:
+    """Add a unit sphere, rough and dented within the selection; with the selection, and (n,) its roughness."""
+    obj = meshes.sphere(rim)
+    points = meshes.positions(obj)
+    faces = meshes.faces_where(obj, lambda centre: centre.z > LIMIT)
+    noise = NOISE * np.random.default_rng(7).normal(size=len(points)) * (points[:, 2] > LIMIT + 0.1)
+    dent = 0.25 * np.clip((points[:, 2] - 0.55) / 0.45, 0, 1) ** 2
+    meshes.move(obj, points * (1 + noise - dent)[:, None])
+    return obj, faces, noise
+
+
+def fair(obj: bpy.types.Object, faces: meshes.Mask, **options: Any) -> Any:
+    """Run; return which vertices moved, after a look at everything else."""
+    before = meshes.in_edit_mode_once(obj, faces)
+    assert meshes.fair(obj, faces, **options) == {"FINISHED"}
+    return meshes.moved(before, meshes.contents(obj))
+
+
+def test_detail_is_the_engines() -> None:
+    """In the mesh is base + detail · (vertices − base) of the engine's own result."""
+    from bl_ext.user_default.intrinsic_fairing import fair_mesh
+
+    for share in (1.0, 0.3):
+        obj, faces, _ = dented(32)
+        whole, _, _ = dented(32)
+        chosen = np.flatnonzero(faces)
+        result = fair_mesh(whole.data, chosen, detail=1.0)
+        part = fair_mesh(obj.data, chosen, detail=share)
+        assert part.vertices == pytest.approx(result.base + share * (result.vertices - result.base), abs=1e-12)
+        own = np.unique([v for face in chosen for v in obj.data.polygons[int(face)].vertices])
+        assert meshes.positions(obj)[own] == pytest.approx(part.vertices, abs=1e-6)
+
+
+def test_feather_moves_the_band_and_no_bit_beyond_it() -> None:
+    """The foot of a swelling that reaches beyond the selection goes too."""
+    obj = meshes.sphere(32)
+    points = meshes.positions(obj)
+    faces = meshes.faces_where(obj, lambda centre: centre.z > 0.6)
+    free = meshes.free_vertices(obj, faces)
+    meshes.move(obj, points * (1 + 0.2 * np.clip(points[:, 2:], 0, 1) ** 2))
+    before = meshes.positions(obj)
+    changed = fair(obj, faces, falloff=0.15)
+    band = changed & ~free
+    assert changed[free].all()
+    assert band.any()
+    gaps = np.linalg.norm(before[band][:, None] - before[free][None], axis=2).min(axis=1)
+    moves = np.linalg.norm(meshes.positions(obj) - before, axis=1)[band]
+    assert moves[gaps > np.median(gaps)].max() < 0.5 * moves.max()
+    assert meshes.report().free_vertices == np.count_nonzero(free)
+
+
+# Modifiers, multiresolution, open borders, mixed faces: the base mesh is faired, the rest stays.
+def evaluated(obj: bpy.types.Object) -> meshes.Floats:
+    """The positions that the modifiers make."""
+    bpy.context.view_layer.update()
+    shown = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = shown.to_mesh()
+    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", flat)
+    shown.to_mesh_clear()
+    return flat.reshape(-1, 3).astype(np.float64)
+
+
+def test_multiresolution_detail_stays() -> None:
+    obj, faces = meshes.domed_grid()
+    modifier = obj.modifiers.new("Multires", "MULTIRES")
+    for _ in range(2):
+        bpy.ops.object.multires_subdivide(modifier=modifier.name)
+    before = evaluated(obj)
+    assert meshes.fair(obj, faces) == {"FINISHED"}
+    assert (modifier.total_levels, len(evaluated(obj))) == (2, len(before))
+    changed = np.abs(evaluated(obj) - before).max(axis=1) > 1e-6
+    # the rim's limit surface depends on two rings of the base around it, no more
+    far = np.abs(before[:, :2]).max(axis=1) > 0.99
+    assert changed.any()
+    assert not changed[far].any()
+
+
+def test_selection_and_modes_stay() -> None:
+    obj, faces = meshes.domed_grid()
+    meshes.enter(obj, faces)
+    bpy.context.tool_settings.mesh_select_mode = (True, False, True)
+    meshes.run()
+    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (True, False, True)
+    assert bpy.context.mode == "EDIT_MESH"
+    meshes.leave()
+    assert [p.select for p in obj.data.polygons] == faces.tolist()
+
+
+@pytest.mark.parametrize("triangles", [True, False])
+def test_triangles_are_those_that_blender_makes(triangles: bool) -> None:
+    """Read without Blender's own list where all faces are triangles."""
+    obj = meshes.sphere(16)
+    if triangles:
+        meshes.edit(obj)
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.quads_convert_to_tris()
+        meshes.leave()
+    mesh = obj.data
+    read = module("mesh.mesh_io").read_shown_mesh(obj, module("options.options").FairOptions())
+    mesh.calc_loop_triangles()
+    assert read.triangles.tolist() == [list(triangle.vertices) for triangle in mesh.loop_triangles]
+    assert read.triangle_faces.tolist() == [triangle.polygon_index for triangle in mesh.loop_triangles]
+
+
+def test_flags_are_read_where_they_are_set_and_where_none_is() -> None:
+    """Hidden faces and sharp edges: Blender keeps no attribute for what is true nowhere."""
+    obj = meshes.grid(4)
+    columns = module("mesh.columns")
+    assert not columns.flags(obj.data, ".hide_poly", obj.data.polygons).any()
+    assert len(columns.flags(obj.data, "sharp_edge", obj.data.edges)) == len(obj.data.edges)
+    obj.data.polygons[3].hide = True
+    obj.data.edges[5].use_edge_sharp = True
+    assert np.flatnonzero(columns.flags(obj.data, ".hide_poly", obj.data.polygons)).tolist() == [3]
+    assert np.flatnonzero(columns.flags(obj.data, "sharp_edge", obj.data.edges)).tolist() == [5]

@@ -1,10 +1,12 @@
-"""`fairing.boundary_normals`: along hard edges the slope of the patch's own triangles, elsewhere that outside."""
+"""Slopes at a boundary: of the surroundings, of its own side of hard edges, or of the patch itself."""
 
 import numpy as np
 import pytest
 
+import bad_inputs
 import fairing
 import solids
+from meshing import face_normals
 from solids import FloatArray, IntArray
 
 
@@ -183,3 +185,158 @@ def test_sides_can_be_chosen() -> None:
     assert np.abs(own.normals - [0, 0, 1]).max() < 1e-9
     with pytest.raises(ValueError, match="side: 'average' is not accepted; accepted are 'automatic', 'outside'"):
         fairing.boundary_normals(vertices, inside, rim, outside=outside, side="average")
+
+
+# `fairing.surrounding_normals`: the tangent planes in which the outside meets a patch.
+def outside_of_a_hemisphere(n_free: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """The sphere's vertices, the triangles below the equator, and the equator."""
+    vertices, triangles, equator = bad_inputs.closed_ball(n_free)
+    below = vertices[triangles].mean(axis=1)[:, 2] < 0
+    return vertices, triangles[below], equator
+
+
+def angles(one: FloatArray, other: FloatArray) -> FloatArray:
+    """Degrees between unit vectors (k, 3)."""
+    return np.asarray(np.degrees(np.arccos(np.clip((one * other).sum(axis=1), -1, 1))))
+
+
+@pytest.mark.parametrize("n_free", [30, 60, 200, 2000])
+def test_rim_of_a_hemisphere(n_free: int) -> None:
+    """Spheres are met exactly on any rim (15 to 104 edges); one-sided averages are 10 to 2 degrees off."""
+    vertices, triangles, equator = outside_of_a_hemisphere(n_free)
+    found = fairing.surrounding_normals(vertices, triangles, equator)
+    assert found.fitted.all()
+    assert np.abs(found.normals - vertices[equator]).max() < 1e-9
+    averaged = fairing.vertex_normals(vertices, triangles, normals="averaged")[equator]
+    assert angles(averaged, vertices[equator]).max() > 1.0
+
+
+def grid_sphere(segments: int, rings: int, axis: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """A sphere of meridians and parallels, the triangles on one side of a plane across an axis, and its rim."""
+    vertices, faces = bad_inputs.ball_of_meridians(segments, rings)
+    outside = vertices[faces].mean(axis=1)[:, axis] < 0
+    return vertices, faces[outside], np.intersect1d(faces[outside], faces[~outside])
+
+
+@pytest.mark.parametrize("axis", [0, 2])
+@pytest.mark.parametrize("segments", [6, 8, 12, 16, 24, 64])
+def test_spheres_of_meridians(segments: int, axis: int) -> None:
+    """The nearest points of long or wide quads lie on two or three lines and leave cubic terms open.
+
+    Six meridians with 32 parallels and more make a hexagonal cup, whose edges near the poles are hard.
+    """
+    for rings in (6, 8, 12, 16, 32, 64) if segments > 6 else (6, 8, 12, 16):
+        vertices, outside, rim = grid_sphere(segments, rings, axis)
+        found = fairing.surrounding_normals(vertices, outside, rim)
+        assert found.fitted.all()
+        assert np.abs(found.normals - vertices[rim]).max() < 1e-9, rings
+
+
+@pytest.mark.parametrize(("around", "across", "bound"), [(48, 12, 2.0), (48, 24, 2.0), (96, 24, 0.5), (96, 48, 0.3)])
+def test_bands_and_windows_of_a_torus(around: int, across: int, bound: float) -> None:
+    """Blender's own torus is the first of these; a cubic of the 22 nearest points is 11 to 55 degrees off."""
+    angle = 2 * np.pi * np.arange(around)[:, None] / around
+    turn = 2 * np.pi * np.arange(across)[None, :] / across
+    outward = np.stack(
+        np.broadcast_arrays(np.cos(angle) * np.cos(turn), np.sin(angle) * np.cos(turn), np.sin(turn)), -1
+    )
+    centres = np.stack(np.broadcast_arrays(np.cos(angle), np.sin(angle), 0 * turn + 0 * angle), -1)
+    vertices = (centres + 0.25 * outward).reshape(-1, 3)
+    number = np.arange(around * across).reshape(around, across)
+    along, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
+    opposite = np.roll(along, -1, axis=1)
+    triangles = np.r_[
+        np.stack([number, along, opposite], -1).reshape(-1, 3), np.stack([number, opposite, beside], -1).reshape(-1, 3)
+    ]
+    middle = vertices[triangles].mean(axis=1)
+    for inside in (np.hypot(middle[:, 0], middle[:, 1]) > 1.1, (middle > 0).all(axis=1)):
+        rim = np.intersect1d(triangles[inside], triangles[~inside])
+        normals = fairing.surrounding_normals(vertices, triangles[~inside], rim).normals
+        assert angles(normals, outward.reshape(-1, 3)[rim]).max() < bound
+
+
+def test_too_few_points_give_the_average() -> None:
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+    triangles = np.array([[0, 1, 2]])
+    found = fairing.surrounding_normals(vertices, triangles, np.array([0, 3]))
+    assert not found.fitted.any()
+    assert np.allclose(found.normals[0], face_normals(vertices, triangles)[0])
+    assert np.array_equal(found.normals[1], np.zeros(3))
+
+
+# Slopes and curvatures at a boundary come from its own side of hard edges.
+AROUND = 48  # vertices of a ring
+
+
+def top_of_box(n: int, rows: int) -> tuple[FloatArray, IntArray, IntArray]:
+    """A box whose top is selected but for some rows along its edges: vertices, triangles inside and outside."""
+    vertices, triangles = solids.box(n)
+    centre = vertices[triangles].mean(axis=1)
+    inside = (np.abs(centre[:, 2] - 1) < 1e-9) & (np.abs(centre[:, :2]).max(axis=1) < 1 - 2 * rows / n)
+    return vertices, triangles[inside], triangles[~inside]
+
+
+@pytest.mark.parametrize("n", [8, 16])
+@pytest.mark.parametrize("rows", [1, 2])
+def test_one_flat_row_beside_a_box_edge_is_enough(n: int, rows: int) -> None:
+    """Fits across the edge tilt by 45°, with errors of 6°, and sides rise by one to six edges."""
+    vertices, inside, outside = top_of_box(n, rows)
+    rim = np.intersect1d(inside, outside)
+    found = fairing.surrounding_normals(vertices, outside, rim)
+    assert found.fitted.all()
+    assert np.abs(found.normals - [0.0, 0.0, 1.0]).max() < 1e-9
+    assert found.errors.max() < 1e-9
+    dented = vertices.copy()
+    dented[np.setdiff1d(inside, rim), 2] -= 0.1
+    result = fairing.fair(dented, inside, fixed=rim, fixed_normals=found.normals, outside=outside)
+    assert np.abs(result.vertices[np.unique(inside), 2] - 1).max() < 1e-6
+    filled = fairing.fill(vertices, outside)
+    assert np.abs(filled.vertices[:, 2] - 1).max() < 1e-6
+
+
+@pytest.mark.parametrize("continuity", ["G1", "G2"])
+@pytest.mark.parametrize("rings", [1, 1.5, 2, 3])
+def test_a_crease_beside_the_boundary_does_not_bend_the_join(rings: float, continuity: str) -> None:
+    """Fits across it give .01 to .12."""
+    panel = solids.panel(rings)
+    found = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
+    result = fairing.fair(
+        panel.vertices, panel.inside, fixed=panel.rim, fixed_normals=found.normals, outside=panel.outside,
+        continuity=continuity,
+    )  # fmt: skip
+    assert panel.error(result.vertices) < 1e-3
+
+
+@pytest.mark.parametrize("half", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize("depth", [0.2, 0.4, 0.8])
+def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:
+    """A film between its ends has a waist, and the patch another one: these are no walls."""
+    heights = np.linspace(-3.0, 3.0, 61)
+    radii = 1.0 - depth * np.maximum(0.0, 1.0 - np.abs(heights) / half)
+    points, triangles = turned(radii, heights)
+    middle = np.abs(points[triangles, 2].mean(axis=1)) < half
+    (made, _), _ = fairing.fair_faces((points, triangles), np.flatnonzero(middle))
+    assert np.abs(np.hypot(made[:, 0], made[:, 1]) - 1.0).max() < 1e-4
+
+
+def test_a_ring_between_two_walls_is_flat_again() -> None:
+    """Noise on the end of a thick pipe counts for nothing."""
+    radii = np.concatenate([np.ones(11), np.linspace(0.925, 0.4, 8), np.full(10, 0.4)])
+    heights = np.concatenate([np.linspace(-1.0, 0.0, 11), np.zeros(8), np.linspace(-0.1, -1.0, 10)])
+    points, triangles = turned(radii, heights)
+    top = points[triangles, 2].min(axis=1) == 0.0
+    free = slice(11 * AROUND, 18 * AROUND)
+    points[free, 2] += 0.05 * np.random.default_rng(0).normal(size=7 * AROUND)
+    (made, _), _ = fairing.fair_faces((points, triangles), np.flatnonzero(top))
+    assert np.abs(made[free, 2]).max() < 1e-6
+
+
+def turned(radii: FloatArray, heights: FloatArray) -> tuple[FloatArray, IntArray]:
+    """A surface of revolution, from one end of its profile to the other: vertices, triangles."""
+    angles = 2.0 * np.pi * np.arange(AROUND) / AROUND
+    rings = [[r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)] for r, z in zip(radii, heights, strict=True)]
+    points = np.moveaxis(np.array(rings), 1, 2).reshape(-1, 3)
+    first = np.arange((len(radii) - 1) * AROUND)
+    second = first - first % AROUND + (first + 1) % AROUND
+    halves = [[first, second, second + AROUND], [first, second + AROUND, first + AROUND]]
+    return points, np.concatenate([np.column_stack(corners) for corners in halves])

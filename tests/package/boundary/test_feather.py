@@ -1,4 +1,4 @@
-"""`feather` and `weights`: the change fades out in a band outside the patch."""
+"""`feather`, `weights` and `detail`: what fades outside the patch, and the outline without its noise."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -147,3 +147,48 @@ def test_a_band_ends_at_a_hard_edge(rings: int) -> None:
     assert panel.error(result.vertices) < 1e-3
     near = np.setdiff1d(result.moved, panel.inside)
     assert np.abs(result.vertices[near, 2] - panel.clean[near, 2]).max() < 1e-3
+
+
+# `detail` with the triangles outside: both bases meet the outline that the surroundings have without their detail.
+@pytest.fixture(scope="module")
+def sphere_outline() -> RoughSphere:
+    return rough_sphere(6000, seed=21)
+
+
+def test_the_base_is_the_sphere_though_its_outline_is_rough(sphere_outline: RoughSphere) -> None:
+    """Noise of a quarter edge on the outline, too: the base is within .003 D, and without the low-pass it is not."""
+    smooth, rough = (sphere_outline.fair(detail=1.0, **chosen) for chosen in ({}, {"outside": None}))
+    off, before = (
+        np.abs(sphere_outline.heights(r.base, sphere_outline.free)).max() / sphere_outline.diameter
+        for r in (smooth, rough)
+    )
+    assert smooth.converged
+    assert off < 3e-3
+    assert before > 3 * off
+    on_outline = sphere_outline.heights(smooth.base, sphere_outline.outline)
+    assert on_outline.std() < 0.2 * sphere_outline.heights(sphere_outline.skin, sphere_outline.outline).std()
+
+
+def test_normals_that_were_chosen_stay(sphere_outline: RoughSphere) -> None:
+    """Leaning outwards by 25°: the base leans with them."""
+    up = np.array([0.0, 0.0, 1.0])
+    exact = sphere_outline.exact[sphere_outline.outline]
+    along = up - exact * (exact @ up)[:, None]
+    leaning = exact * np.cos(0.44) + along / np.linalg.norm(along, axis=1)[:, None] * np.sin(0.44)
+    given, free = (sphere_outline.fair(detail=1.0, **chosen) for chosen in ({"fixed_normals": leaning}, {}))
+    top = sphere_outline.free[sphere_outline.exact[sphere_outline.free, 2].argmax()]
+    flat = fairing.fair(
+        sphere_outline.exact, sphere_outline.inside, fixed=sphere_outline.outline, fixed_normals=leaning
+    ).vertices[top, 2]
+    assert given.base[top, 2] == pytest.approx(flat, abs=0.02)
+    assert free.base[top, 2] > flat + 0.1
+
+
+def test_a_reference_has_its_own_outline(sphere_outline: RoughSphere) -> None:
+    """The skin of a sphere turned and twice as large: the same noise in the end."""
+    turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    own = sphere_outline.fair(detail=1.0, tolerance=1e-9)
+    other = sphere_outline.fair(detail=1.0, tolerance=1e-9, reference=2 * sphere_outline.vertices @ turn.T)
+    assert other.base[sphere_outline.outline] == pytest.approx(own.base[sphere_outline.outline], abs=1e-12)
+    kept, doubled = (sphere_outline.heights(r.vertices, sphere_outline.free) for r in (own, other))
+    assert np.corrcoef(kept, doubled)[0, 1] > 0.95

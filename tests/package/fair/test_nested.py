@@ -1,13 +1,17 @@
-"""Large patches begin on coarser levels of their own connectivity: faster, and the same surface."""
+"""Levels, and meshes of the engine's own: faster, or where the mesh given can't carry the equation."""
 
 import numpy as np
 import pytest
 
+import blend
 import fairing
+import measures
 import shapes
 import solids
+from curves import FloatArray
 from shapes import Patch, Style
-from solving import fair_patch
+from solving import codes, fair_patch
+from test_fixed_curves import make_capsule
 
 PATCHES = {
     "hemisphere": lambda: shapes.cap(5000),
@@ -69,3 +73,91 @@ def test_extraordinary_vertices_are_passed(quads: int) -> None:
     assert len(result.levels) > 1
     assert result.iterations <= 16
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 1e-8
+
+
+# Connectivity that can't carry the equation: the surface is solved on the engine's own mesh.
+def finger(around: int, layers: int) -> tuple[FloatArray, shapes.IntArray, FloatArray]:
+    """A long thimble's connectivity over the rim of a hemisphere; rim first, with its normals.
+
+    Balanced evenly, ring k of such a mesh shrinks like exp(−2π k / around): crowded beyond double
+    precision near the tip, whatever the surface.
+    """
+    angle = 2 * np.pi * np.arange(around) / around
+    rim = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(around)])
+    count = around * layers + 1
+    rings = np.arange(around * layers).reshape(layers, around)
+    right = np.roll(rings, -1, axis=1)
+    lower = np.stack([rings[:-1], right[:-1], right[1:]], axis=-1).reshape(-1, 3)
+    upper = np.stack([rings[:-1], right[1:], rings[1:]], axis=-1).reshape(-1, 3)
+    tip = np.column_stack([rings[-1], right[-1], np.full(around, count - 1)])
+    vertices = np.zeros((count, 3))
+    vertices[:around] = rim
+    return vertices, np.vstack([lower, upper, tip]), rim
+
+
+@pytest.mark.parametrize(
+    ("around", "layers", "limit", "curvature"),
+    [*((a, n, 1e-4, 2e-2) for a, n in ((24, 20), (24, 60), (16, 60))), (40, 100, 2e-5, 5e-3)],
+)
+def test_a_crowded_mesh_lies_on_the_sphere(around: int, layers: int, limit: float, curvature: float) -> None:
+    """Within a share of D, with its H, although H of a large mesh itself is noise near the tip."""
+    vertices, triangles, rim = finger(around, layers)
+    result = fairing.fair(vertices, triangles, fixed=np.arange(around), fixed_normals=rim)
+    assert result.converged
+    assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() / 2 < limit
+    assert result.vertices[:, 2].min() > -1e-9
+    # of the unit sphere; a last step of 1e-6 D shows in H as 1e-6 / h²
+    np.testing.assert_allclose(result.mean_curvature, -1.0, atol=curvature)
+    assert not len(fairing.looks.flipped_triangles(result.vertices, triangles))
+
+
+@pytest.mark.parametrize("inner_fairness", ["uniform", "conformal"])
+def test_a_long_pipe_stays_straight(inner_fairness: str) -> None:
+    """Beyond 2π radii other surfaces meet the same G1 data; the one whose H varies least is taken."""
+    pipe = shapes.cylinder(1500, length=7.0)
+    result = fairing.fair(
+        shapes.start_from_nothing(pipe, "point"),
+        pipe.triangles,
+        fixed=pipe.fixed,
+        fixed_normals=pipe.fixed_normals,
+        reference=pipe.vertices,
+        inner_fairness=inner_fairness,
+    )
+    assert result.converged
+    assert pipe.error(result.vertices) < 3e-4
+
+
+def test_hopeless_boundary_data_still_gives_a_finite_surface() -> None:
+    """Random normals have no sensible surface: the least bent one that was found, and it says so."""
+    patch = shapes.cap(300)
+    random = np.random.default_rng(1)
+    normals = random.normal(size=patch.fixed_normals.shape)
+    result = fairing.fair(patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=normals)
+    assert np.isfinite(result.vertices).all()
+    assert result.converged or "NOT_CONVERGED" in codes(result)
+    span = np.linalg.norm(result.vertices - result.vertices[patch.fixed].mean(axis=0), axis=1).max()
+    assert span < 3 * patch.diameter
+    np.testing.assert_array_equal(result.vertices[patch.fixed], patch.vertices[patch.fixed])
+
+
+# `fairing.hierarchy`: levels of a progressive mesh by half-edge collapses (§7.4).
+@pytest.mark.parametrize("make", ["disk", "blend"])
+def test_every_level_has_the_topology_and_the_outline_of_the_mesh(make: str) -> None:
+    patch = shapes.cap(2000) if make == "disk" else blend.cylinder_blend(2000)
+    for vertices, triangles in fairing.hierarchy(patch.vertices, patch.triangles):
+        assert np.isin(patch.fixed, vertices).all()
+        assert np.array_equal(np.unique(triangles), vertices)
+        assert measures.is_oriented_manifold(triangles)
+        assert measures.euler_number(triangles) == measures.euler_number(patch.triangles)
+
+
+def test_fixed_curves_inside_the_mesh_stay() -> None:
+    capsule = make_capsule(500)
+    fixed = np.concatenate([capsule.rim, capsule.circle])
+    base_vertices, base = fairing.hierarchy(capsule.vertices, capsule.triangles, fixed=fixed)[0]
+    assert len(base_vertices) < 0.6 * len(capsule.vertices)
+    assert np.isin(fixed, base_vertices).all()
+    ends = {tuple(e) for e in measures.edges(base).tolist()}
+    on_circle = measures.edges(capsule.triangles)
+    on_circle = on_circle[np.isin(on_circle, capsule.circle).all(axis=1)]
+    assert {tuple(e) for e in on_circle.tolist()} <= ends

@@ -1,15 +1,17 @@
-"""Figures of how a surface looks: where it is thin or thick, needles, seams that stay, shapes that are no texture."""
+"""Looks and maps: girth, needles, seams, rounded edges, knobs, conformal maps."""
 
 from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
 import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.linalg import spsolve
 
 import fairing
-
-FloatArray = npt.NDArray[np.float64]
-IntArray = npt.NDArray[np.int64]
+import holes
+import shapes
+from holes import FloatArray, IntArray
 
 AROUND, ROWS = 16, 40
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
@@ -154,3 +156,190 @@ def test_a_kink_before_an_arc_shows_beyond_its_rows(kink: float) -> None:
     )
     vertices, plate, other = plate_and_arc(6, 0.0, 30, kink)
     np.testing.assert_allclose(fairing.looks.visible_join(vertices, other, plate, line).degrees, kink, atol=1e-6)
+
+
+# Hard edges that a smoothed outline rounds are distinguished from noise.
+Floats = npt.NDArray[np.float64]
+
+
+Ints = npt.NDArray[np.int64]
+
+
+ROWS_ROUNDED = 12
+
+
+def roof(degrees: float) -> tuple[Floats, Ints]:
+    """Two slopes that meet in a ridge along x, by so many degrees; vertices row by row along y."""
+    half = np.radians(degrees) / 2.0
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(ROWS_ROUNDED + 1.0), np.arange(-3.0, 4.0), indexing="ij"))
+    points = np.stack([x, y * np.cos(half), -np.abs(y) * np.sin(half)], axis=1)
+    here = (np.arange(ROWS_ROUNDED)[:, None] * 7 + np.arange(6)).ravel()
+    halves = [np.stack([here, here + 7, here + 8], axis=1), np.stack([here, here + 8, here + 1], axis=1)]
+    return points, np.concatenate(halves)
+
+
+def flattened(points: Floats, rows: int, by: float) -> tuple[Floats, Ints]:
+    """Lower the ridge's first vertices: those of so many rows."""
+    moved = np.arange(rows) * 7 + 3
+    after = points.copy()
+    after[moved, 2] -= by
+    return after, moved
+
+
+@pytest.mark.parametrize("degrees", [90.0, 60.0, 45.0])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_ridge_that_was_lowered_at_its_end_is_found(turned: bool, degrees: float) -> None:
+    points, triangles = roof(degrees)
+    after, moved = flattened(points, 3, 0.4)
+    triangles = triangles[:, ::-1] if turned else triangles  # a valley
+    assert fairing.looks.rounded_edges(points, after, triangles, moved).tolist() == moved.tolist()
+
+
+def test_what_keeps_its_edge_is_none() -> None:
+    for degrees, rows, by in ((90.0, 3, 0.01), (30.0, 3, 0.4), (90.0, 1, 0.05)):
+        points, triangles = roof(degrees)
+        after, moved = flattened(points, rows, by)
+        assert not len(fairing.looks.rounded_edges(points, after, triangles, moved)), (degrees, rows, by)
+
+
+def test_a_whole_ridge_that_moves_is_a_change_of_shape() -> None:
+    """A row of noise lies within the band that is smoothed; a hard edge runs on out of it."""
+    points, triangles = roof(90.0)
+    after, moved = flattened(points, ROWS_ROUNDED + 1, 0.4)
+    assert not len(fairing.looks.rounded_edges(points, after, triangles, moved))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_noise_that_is_smoothed_is_no_hard_edge(seed: int) -> None:
+    points, triangles = roof(0.0)
+    rough = points + np.random.default_rng(seed).normal(scale=0.3, size=points.shape)
+    inner = np.flatnonzero((points[:, 0] < 6.0) & (np.abs(points[:, 1]) < 3.0))
+    after = rough.copy()
+    after[inner] = points[inner]
+    assert not len(fairing.looks.rounded_edges(rough, after, triangles, inner))
+
+
+# Knobs against what a surface must do: by Gauss and Bonnet a round bump of slope θ turns by 2π (1 − cos θ).
+RINGS, COLUMNS = 40, 48
+
+
+def disc() -> npt.NDArray[np.int64]:
+    """Triangles between rings of vertices around vertex 0, which is the middle."""
+    rings = 1 + np.arange(RINGS * COLUMNS).reshape(RINGS, COLUMNS)
+    ahead = np.roll(rings, -1, axis=1)
+    middle = np.stack([np.zeros(COLUMNS, dtype=np.int64), rings[0], ahead[0]], axis=1)
+    inside, outside, beside, beyond = (part.ravel() for part in (rings[:-1], rings[1:], ahead[:-1], ahead[1:]))
+    bands = [np.stack([inside, outside, beyond], axis=1), np.stack([inside, beyond, beside], axis=1)]
+    return np.concatenate([middle, *bands])
+
+
+def tops(points: Floats, before: float = 0.0) -> npt.NDArray[np.int32]:
+    """Where the disc swells."""
+    return fairing.looks.knobs(points, disc(), before=before)[1]
+
+
+def turned(radii: Floats, heights: Floats) -> Floats:
+    """The disc's vertices on a surface of revolution: a profile of RINGS + 1 points, the first on the axis."""
+    around = 2.0 * np.pi * np.arange(COLUMNS) / COLUMNS
+    x, y = np.outer(radii[1:], np.cos(around)), np.outer(radii[1:], np.sin(around))
+    z = np.repeat(heights[1:], COLUMNS)
+    return np.concatenate([[[0.0, 0.0, heights[0]]], np.stack([x.ravel(), y.ravel(), z], axis=1)])
+
+
+def bump(degrees: float) -> Floats:
+    """A bump on a plane that is steepest, by so much, half-way down."""
+    radii = np.linspace(0.0, 1.0, RINGS + 1)
+    return turned(radii, np.tan(np.radians(degrees)) / np.pi * (1.0 + np.cos(np.pi * radii)))
+
+
+def test_a_bump_counts_from_a_quarter_of_a_turn_on() -> None:
+    limit = np.degrees(np.arccos(1.0 - 0.25))
+    assert not len(tops(bump(limit - 3.0)))
+    found = tops(bump(limit + 3.0))
+    assert 0 in found
+    assert np.linalg.norm(bump(limit)[found, :2], axis=1).max() < 0.5  # the ball, not the neck
+    assert not len(tops(bump(0.0)))
+
+
+def test_a_round_end_is_no_knob_and_a_ball_on_a_neck_is_one() -> None:
+    angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)
+    half_ball = turned(np.sin(angles), np.cos(angles))
+    assert not len(tops(half_ball))
+    half = RINGS // 2
+    angles = np.linspace(0.0, 2.5, half + 1)
+    radii = np.concatenate([np.sin(angles), np.linspace(np.sin(2.5), 2.0, RINGS - half + 1)[1:]])
+    ball = turned(radii, np.concatenate([np.cos(angles), np.full(RINGS - half, np.cos(2.5))]))
+    found = tops(ball)
+    assert len(found)
+    assert ball[found, 2].min() > np.cos(2.5)  # on the ball alone
+
+
+def test_what_became_calmer_is_none() -> None:
+    old = fairing.looks.knobs(bump(75.0), disc())[0]
+    assert old == pytest.approx(1.0 - np.cos(np.radians(75.0)), abs=0.02)
+    limit = np.degrees(np.arccos(1.0 - 0.8 * old))
+    assert not len(tops(bump(limit - 3.0), old))
+    assert len(tops(bump(limit + 3.0), old))
+
+
+@pytest.mark.parametrize(("degrees", "count"), [(37.0, 0), (60.0, 2)])
+def test_pieces_count_each_on_its_own(degrees: float, count: int) -> None:
+    """Two of .2 turns are none of .4."""
+    points = bump(degrees)
+    both = np.concatenate([points, points + 3.0])
+    _, found = fairing.looks.knobs(both, np.concatenate([disc(), disc() + len(points)]))
+    assert np.count_nonzero(np.isin(found, [0, len(points)])) == count
+
+
+# fairing.maps.conformal_map: exact maps come back; a border that is fixed all around makes it harmonic.
+def tilted_sheet(cells: int = 8) -> tuple[FloatArray, FloatArray, IntArray]:
+    """(n, 2) a jittered square, (n, 3) the same somewhere in space, and its triangles."""
+    flat, triangles = holes.sheet(lambda u, v: (u, v, 0 * u), (cells, cells), lambda u, v: np.zeros(len(u), bool))
+    turned, _ = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))
+    return flat[:, :2], flat @ turned.T * np.sign(np.linalg.det(turned)) + [3.0, -1.0, 2.0], triangles
+
+
+def test_a_flat_piece_is_laid_out_from_two_neighbours() -> None:
+    """The map is a similarity there, whatever lies between."""
+    flat, points, triangles = tilted_sheet()
+    scale, turn = 0.3, np.exp(0.7j)
+    wanted = (flat @ [1, 1j]) * scale * turn
+    places = np.column_stack([wanted.real, wanted.imag])
+    found = fairing.maps.conformal_map(points, triangles, [3, 12], places[[3, 12]])
+    np.testing.assert_allclose(found, places, atol=1e-9)
+
+
+def test_a_fixed_border_makes_it_harmonic() -> None:
+    patch = shapes.cap(400)
+    rng = np.random.default_rng(0)
+    given = patch.vertices[patch.fixed, :2] * [1.0, 0.5] + 0.05 * rng.normal(size=(len(patch.fixed), 2))
+    found = fairing.maps.conformal_map(patch.vertices, patch.triangles, patch.fixed, given)
+    rows, columns, values = fairing.cotan_laplacian(patch.vertices, patch.triangles)
+    count = len(patch.vertices)
+    laplacian = coo_array((values, (rows, columns)), shape=(count, count)).tocsr()
+    inside = np.setdiff1d(np.arange(count), patch.fixed)
+    wanted = np.zeros((count, 2))
+    wanted[patch.fixed] = given
+    wanted[inside] = spsolve(laplacian[inside][:, inside], -(laplacian[inside] @ wanted))
+    np.testing.assert_allclose(found, wanted, atol=1e-9)
+
+
+def test_a_sphere_is_projected_from_half_of_its_outline() -> None:
+    """The stereographic projection from the south pole keeps angles; the other half of the outline is free."""
+    errors = []
+    for n_free in (200, 800, 3200):
+        patch = shapes.cap(n_free)
+        x, y, z = patch.vertices.T
+        exact = np.column_stack([x, y]) / (1 + z)[:, None]
+        half = patch.fixed[y[patch.fixed] > 0]
+        found = fairing.maps.conformal_map(patch.vertices, patch.triangles, half, exact[half])
+        errors.append(np.abs(found - exact).max())  # at the far end of the free border
+    assert errors[0] > 1.3 * errors[1] > 1.9 * errors[2]
+    assert errors[2] < 2.5e-2
+
+
+def test_what_is_not_determined_is_refused() -> None:
+    flat, points, triangles = tilted_sheet()
+    twice = np.concatenate([points, points + 5.0]), np.concatenate([triangles, triangles + len(points)])
+    with pytest.raises(fairing.SolverError, match="less than two fixed vertices"):
+        fairing.maps.conformal_map(*twice, [0, 1, len(points)], flat[[0, 1, 0]])

@@ -1,10 +1,15 @@
 """fairing.remesh: another mesh for the same fair surface, with the way back to the old one."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 import pytest
 
+import creased
 import fairing
 import holes
+import measures
 import shapes
 from holes import FloatArray
 
@@ -165,3 +170,86 @@ def test_kept_edges_must_be_edges(cap: shapes.Patch) -> None:
         fairing.remesh(
             cap.vertices, cap.triangles, fixed=cap.fixed, kept=[[int(cap.fixed[0]), int(cap.fixed[-1] // 2)]]
         )
+
+
+# New meshes for patches of few large faces, none of whose vertices is free.
+SQUARE = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]])
+
+
+HEXAGON = np.array([[np.cos(t), np.sin(t), 0.0] for t in np.pi / 3 * np.arange(6)])
+
+
+@pytest.mark.parametrize(
+    ("points", "triangles"),
+    [
+        (SQUARE[:3], [[0, 1, 2]]),
+        (SQUARE, [[0, 1, 2], [0, 2, 3]]),
+        (HEXAGON, [[0, 1, 2], [0, 2, 4], [2, 3, 4], [4, 5, 0]]),
+        (HEXAGON, [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]]),
+    ],
+)
+@pytest.mark.parametrize("spacing", [0.0, 0.1])
+def test_a_patch_without_free_vertices_gets_some(points: FloatArray, triangles: Any, spacing: float) -> None:
+    """A plane stays a plane; the boundary's edges stay; places on the old triangles are where the vertices are."""
+    up = np.tile([0.0, 0.0, 1.0], (len(points), 1))
+    fixed = np.arange(len(points))
+    before = points.copy()
+    result = fairing.remesh(points, triangles, fixed=fixed, fixed_normals=up, spacing=spacing)
+    np.testing.assert_array_equal(points, before)
+    assert result.converged
+    assert len(result.vertices) > (0 if spacing == 0.0 else 10)
+    assert abs(result.vertices[:, 2]).max() < 1e-9
+    both = np.concatenate([points, result.vertices])
+    corners = both[result.triangles]
+    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
+    old = points[np.array(triangles)]
+    whole = np.cross(old[:, 1] - old[:, 0], old[:, 2] - old[:, 0])[:, 2].sum()
+    assert (areas > 0.0).all()
+    assert areas.sum() == pytest.approx(whole)
+    outline = {tuple(sorted(pair)) for pair in zip(fixed.tolist(), np.roll(fixed, -1).tolist(), strict=True)}
+    assert outline <= set(map(tuple, holes.edges_of(result.triangles).tolist()))
+    rows, weights = result.origin
+    assert set(rows.tolist()) <= set(range(len(triangles)))
+    np.testing.assert_allclose(weights.sum(axis=1), 1.0)
+    there = (old[rows] * weights[:, :, None]).sum(axis=1)
+    assert np.linalg.norm(there - result.vertices, axis=1).max() < 0.5  # fair on the way from there
+
+
+def test_a_kept_edge_inside_stays_one() -> None:
+    up = np.tile([0.0, 0.0, 1.0], (4, 1))
+    given = {"fixed": np.arange(4), "fixed_normals": up, "spacing": 0.4}
+    result = fairing.remesh(SQUARE, [[0, 1, 2], [0, 2, 3]], kept=[[0, 2]], **given)
+    assert (0, 2) in set(map(tuple, holes.edges_of(result.triangles).tolist()))
+    without = fairing.remesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **given)
+    assert (0, 2) not in set(map(tuple, holes.edges_of(without.triangles).tolist()))
+
+
+# A new mesh for a patch through which hard edges run: they are held, and each side finds its slope.
+def meshed(part: creased.Dented, factor: float) -> fairing.RemeshResult:
+    return fairing.remesh(
+        part.vertices, part.patch, fixed=part.fixed, fixed_normals=part.normals, creases=part.curve,
+        spacing=factor * part.edge, equation="automatic",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("factor", [0.6, 1.0, 2.0])
+@pytest.mark.parametrize(("n", "seed"), [(8, 1), (14, 2), (22, 3)])
+@pytest.mark.parametrize(
+    ("make", "bound"),
+    [
+        (creased.dented_edge, 1e-9),
+        (creased.dented_corner, 1e-9),
+        (creased.dented_rim, 1e-4),
+        (creased.dented_sheet, 1e-3),
+    ],
+)
+def test_edges_are_held(
+    make: Callable[[int, int], creased.Dented], bound: float, n: int, seed: int, factor: float
+) -> None:
+    """The sides come back, whether the mesh is solved or, where it is coarser, cut from the solved one."""
+    part = make(n, seed)
+    result = meshed(part, factor)
+    assert result.converged
+    assert part.error(result.vertices) < bound
+    sides = {tuple(side) for side in measures.edges(result.triangles).tolist()}
+    assert {tuple(sorted(pair)) for pair in part.edges.tolist()} <= sides
