@@ -1,14 +1,17 @@
-"""The add-on's way from a mesh to new positions, on a sphere, whose answer is the sphere."""
+"""The add-on's way from a mesh to new positions: normals along the outline, the answer, and halves with a mirror."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from addon.arrays.region import MeshArrays, Patch
-from addon.arrays.types import Floats, Ints
+from addon.arrays.around import outside_triangles
+from addon.arrays.region import MeshArrays, Patch, Reflection, make_patch
+from addon.arrays.types import Floats, Ints, Mask
 from addon.fair import engine
+from addon.fair.boundary import average_normals, boundary
 from addon.fair.memory import MOST, Memory
 from addon.fair.solve import Kept, pose, solve
+from addon.mirror.reflected import Whole, whole_of
 from addon.options.options import FairOptions
 from addon.verdict import quality
 from addon.verdict.outcome import Fairing, outcome
@@ -153,3 +156,239 @@ def test_measuring_can_be_cancelled() -> None:
         left = iter([True] * last + [False])
         with pytest.raises(fairing.Cancelled):
             outcome(mesh, EYE, FairOptions(), solved, lambda *_, left=left: next(left))
+
+
+# Normals along the outline: known ones on planes and spheres, from each source.
+def normals_of(mesh: MeshArrays, patch: Patch, source: str) -> tuple[Floats, tuple[str, ...]]:
+    found = boundary(mesh, patch, source, outside_triangles(mesh, patch))
+    return found.normals, found.notes
+
+
+def test_normals_of_the_surroundings_are_the_spheres_however_the_patch_lies() -> None:
+    mesh = grid(16, 0.6, on_sphere)
+    patch = make_patch(mesh)
+    spoilt = mesh.positions.copy()
+    spoilt[patch.vertices[patch.free]] *= 3.0
+    normals, reported = normals_of(replace(mesh, positions=spoilt), patch, "SURROUNDING")
+    rim = mesh.positions[patch.vertices[patch.fixed]]
+    assert reported == ()
+    np.testing.assert_allclose(normals, rim, atol=1e-9)  # spheres are met exactly
+
+
+def test_average_normals_of_a_plane_and_of_a_corner() -> None:
+    assert np.allclose(average_normals(grid(4, 0.6), np.arange(25)), [0.0, 0.0, 1.0])
+    quads = [[0, 1, 2, 3], [0, 3, 4, 5], [0, 5, 6, 1]]  # three sides of a cube around the vertex 0
+    cube = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 1, 1], [0, 0, 1], [1, 0, 1]], dtype=np.float64)
+    normals = average_normals(polygon_mesh(cube, quads, [True] * 3), np.arange(len(cube)))
+    np.testing.assert_allclose(normals[0], np.ones(3) / np.sqrt(3.0))
+    np.testing.assert_allclose(normals[2], [0.0, 0.0, 1.0])
+
+
+def test_custom_normals_are_the_mean_of_the_corners() -> None:
+    mesh = grid(6, 0.67)
+    patch = make_patch(mesh)
+    tilted = np.tile([0.6, 0.0, 0.8], (len(mesh.corner_vertices), 1))
+    normals, reported = normals_of(replace(mesh, corner_normals=tilted), patch, "CUSTOM")
+    assert reported == ()
+    np.testing.assert_allclose(normals, np.tile([0.6, 0.0, 0.8], (len(patch.fixed), 1)))
+    with pytest.raises(ValueError, match="with its corner normals"):
+        normals_of(mesh, patch, "CUSTOM")
+
+
+def test_a_border_without_faces_outside_is_reported_and_takes_the_patch_average() -> None:
+    mesh = grid(4, 2.0)  # all of it
+    patch = make_patch(mesh)
+    normals, reported = normals_of(mesh, patch, "SURROUNDING")
+    assert reported == ("16 border vertices have no faces outside: their normals come from the patch",)
+    assert np.allclose(normals, [0.0, 0.0, 1.0])
+    pinned = np.zeros(25, dtype=bool)
+    pinned[12] = True
+    inner = replace(mesh, pinned=pinned)
+    assert normals_of(inner, make_patch(inner), "SURROUNDING")[1] == reported  # a pin is none of them
+
+
+def test_curvatures_of_the_faces_outside() -> None:
+    """−1/R on a sphere, on the patch's side where the faces outside are wound against it; NaN where there are none."""
+    for wound in (1, -1):
+        selected = grid(16, 0.6).in_patch
+        quads = [loop if k else loop[::wound] for loop, k in zip(grid_quads(16), selected, strict=True)]
+        mesh = polygon_mesh(on_sphere(grid_points(16)), quads, selected)
+        patch = make_patch(mesh)
+        found = boundary(mesh, patch, "AUTOMATIC", outside_triangles(mesh, patch))
+        np.testing.assert_allclose(found.curvatures, -1.0, atol=1e-9)
+    alone = grid(4, 2.0)
+    patch = make_patch(alone)
+    assert np.isnan(boundary(alone, patch, "AUTOMATIC", outside_triangles(alone, patch)).curvatures).all()
+
+
+def table(size: int, drop: float) -> MeshArrays:
+    """A grid whose outer rows hang down on the left and right, 45° and more; its flat middle is selected."""
+    points = grid_points(size)
+    over = np.abs(points[:, 0]) - 0.5
+    points[:, 2] -= drop * np.maximum(over, 0.0)
+    quads = grid_quads(size)
+    selected = [(np.abs(points[loop, :2]).max(axis=0) <= 0.5 + 1e-9).all() for loop in quads]
+    return polygon_mesh(points, quads, selected)
+
+
+def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
+    mesh = table(16, 2.0)
+    patch = make_patch(mesh)
+    fixed = mesh.positions[patch.vertices[patch.fixed]]
+    known = boundary(mesh, patch, "AUTOMATIC", outside_triangles(mesh, patch))
+    np.testing.assert_allclose(known.normals, np.tile([0.0, 0.0, 1.0], (len(fixed), 1)), atol=1e-9)
+    sides = np.isclose(np.abs(fixed[:, 0]), 0.5) & (np.abs(fixed[:, 1]) < 0.49)
+    assert np.array_equal(known.from_inside, sides)
+    assert known.notes == (
+        "14 boundary vertices lie on hard edges: the surface does not go on with the slope outside there",
+    )
+    assert np.array_equal(known.inward(patch), patch.vertices[patch.fixed[sides]])
+    outer, reported = normals_of(mesh, patch, "SURROUNDING")
+    assert reported == ()
+    assert np.abs(outer[sides, 0]).min() > 0.8
+    flat = boundary(table(16, 0.0), patch, "INSIDE", outside_triangles(mesh, patch))
+    assert flat.from_inside.all()
+    assert flat.notes == ("The boundary is a hard edge all along: the surface does not go on with the slope outside",)
+
+
+def test_marked_edges_stop_the_fit_unless_most_are() -> None:
+    """The sides hang down by 17°, one row beside the selection."""
+    mesh = table(24, 0.3)
+    near = np.abs(mesh.positions[:, :2]).max(axis=1) < 0.5 - 0.05
+    selected = [near[loop].all() for loop in grid_quads(24)]
+    mesh = replace(mesh, in_patch=np.array(selected))
+    patch = make_patch(mesh)
+    ridge = np.isclose(np.abs(mesh.positions[:, 0]), 0.5)
+    along = ridge[mesh.edges].all(axis=1)
+
+    def tilt(sharp: Mask | None) -> float:
+        normals, _ = normals_of(replace(mesh, sharp=sharp), patch, "AUTOMATIC")
+        return float(np.abs(normals[:, 0]).max())
+
+    assert tilt(along) < 1e-9
+    assert tilt(None) > 0.01
+    assert tilt(np.ones(len(mesh.edges), dtype=bool)) == tilt(None)
+
+
+# Half a mesh with a Mirror modifier: the whole is faired, the half moves.
+SIZE = 16
+
+
+def across(axis: int, reach: float = 1e-3) -> Reflection:
+    flip = np.eye(4)
+    flip[axis, axis] = -1.0
+    return Reflection(flip, reach)
+
+
+def part_of_sphere(*axes: int) -> tuple[MeshArrays, Mask]:
+    """The part below 0 along the axes of a cubic sphere's side, its selected middle pushed in and shaken; what moves.
+
+    It ends on the planes of reflection, which the selection reaches.
+    """
+    points, quads = grid_points(SIZE), np.array(grid_quads(SIZE))
+    centres = points[quads].mean(axis=1)
+    there = (centres[:, list(axes)] < 0.0).all(axis=1)
+    used, corners = np.unique(quads[there], return_inverse=True)
+    selected = np.abs(centres[there]).max(axis=1) < 0.6
+    points = points[used]
+    mesh = polygon_mesh(on_sphere(points), corners.reshape(-1, 4).tolist(), selected)
+    free = np.abs(points).max(axis=1) < 0.6
+    shaken = mesh.positions.copy()
+    shaken[free] = 0.8 * shaken[free] + 0.05 * np.random.default_rng(5).normal(size=(int(free.sum()), 3))
+    for axis in axes:
+        shaken[np.isclose(points[:, axis], 0.0), axis] = 0.0
+    return replace(mesh, positions=shaken, reflections=tuple(across(axis) for axis in axes)), free
+
+
+def whole(mesh: MeshArrays) -> Whole:
+    found = whole_of(mesh)
+    assert found is not None
+    return found
+
+
+def fair_reflected(mesh: MeshArrays, matrix: Floats) -> Fairing:
+    both, options = whole(mesh), FairOptions()
+    return both.half_of(outcome(both.mesh, matrix, options, solve(both.mesh, matrix, options)))
+
+
+@pytest.mark.parametrize("axes", [(0,), (1,), (0, 1)])
+def test_the_sphere_comes_back_up_to_the_planes(axes: tuple[int, ...]) -> None:
+    mesh, free = part_of_sphere(*axes)
+    shear = np.array([[1.0, 0.0, 0.0, 2.0], [0.5, 2.0, 0.0, 1.0], [0.0, 0.0, 0.5, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    done = fair_reflected(mesh, np.eye(4))
+    np.testing.assert_array_equal(done.vertices, np.flatnonzero(free))
+    np.testing.assert_allclose(np.linalg.norm(done.positions, axis=1), 1.0, atol=1e-5)
+    for axis in axes:
+        on_plane = mesh.positions[done.vertices, axis] == 0.0
+        assert on_plane.any()
+        np.testing.assert_array_equal(done.positions[on_plane, axis], 0.0)
+    assert (done.verdict.grade, done.free_count) == ("GOOD", int(free.sum()))
+    assert done.join.vertices.max() < len(mesh.positions)
+    assert len(done.result.vertices) == len(np.unique(mesh.corner_vertices[mesh.in_patch[mesh.corner_faces]]))
+    assert (fair_reflected(mesh, shear).positions[:, list(axes)] <= 0.0).all()
+
+
+def test_the_images_are_those_of_blender() -> None:
+    """Faces the other way round, no vertex, edge or face twice, each corner's edge between it and the next."""
+    mesh, _ = part_of_sphere(0)
+    both = whole(mesh).mesh
+    assert len(both.positions) == 2 * len(mesh.positions) - (SIZE + 1)
+    assert len(both.edges) == 2 * len(mesh.edges) - SIZE
+    assert len(np.unique(np.sort(both.edges, axis=1), axis=0)) == len(both.edges)
+    loops = both.corner_vertices.reshape(-1, 4)
+    following = np.roll(loops, -1, axis=1).ravel()
+    sides = np.sort(np.column_stack([loops.ravel(), following]), axis=1)
+    np.testing.assert_array_equal(np.sort(both.edges[both.corner_edges], axis=1), sides)
+    a, b, c = (both.positions[both.triangles[:, k]] for k in range(3))
+    assert (np.cross(b - a, c - a)[:, 2] > 0.0).mean() > 0.9  # crumpled, but all wound alike
+    directed = {(int(p), int(q)) for p, q in zip(loops.ravel(), following, strict=True)}
+    assert len(directed) == loops.size
+    np.testing.assert_array_equal(np.bincount(both.corner_edges).max(), 2)
+
+
+def test_what_is_asked_of_vertices_edges_and_faces_goes_along() -> None:
+    mesh, _ = part_of_sphere(0)
+    marks = np.random.default_rng(3)
+    edge, face, vertex = (marks.random(k) < 0.3 for k in (len(mesh.edges), len(mesh.in_patch), len(mesh.positions)))
+    normals = marks.normal(size=(len(mesh.corner_vertices), 3))
+    both = whole(
+        replace(mesh, pinned=vertex, sharp=edge, hidden=face, parts=vertex.astype(float), corner_normals=normals)
+    ).mesh
+    middle = both.positions[both.edges].mean(axis=1)
+    marked = middle[both.sharp]
+    for flipped in marked * (-1.0, 1.0, 1.0):
+        assert np.abs(marked - flipped).sum(axis=1).min() < 1e-12
+    assert both.sharp.sum() == 2 * edge.sum() - (edge & (mesh.positions[mesh.edges, 0] == 0.0).all(axis=1)).sum()
+    assert both.hidden.sum() == 2 * face.sum()
+    assert both.pinned.sum() == both.parts.sum() == 2 * vertex.sum() - (vertex & (mesh.positions[:, 0] == 0.0)).sum()
+    at = both.positions[both.corner_vertices]
+    image = len(normals) + np.flatnonzero(np.abs(at[len(normals) :] - at[0] * (-1.0, 1.0, 1.0)).max(axis=1) < 1e-12)
+    assert any(np.array_equal(both.corner_normals[k], normals[0] * (-1.0, 1.0, 1.0)) for k in image)
+
+
+def test_only_a_patch_cut_by_the_plane_is_made_whole() -> None:
+    mesh, _ = part_of_sphere(0)
+    assert whole_of(replace(mesh, reflections=())) is None
+    assert whole_of(replace(mesh, reflections=(across(1),))) is None  # where the mesh has no end
+    centres = mesh.positions[mesh.corner_vertices].reshape(-1, 4, 3).mean(axis=1)
+    assert whole_of(replace(mesh, in_patch=mesh.in_patch & (centres[:, 0] < -0.15))) is None
+    moved = mesh.positions - np.array([2e-3, 0.0, 0.0])
+    assert whole_of(replace(mesh, positions=moved)) is None  # further from its image than the modifier merges
+    assert whole_of(replace(mesh, positions=moved, reflections=(across(0, 5e-3),))) is not None
+
+
+def test_spots_and_faces_are_those_of_the_half() -> None:
+    """A pin that holds a spike makes kinks; what is shown of the image would be no vertex of the mesh."""
+    mesh, free = part_of_sphere(0)
+    points = mesh.positions.copy()
+    top = int(np.flatnonzero(free & (mesh.positions[:, 0] < -0.2))[0])
+    points[top] *= 3.0
+    pinned = np.zeros(len(points), dtype=bool)
+    pinned[top] = True
+    done = fair_reflected(replace(mesh, positions=points, pinned=pinned), np.eye(4))
+    count = len(mesh.positions)
+    assert done.verdict.grade != "GOOD"
+    assert len(done.verdict.spots)
+    assert done.verdict.spots.max() < count
+    assert len(np.unique(done.verdict.spots)) == len(done.verdict.spots)
+    assert max([*done.before.folded, *done.after.folded, *done.after.needles], default=0) < len(mesh.in_patch)

@@ -174,7 +174,7 @@ def test_a_refusal_leaves_every_bit(kind: Kind, spoil: Callable[[Any], None]) ->
     if spoil is with_nan and kind.first.get("bridge"):
         pytest.skip("the other hole is filled: test_fill_each.py")
     if spoil is locked and kind.first.get("all_keys"):
-        pytest.skip("has keys of its own: test_keys.py")
+        pytest.skip("has keys of its own: test_report.py")
     obj = begun(kind, spoil)
     before = state(obj, selection=spoil is deselected)
     try:

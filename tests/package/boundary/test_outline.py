@@ -1,4 +1,4 @@
-"""Noisy, bad and visible outlines: standard errors, mending, growing, and the measure of the join."""
+"""Outlines: loops, standard errors, mending, growing, the measure of the join, and open borders that become fair."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -9,9 +9,12 @@ import pytest
 import bad_inputs
 import fairing
 import measures
+import shapes
+import windows
 from curves import FloatArray
 from fairing.solving import surroundings
 from meshing import IntArray, edge_pairs, face_normals
+from windows import Kind, Window
 
 
 @dataclass(frozen=True)
@@ -218,3 +221,91 @@ def test_the_join_of_a_sphere_is_invisible_and_a_wrong_normal_shows() -> None:
     options["fixed_normals"] = tilted / np.linalg.norm(tilted, axis=1)[:, None]
     leaning = fairing.fair(case.noisy, case.inside, **options)
     assert 10 < np.median(leaning.join) < 25
+
+
+# `fairing.boundary_loops`: every border vertex once, in order with the mesh on the left.
+def check(triangles: IntArray, count: int) -> None:
+    loops = fairing.boundary_loops(triangles)
+    assert len(loops) == count
+    border = {tuple(edge) for edge in measures.border_edges(triangles).tolist()}
+    steps = [(int(a), int(b)) for loop in loops for a, b in zip(loop, np.roll(loop, -1), strict=True)]
+    assert len(steps) == len(set(steps)) == len(border)
+    assert set(steps) == border
+    assert all(loop[0] == loop.min() for loop in loops)
+
+
+@pytest.mark.parametrize(("name", "count"), [("cap", 1), ("cylinder", 2), ("plane", 1), ("torus", 1)])
+def test_loops_of_patches(name: str, count: int) -> None:
+    check(getattr(shapes, name)(200).triangles, count)
+
+
+def test_closed_meshes_have_none() -> None:
+    assert fairing.boundary_loops(bad_inputs.closed_ball()[1]) == []
+
+
+def test_a_single_sided_mesh_has_no_left_and_is_refused() -> None:
+    with pytest.raises(fairing.MeshError) as caught:
+        fairing.boundary_loops(bad_inputs.moebius_strip()[1])
+    assert caught.value.code == "NOT_ORIENTABLE"
+
+
+def test_a_waist_between_two_fans_is_no_border() -> None:
+    """Both its ends lie on the border, free vertices on both its sides: the solver cuts there, the loop does not."""
+    left = [[0, 2, 3], [0, 3, 4], [0, 4, 5], [0, 5, 2]]
+    right = [[1, 3, 2], [1, 2, 6], [1, 6, 7], [1, 7, 3]]
+    (loop,) = fairing.boundary_loops(left + right)
+    assert list(loop) == [2, 6, 7, 3, 4, 5]
+
+
+# Open borders that become fair: noisy windows in cylinders and spheres.
+def fair(window: Window, start: np.ndarray, **options: object) -> fairing.FairResult:  # type: ignore[type-arg]
+    return fairing.fair(start, window.triangles, fixed=window.outline, fixed_normals=window.normals, **options)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("kind", ["cylinder", "sphere"])
+@pytest.mark.parametrize("around", [24, 48])
+def test_a_noisy_window_comes_back(kind: Kind, around: int) -> None:
+    """From noise of a quarter edge along each axis: the surface to 1e-6, and half of the border's noise goes."""
+    window = windows.window(kind, around, 3)
+    start = window.noisy(0.25, 4)
+    result = fair(window, start, open_border="faired")
+    assert result.converged
+    assert result.equation == "least_variation"
+    assert window.off_surface(result.vertices).max() < 1e-6
+    assert window.off_border(result.vertices) < 0.55 * window.off_border(start)
+    assert "OPEN_BORDER_IN_SELECTION" not in {reported.code for reported in result.warnings}
+    assert np.isin(window.border, result.fixed).sum() == 0
+    assert np.array_equal(result.vertices[window.outline], start[window.outline])
+
+
+def test_the_fair_curve_does_not_drift_within_the_surface() -> None:
+    """Another noise across the surface alone leaves the border where it is within the surface, to .01 edges."""
+    window = windows.window("sphere", 24, 11)
+    start = window.noisy(0.25, 11)
+    lifted = start * (1.0 + 0.03 * np.cos(5 * np.arange(len(start))))[:, None]
+    lifted[window.outline] = window.vertices[window.outline]
+    places = [fair(window, points, open_border="faired").vertices[window.border] for points in (start, lifted)]
+    assert np.linalg.norm(places[0] - places[1], axis=1).max() < 0.01 * window.border_edge
+
+
+def test_a_border_between_held_ends_meets_them() -> None:
+    """Two thirds of the window are in the selection; the rest of its border is fixed."""
+    window = windows.window("sphere", 48, 5)
+    kept = window.border[:16]
+    fixed = np.concatenate([window.outline, kept])
+    start = window.noisy(0.25, 6)
+    start[kept] = window.vertices[kept]
+    result = fairing.fair(
+        start, window.triangles, fixed=fixed, fixed_normals=window.vertices[fixed], open_border="faired"
+    )
+    assert result.converged
+    assert window.off_surface(result.vertices).max() < 1e-6
+    assert np.array_equal(result.vertices[kept], start[kept])
+    assert window.off_border(result.vertices) < 0.55 * window.off_border(start)
+
+
+def test_a_fair_border_keeps_its_place() -> None:
+    window = windows.window("sphere", 48, 7)
+    result = fair(window, window.vertices, open_border="faired")
+    edge = np.linalg.norm(window.vertices[window.border[1]] - window.vertices[window.border[0]])
+    assert np.linalg.norm(result.vertices - window.vertices, axis=1)[window.border].max() < 0.01 * edge

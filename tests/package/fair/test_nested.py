@@ -11,7 +11,7 @@ import solids
 from curves import FloatArray
 from shapes import Patch, Style
 from solving import codes, fair_patch
-from test_fixed_curves import make_capsule
+from test_held_curves import make_capsule
 
 PATCHES = {
     "hemisphere": lambda: shapes.cap(5000),
