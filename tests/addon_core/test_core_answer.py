@@ -392,3 +392,16 @@ def test_spots_and_faces_are_those_of_the_half() -> None:
     assert done.verdict.spots.max() < count
     assert len(np.unique(done.verdict.spots)) == len(done.verdict.spots)
     assert max([*done.before.folded, *done.after.folded, *done.after.needles], default=0) < len(mesh.in_patch)
+
+
+def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, kept = spoilt_sphere(), counting_kept(ahead=True)
+    solve(mesh, EYE, FairOptions(), kept=kept)
+    monkeypatch.setattr(fairing, "fair", lambda *_args, **_options: pytest.fail("a call without its solver"))
+    monkeypatch.setattr(engine, "RepeatedSolve", lambda *_args: pytest.fail("another solver"))
+    other = FairOptions(inner_fairness="INVERSE_DISTANCE")
+    again = outcome(mesh, EYE, other, solve(mesh, EYE, other, kept=kept))
+    np.testing.assert_allclose(np.linalg.norm(again.positions, axis=1), 1.0, atol=1e-6)
+    moved = replace(mesh, positions=1.5 * mesh.positions)
+    with pytest.raises(pytest.fail.Exception, match="another solver"):
+        solve(moved, EYE, FairOptions(), kept=kept)

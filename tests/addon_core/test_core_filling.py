@@ -392,3 +392,13 @@ def test_noise_around_a_hole_has_no_hard_edges(noise: float) -> None:
     mesh = roof(0.0, 0.0)
     rough = mesh.positions + np.random.default_rng(3).normal(scale=noise, size=mesh.positions.shape)
     assert len(hard_ends(replace(mesh, positions=rough), rim(mesh, 0.0), mesh.triangles)) == 0
+
+
+def test_faces_wound_against_each_other_are_left() -> None:
+    quads = [quad for number, quad in enumerate(grid_quads(3)) if number != 4]
+    quads[1] = quads[1][::-1]
+    mesh = polygon_mesh(grid_points(3), quads, np.zeros(8, dtype=bool))
+    loops, left = border_loops(mesh, only(mesh, 5))
+    assert not loops
+    assert all("wound against" in each.reason and len(each.spots) for each in left)
+    assert 5 in np.concatenate([each.vertices for each in left])

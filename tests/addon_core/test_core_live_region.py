@@ -252,3 +252,14 @@ def test_who_cancels_or_gives_bad_input_gets_no_other_surface(kind: type[Excepti
     with pytest.raises(kind):
         first(region("stand_in", tried, kind), NOWHERE, NOWHERE, lambda *_: True)
     assert tried == ["answer"]
+
+
+def test_the_first_surface_is_near_the_answer() -> None:
+    """On the sphere it is nearly the sphere, and where the vertices inside are does not count."""
+    mesh = sphere()
+    region = LiveRegion(mesh, EYE, FairOptions())
+    positions = mesh.positions[region.vertices].copy()
+    first = region.first(positions, EYE)
+    np.testing.assert_allclose(np.linalg.norm(first, axis=1), 1.0, atol=5e-3)
+    positions[np.searchsorted(region.vertices, region.free)] += 0.3
+    np.testing.assert_array_equal(region.first(positions, EYE), first)

@@ -397,3 +397,13 @@ def without_faces(mesh: MeshArrays, count: int) -> MeshArrays:
         touched = np.isin(mesh.corner_vertices, mesh.corner_vertices[mesh.corner_faces == face])
         inner = np.setdiff1d(inner, mesh.corner_faces[touched])
     return replace(mesh, in_patch=chosen)
+
+
+def test_folds_that_only_the_engine_names_are_not_usable(fine: Evidence) -> None:
+    triangle = int(np.flatnonzero(fine.problem.patch.faces == FACE)[0])
+    warning = fairing.Diagnostic("FOLDED", "", np.array([triangle], dtype=np.int32), "triangle")
+    result = replace(fine.result, converged=False, termination="folded", warnings=(warning,))
+    verdict = judged(replace(fine, result=result, failures=("Folds",)))
+    assert (verdict.grade, verdict.reason) == (UNUSABLE, "Folds")
+    assert set(verdict.spots) <= set(CORNERS)
+    assert len(verdict.spots) == 3
