@@ -17,7 +17,6 @@ from ..translations import translated
 from ..verdict.outcome import Fairing
 from ..verdict.properties import store
 from ..verdict.report import GRADE_NAMES, Report, make_report, summary
-from ..verdict.verdict import KEEP_DETAIL
 from ..words import labels
 from ..words.words import said
 from .engine import Progress
@@ -68,8 +67,6 @@ class Asked(AskedInEditMode):
 def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:
     """Leave what the last run has left, offer this change no more, and report how it would have come out."""
     last_run.select_region(context)
-    if way == KEEP_DETAIL and not compare.is_shown(context):  # it began with the shape before
-        compare.show(context, result=True)
     shown = context.window_manager.fairing_report
     shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
     outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))

@@ -24,7 +24,7 @@ from ..words.sentences import in_mesh_words, sentences
 from ..words.words import said
 from .across import Loose, Numbering, drawn_edges, marked_edges, numbered_by_pass, renumbered, within
 from .pieces import Piece
-from .verdict import Surface, judge
+from .verdict import judge, measured
 
 _SEEN = 11  # rings around a hole that the engine looks at: slopes, and what is usual around hard edges
 _TOLD = ("NO_SOLUTION", "NOT_TANGENT", "EDGES_LEFT_ALONE", "NO_QUAD_ROWS")
@@ -98,13 +98,12 @@ class Job:
         triangles = numbered_by_pass(number.of[result.triangles], result.triangles.astype(np.int64), given)
         inside = number.places(world.positions, result.vertices)
         points = np.concatenate([world.positions[outline], inside])
-        whole = np.concatenate([world.positions[vertices], result.vertices])
-        rim = np.unique(np.concatenate(given))
-        join = join_at(vertices[rim], fairing.looks.visible_join(whole, result.triangles, around, rim))
         across = number.across(result, local.drawn)
+        held = np.union1d(np.arange(len(outline)), across.edges)
+        seen = measured(world, outline, points, triangles, held)
+        join = join_at(np.unique(outline), seen.join)
         slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
-        surface = Surface(points, triangles, result, join, across.edges)
-        verdict = judge(world, outline, surface, vertices[around])
+        verdict = judge(outline, result, join, seen)
         return Piece(
             loops=tuple(loops),
             points=points,

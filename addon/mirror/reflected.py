@@ -132,8 +132,7 @@ class Whole:
 
     def _quality(self, of: Quality) -> Quality:
         count = len(self.half.in_patch)
-        folded, needles = (faces[faces < count] for faces in (of.folded, of.needles))
-        return Quality(folded, needles, None if of.crossing is None else of.crossing[of.crossing < count])
+        return Quality(of.folded[of.folded < count], None if of.crossing is None else of.crossing[of.crossing < count])
 
 
 def whole_of(mesh: MeshArrays, touched: Mask | None = None) -> Whole | None:

@@ -18,9 +18,8 @@ from ..options.options import FairOptions
 from ..selection.selection import left_out, tunnel_hint
 from ..verdict import quality
 from ..verdict.evidence import Evidence
-from ..verdict.lost import sunken
 from ..verdict.outcome import Fairing
-from ..verdict.piercing import Sheet, pierced, places
+from ..verdict.quality import Sheet, places
 from ..verdict.verdict import GOOD, LOOK, because_of, judge
 from ..words.findings import Origin
 from ..words.sentences import in_mesh_words
@@ -73,16 +72,14 @@ def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: 
     after = _new_problem(problem, part, result, posed)
     before = np.concatenate([place[part.stay], part.vertices.mean(place)])
     points = before + options.factor * (after.own_points - before)
-    measured = quality.measure(problem.patch, problem.own_points), quality.measure(after.patch, points)
     own = replace(after, points=np.concatenate([points, after.points[len(points) :]]))
-    join = quality.join(own, own.points)
     origin = _origin(problem, result)
     reported, failures = reported_by(result, origin)
-    swollen = quality.swollen((problem.patch, problem.own_points), (after.patch, points))
+    here = places(mesh, matrix)
+    seen = quality.measured(mesh, (here, problem.patch), (_sheet(here, part, points), own), progress=progress)
     evidence = Evidence(
-        after, result, failures, *measured, join, swollen=swollen, squeezed=_squeezed(problem, kept, result),
-        pierced=_pierced(mesh, matrix, problem, part, points), points=own.points, origin=origin,
-        left_out=left_out(mesh), lost=sunken(after.patch, points, problem),
+        after, result, failures, seen, squeezed=_squeezed(problem, kept, result), points=own.points, origin=origin,
+        left_out=left_out(mesh),
     )  # fmt: skip
     verdict = judge(evidence, options)
     tunnels = () if verdict.grade == GOOD else tunnel_hint(problem.patch)
@@ -95,11 +92,11 @@ def _remeshed(mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: 
         positions=local[part.fixed_count : stay],
         result=result,
         warnings=warnings + reported + _limits(mesh) + odd,
-        before=measured[0],
-        after=measured[1],
+        before=seen.before,
+        after=seen.after,
         distortion=quality.texture_distortion(before, points, part.triangles),
         curvature=_largest_curvatures(result),
-        join=join,
+        join=seen.join,
         verdict=verdict,
         free_count=len(points) - part.held_count,
         part=_wound_back(part) if mesh.transformed(matrix).mirrored else part,
@@ -129,21 +126,14 @@ def _squeezed(problem: Problem, kept: Ints, result: fairing.RemeshResult) -> Int
     return found
 
 
-def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, part: NewPart, points: Floats) -> Ints:
-    """Return the mesh vertices at new triangles, whose (r + k) points are given, that pass through unselected faces.
-
-    Only through such as the old triangles did not pass through. Of new vertices those next to them stand for them.
-    """
-    before = places(mesh, matrix)
+def _sheet(before: Floats, part: NewPart, points: Floats) -> Sheet:
+    """Return the mesh with its new vertices, for which the old ones next to them stand; points: (r + k, 3)."""
     stay, count = len(part.stay), len(before)
     moved = before.copy()
     moved[part.stay] = points[:stay]
-    number = np.concatenate([part.stay, count + np.arange(len(points) - stay)])
-    after = Sheet(np.concatenate([moved, points[stay:]]), number[part.triangles])
-    found = pierced(mesh, Sheet(before, problem.patch.vertices[problem.patch.triangles]), after)
+    numbers = np.concatenate([part.stay, count + np.arange(len(points) - stay)])
     beside = np.concatenate([np.arange(count), part.vertices.heaviest])
-    vertices: Ints = np.unique(beside[found])
-    return vertices
+    return Sheet(np.concatenate([moved, points[stay:]]), numbers, beside)
 
 
 def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:

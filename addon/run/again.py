@@ -18,21 +18,17 @@ from ..verdict.verdict import (
     EVEN_CURVATURE,
     EVEN_SPREAD,
     GROW,
-    GROW_OVER,
     HOLD_BORDER,
-    KEEP_DETAIL,
     SMOOTH_OUTLINE,
     WRITE,
 )
 from ..words.words import said
-from . import compare, last_run
+from . import last_run
 
 # Each button, what helps most first: what it changes in the options, its name and its tooltip.
 _WAYS: dict[str, tuple[dict[str, Any], str, str]] = {
     ALL_KEYS: ({"all_keys": True}, "All Keys", "Fair every shape key as well, each from its own surroundings"),
     ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
-    GROW_OVER: ({}, "Grow Past Bump", "Select as many rings of faces more as the slope is wide, and fair again"),
-    KEEP_DETAIL: ({"detail": 1.0}, "Keep Detail", "Fair again, and put the old skin back on the new shape"),
     AS_SELECTED: (
         {"smooth_boundary": False},
         "Boundary As Selected",
@@ -87,25 +83,20 @@ class MESH_OT_fair_again(bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select what the last run had, change one thing, run; what is no better than before isn't written."""
         options = replace(last_run.options(), **{"allow_folds": False, **_WAYS[self.way][0]})
-        status, goes_back = {"CANCELLED"}, False
+        status = {"CANCELLED"}
         try:
-            goes_back = self.way == KEEP_DETAIL and compare.is_shown(context)  # the skin is gone from the result
-            if goes_back:
-                compare.show(context, result=False)
             last_run.select_region(context)
             if self.way == ADD_LEFT_OUT:
                 bpy.ops.mesh.fair_select(what="LEFT_OUT")
-            for _ in range({GROW: 1, GROW_OVER: last_run.rings()}.get(self.way, 0)):
+            if self.way == GROW:
                 bpy.ops.mesh.select_more()
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
             last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
             status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
-        except (last_run.Changed, compare.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
+        except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
         finally:
             last_run.try_way("")  # a run that did not begin has not taken it
-            if goes_back and "CANCELLED" in status:
-                compare.show(context, result=True)
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

@@ -37,7 +37,6 @@ class _Last:
         self.seen: tuple[Region, ...] = ()  # whose selection gave way to some vertices
         self.options = FairOptions()
         self.standing: tuple[int, float] = (0, 0.0)
-        self.rings = 1  # to grow over what it ended on
         self.way = ""  # that the next run is to try
 
 
@@ -48,7 +47,7 @@ def remember(tasks: list[Task], outcomes: list[Fairing], options: FairOptions, r
     """Keep what a run was about, and what came of it."""
     _last.options, _last.standing = options, standing(report)
     _last.regions = tuple(_region(task, outcome.verdict.spots) for task, outcome in zip(tasks, outcomes, strict=True))
-    _last.seen, _last.rings = _last.regions, max(outcome.verdict.rings for outcome in outcomes)
+    _last.seen = _last.regions
 
 
 def keep_selection(tasks: list[Task]) -> None:
@@ -101,11 +100,6 @@ def has_regions() -> bool:
 
 def options() -> FairOptions:
     return _last.options
-
-
-def rings() -> int:
-    """Return by how many rings it is to grow over the slope that it ended on."""
-    return _last.rings
 
 
 def has_spots() -> bool:

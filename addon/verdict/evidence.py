@@ -12,21 +12,11 @@ from ..arrays.types import Floats, Ints
 from ..fair.engine import Problem, Result
 from ..selection.selection import LeftOut
 from ..words.findings import Finding, Origin, found
-from .eaten import Eaten
 from .lost import Lost
-from .quality import Join, Quality
+from .quality import Measured
 
 Found = tuple[str, Ints]  # a sentence and the mesh vertices that it is about
 NOTHING: Found = ("", nothing())
-
-
-@dataclass(frozen=True)
-class Flank:
-    """Where a patch ends on the slope of a bump or a dent."""
-
-    outline: Ints  # its vertices, as patch indices
-    is_bump: bool  # or a dent
-    rings: int  # of faces to its end
 
 
 @dataclass(frozen=True)
@@ -36,18 +26,10 @@ class Evidence:
     problem: Problem
     result: Result
     failures: tuple[str, ...]  # the engine's own words for why there is no answer
-    before: Quality
-    after: Quality
-    join: Join
-    rounded: Ints = field(default_factory=nothing)  # mesh vertices of hard edges outside that were rounded
-    swollen: Ints = field(default_factory=nothing)  # mesh vertices at the tops of knobs
-    eaten: Eaten = field(default_factory=Eaten)
+    seen: Measured  # what the engine sees of it
     squeezed: Ints = field(default_factory=nothing)  # mesh vertices where lines that a new mesh keeps are a knot
-    pierced: Ints = field(default_factory=nothing)  # mesh vertices where the surface passes through faces outside
-    flank: Flank | None = None
     lost: Lost = field(default_factory=Lost)
     left_out: LeftOut = field(default_factory=LeftOut)
-    seams: Ints = field(default_factory=nothing)  # mesh vertices of held seams of doubled vertices that show as crests
     points: Floats | None = None  # (q, 3) of problem.vertices after the run; None: problem.points
     origin: Origin | None = None  # what the engine's numbers stand for; None: problem.origin
 

@@ -33,16 +33,28 @@ def _ended(reason: str, evidence: Evidence, options: FairOptions) -> str:
     """Add how the search ended, where the engine does not say why, and what there is instead."""
     if options.fair_open_borders:
         return said("rough_border", reason=reason)
-    if any(evidence.reported("NOT_CONVERGED", "load_share", "area", "from_behind")):
+    if _tells_why(evidence):
         return reason
     count = evidence.result.iterations
     text = said("halted" if count else "no_initial_surface", reason=reason)
     if evidence.result.termination != "stalled":
         text = said("steps_ran_out", reason=reason, n=count)
-    after = evidence.after
-    if len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.join.seen):
-        return text
-    return said("usable_so_far", reason=text)
+    return said("usable_so_far", reason=text) if is_usable(evidence, options) else text
+
+
+def _tells_why(evidence: Evidence) -> bool:
+    """Return whether the engine knows why there is no such surface."""
+    return any(evidence.reported("NOT_CONVERGED", "load_share", "area", "from_behind"))
+
+
+def is_usable(evidence: Evidence, options: FairOptions) -> bool:
+    """Return whether what a search without an answer came to shows nothing that is wrong: it is written, and named."""
+    result, after = evidence.result, evidence.seen.after
+    if result.converged or result.termination == "folded" or options.fair_open_borders or _tells_why(evidence):
+        return False
+    return not (
+        len(after.folded) or (after.crossing is not None and len(after.crossing)) or len(evidence.seen.join.seen)
+    )
 
 
 def _troubled(problem: Problem) -> Ints:
@@ -53,10 +65,10 @@ def _troubled(problem: Problem) -> Ints:
 
 
 def _folded(evidence: Evidence, options: FairOptions) -> Found:
-    after = evidence.after.folded
+    after = evidence.seen.after.folded
     if options.detail > 0.0:
-        after = np.setdiff1d(after, evidence.before.folded)  # the skin's own folds come back with it
-    if options.factor < 1.0 and len(after) <= len(evidence.before.folded):
+        after = np.setdiff1d(after, evidence.seen.before.folded)  # the skin's own folds come back with it
+    if options.factor < 1.0 and len(after) <= len(evidence.seen.before.folded):
         return NOTHING  # half-way to a fair surface something of the old one is left
     if evidence.result.termination == "folded" and not len(after):
         return _named_folds(evidence)
@@ -77,7 +89,7 @@ def _named_folds(evidence: Evidence) -> Found:
 
 
 def _crossing(evidence: Evidence, options: FairOptions) -> Found:
-    before, after = evidence.before.crossing, evidence.after.crossing
+    before, after = evidence.seen.before.crossing, evidence.seen.after.crossing
     if after is None or not len(after):
         return NOTHING
     new = after if before is None else np.setdiff1d(after, before)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 import fairing
@@ -35,27 +33,22 @@ def visible(evidence: Evidence, options: FairOptions) -> Found:
 
 
 def _pierced(evidence: Evidence, _options: FairOptions) -> Found:
-    if not len(evidence.pierced):
+    if not len(evidence.seen.pierced):
         return NOTHING
-    return said("passes_outside", n=len(evidence.pierced)), evidence.pierced
+    return said("passes_outside", n=len(evidence.seen.pierced)), evidence.seen.pierced
 
 
 def _seamed(evidence: Evidence, _options: FairOptions) -> Found:
-    if not len(evidence.seams):
+    if not len(evidence.seen.seams):
         return NOTHING
-    return said("held_by_seam", n=len(evidence.seams)), evidence.seams
+    return said("held_by_seam", n=len(evidence.seen.seams)), evidence.seen.seams
 
 
 def _kinked(evidence: Evidence, options: FairOptions) -> Found:
     if not judges_join(options):
         return NOTHING
-    seen = evidence.join.seen
-    if len(seen):
-        return kink_reason(evidence.join), seen
-    kinks = evidence.named("NO_SOLUTION", "kinks")  # dihedral angles show these on fine meshes only
-    if not len(kinks):
-        return NOTHING
-    return said("slope_not_continued", n=len(kinks)), kinks
+    seen = evidence.seen.join.seen
+    return (kink_reason(evidence.seen.join), seen) if len(seen) else NOTHING
 
 
 def kink_reason(join: Join) -> str:
@@ -72,16 +65,16 @@ def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
 
 
 def _rounded(evidence: Evidence, options: FairOptions) -> Found:
-    if not len(evidence.rounded):
+    if not len(evidence.seen.rounded):
         return NOTHING
     key = "smooth_boundary_rounded" if options.smooth_boundary else "falloff_rounded"
-    return said(key, n=len(evidence.rounded)), evidence.rounded
+    return said(key, n=len(evidence.seen.rounded)), evidence.seen.rounded
 
 
 def _eaten(evidence: Evidence, options: FairOptions) -> Found:
     if not judges_join(options):
         return NOTHING
-    marked, running = evidence.eaten.marked, evidence.eaten.running_on
+    marked, running = evidence.seen.marked, evidence.seen.running_on
     if len(marked):
         return _with_kinks(evidence, said("sharp_rounded", n=len(marked)), marked)
     if len(running):
@@ -94,12 +87,12 @@ def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
 
     Another selection may be what helps then.
     """
-    seen = evidence.join.seen
+    seen = evidence.seen.join.seen
     if not len(seen):
         return reason, spots
-    if evidence.join.worst_seen >= fairing.looks.LIMITS["steep_kink"]:
-        return said("and_rounded", reason=kink_reason(evidence.join), n=len(spots)), _both(seen, spots)
-    return said("or_grow", reason=reason, degrees=evidence.join.worst_seen), _both(spots, seen)
+    if evidence.seen.join.worst_seen >= fairing.looks.LIMITS["steep_kink"]:
+        return said("and_rounded", reason=kink_reason(evidence.seen.join), n=len(spots)), _both(seen, spots)
+    return said("or_grow", reason=reason, degrees=evidence.seen.join.worst_seen), _both(spots, seen)
 
 
 def _both(spots: Ints, others: Ints) -> Ints:
@@ -107,17 +100,10 @@ def _both(spots: Ints, others: Ints) -> Ints:
     return joined
 
 
-def _swollen(evidence: Evidence, options: FairOptions) -> Found:
-    if not len(evidence.swollen) or not judges_join(options) or _is_meant_to_swell(options):
+def _stumped(evidence: Evidence, options: FairOptions) -> Found:
+    if not len(evidence.seen.stump) or not judges_join(options) or _is_meant_to_swell(options):
         return NOTHING
-    return said("knob", n=len(evidence.swollen)), evidence.swollen
-
-
-def _flanked(evidence: Evidence, options: FairOptions) -> Found:
-    if evidence.flank is None or not judges_join(options) or _is_meant_to_swell(options):
-        return NOTHING
-    reason = said("on_bump" if evidence.flank.is_bump else "on_dent")
-    return reason, evidence.problem.patch.vertices[evidence.flank.outline]
+    return said("stump"), evidence.seen.stump
 
 
 def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
@@ -191,33 +177,6 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
     return said("knot", n=len(evidence.squeezed)), evidence.squeezed
 
 
-def _sunken(evidence: Evidence, options: FairOptions) -> Found:
-    lost = evidence.lost
-    if len(evidence.problem.patch.free_slopes):  # a bend there is asked for, so that what is around says less
-        return NOTHING
-    # Detail is skin; what it is put on sinks all the same.
-    if not len(lost.deepest) or not judges_join(options) or _is_meant_to_swell(replace(options, detail=0.0)):
-        return NOTHING
-    return sunken_reason(lost.depth), lost.deepest
-
-
-def sunken_reason(depth: float) -> str:
-    """Return the sentence for a surface that sinks by a share of its width below the lines that run on across it."""
-    return said("sinks", depth=depth)
-
-
-def _smoother(evidence: Evidence, options: FairOptions) -> Found:
-    if not evidence.lost.is_smoother or options.detail > 0.0 or options.factor < 1.0:
-        return NOTHING
-    return said("too_smooth"), _outline(evidence)
-
-
-def _rougher(evidence: Evidence, options: FairOptions) -> Found:
-    if not evidence.lost.is_rougher or not judges_join(options):
-        return NOTHING
-    return said("crumpled"), _most_bent(evidence)
-
-
 def _outline(evidence: Evidence) -> Ints:
     patch = evidence.problem.patch
     found: Ints = patch.vertices[patch.outline]
@@ -238,8 +197,8 @@ def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
 
 # The first that finds something gives the reason.
 _LOOKS = (
-    *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed, _swollen, _flanked),
-    *(_substituted, _uneven, _rougher, _sunken, _refused, _squeezed, _smoother, _unmoved),
+    *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed),
+    *(_substituted, _uneven, _stumped, _refused, _squeezed, _unmoved),
 )
 
 

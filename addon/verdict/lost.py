@@ -1,4 +1,4 @@
-"""What a surface has lost of the shape that it belongs to: its girth, its grain, its rim, the shape of a key."""
+"""What a surface has lost of the shape that it belongs to: its girth, its rim, the shape of a key."""
 
 from __future__ import annotations
 
@@ -6,11 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-import fairing
-
-from ..arrays.around import numbered, wide_outside, wound_alike
 from ..arrays.harmonic import harmonic
-from ..arrays.region import MeshArrays, Patch, nothing
+from ..arrays.region import nothing
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Problem
 
@@ -22,33 +19,8 @@ MOST_OF_A_KEY = 0.05  # of the selection's size: by how much a key may stand off
 class Lost:
     """What is gone, and where; mesh vertices."""
 
-    depth: float = 0.0  # by which it sinks below the lines that run on across it, of their length
-    deepest: Ints = field(default_factory=nothing)
-    is_smoother: bool = False  # than around, where the old surface was not
-    is_rougher: bool = False  # than around: crumpled
     border: Ints = field(default_factory=nothing)  # of an open border that has moved far
     key: Ints = field(default_factory=nothing)  # where a shape key that is shown has kept a shape of its own
-
-
-def sunken(patch: Patch, points: Floats, problem: Problem) -> Lost:
-    """Measure the patch at positions (p, 3) against the slopes that the problem's surroundings have."""
-    vertices = problem.patch.vertices[problem.patch.fixed]
-    known = np.zeros((int(max(patch.vertices.max(initial=0), vertices.max(initial=0))) + 1, 3))
-    known[vertices] = problem.normals
-    on_from = problem.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
-    nothing_runs_on = np.setdiff1d(vertices, on_from)
-    known[nothing_runs_on] = known[problem.inward] = 0.0
-    depth, deepest = fairing.looks.sunken(points, patch.triangles, known[patch.vertices], fixed=patch.fixed)
-    return Lost(depth, patch.vertices[deepest] if depth > fairing.looks.LIMITS["sunken"] else nothing())
-
-
-def is_smoother(mesh: MeshArrays, world: Floats, problem: Problem, after: Floats) -> bool:
-    """Return whether the grain of the surroundings is gone; world: (n, 3) the mesh before, after: (q, 3)."""
-    patch = problem.patch
-    vertices, around = numbered(patch, wound_alike(mesh, wide_outside(mesh, patch)))
-    moved = world.copy()
-    moved[problem.vertices] = after
-    return fairing.looks.has_lost_grain(world[vertices], moved[vertices], patch.triangles, around)
 
 
 def moved_border(problem: Problem, after: Floats) -> Ints:

@@ -9,7 +9,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.around import MovedKey, nearby, numbered, wide_outside, wound_alike
+from ..arrays.around import MovedKey
 from ..arrays.region import MeshArrays, Patch, nothing, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Problem, Progress, go_on, islands
@@ -19,11 +19,9 @@ from ..options.options import FairOptions
 from ..selection.selection import left_out, tunnel_hint
 from ..words.words import said
 from . import quality
-from .eaten import Eaten, eaten_edges
-from .evidence import Evidence, Flank
-from .lost import Lost, is_smoother, kept_key, moved_border, sunken
-from .piercing import Sheet, pierced, places
-from .quality import Join, Quality
+from .evidence import Evidence
+from .lost import Lost, kept_key, moved_border
+from .quality import Join, Quality, moved_sheet, places
 from .verdict import GOOD, LOOK, Verdict, because_of, judge
 
 
@@ -80,21 +78,15 @@ def outcome(
     as_solved = options.factor == 1.0 and not options.takes_base
     clear = as_solved and not mesh.mirror_x and _is_clear(patch, result)
     go_on(progress)
-    quality_before, quality_after = quality.compare(patch, (before[:own], after[:own]), clear)
-    join = quality.join(problem, after)
-    go_on(progress)
-    swollen = quality.swollen((patch, before[:own]), (patch, after[:own]))
-    moves_outside = len(np.setdiff1d(moving, patch.free)) > 0 and (options.smooth_boundary or options.moves_band)
-    rounded = _rounded(mesh, matrix, problem, after, moving) if moves_outside else nothing()
-    odd = rounded, swollen, _eaten(mesh, problem, after)
-    go_on(progress)
-    through = _pierced(mesh, matrix, problem, after)
-    held = np.intersect1d(patch.fixed, patch.outline)
-    seams = patch.vertices[fairing.looks.seam_kinks(after[:own], patch.triangles, held, join.limit)]
-    go_on(progress)
+    here = places(mesh, matrix)
+    seen = quality.measured(
+        mesh, (here, patch), (moved_sheet(here, problem, after), problem),
+        moved=problem.vertices[moving], is_clear=clear, progress=progress,
+    )  # fmt: skip
+    if not (options.smooth_boundary or options.moves_band):
+        seen = replace(seen, rounded=nothing())
     evidence = Evidence(
-        problem, result, solved.failures, quality_before, quality_after, join, *odd, pierced=through, points=after,
-        flank=flank_of(mesh, matrix, problem, after), left_out=left_out(mesh), seams=seams,
+        problem, result, solved.failures, seen, points=after, left_out=left_out(mesh),
         lost=_lost(mesh, matrix, problem, after),
     )  # fmt: skip
     go_on(progress)
@@ -107,82 +99,20 @@ def outcome(
         positions=positions[order],
         result=leading_part(result, own),
         warnings=solved.warnings + warnings + (tunnels if verdict.grade == LOOK else ()),
-        before=quality_before,
-        after=quality_after,
+        before=seen.before,
+        after=seen.after,
         distortion=quality.texture_distortion(before, after, patch.triangles),
         curvature=_largest_curvatures(patch, result),
-        join=join,
+        join=seen.join,
         verdict=verdict,
         free_count=len(patch.free),
     )
 
 
-def _pierced(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Ints:
-    """Return the mesh vertices of the patch's triangles that pass through unselected faces, and did not before."""
-    own = problem.patch.vertices[problem.patch.triangles]
-    before = places(mesh, matrix)
-    moved = before.copy()
-    moved[problem.vertices] = after
-    return pierced(mesh, Sheet(before, own), Sheet(moved, own))
-
-
-def flank_of(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Flank | None:
-    """Find a boundary on the slope of a bump or a dent; a hard edge is none."""
-    patch = problem.patch
-    if len(problem.inward):
-        return None
-    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
-        world = mesh.transformed(matrix)
-    vertices, around = numbered(patch, wound_alike(world, wide_outside(world, patch)))
-    world.positions[problem.vertices] = after
-    points = world.positions[vertices]
-    found = fairing.looks.flank(points, patch.triangles, around, fixed=patch.fixed)
-    if found is None:
-        return None
-    edges, _ = fairing.edges_with_uses(around)
-    edge = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1).mean()
-    return Flank(found.boundary.astype(np.int64), found.is_bump, int(np.ceil(found.width / edge)))
-
-
 def _lost(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats) -> Lost:
     """Find what the surface has lost of the shape around it."""
-    patch = problem.patch
-    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite outside the patch
-        world = mesh.transformed(matrix)
     offsets = None if mesh.shown_offsets is None else mesh.shown_offsets @ matrix[:3, :3].T
-    return replace(
-        sunken(patch, after[: len(patch.vertices)], problem),
-        is_smoother=is_smoother(world, world.positions, problem, after),
-        is_rougher=_is_plain(patch) and fairing.looks.is_rougher(after, patch.triangles, problem.outside),
-        border=moved_border(problem, after),
-        key=kept_key(problem, after, offsets),
-    )
-
-
-def _is_plain(patch: Patch) -> bool:
-    """Return whether one loop bounds the patch and nothing is held inside: fillets and pins bend as they must."""
-    held_inside = len(np.setdiff1d(patch.fixed, patch.outline)) > 0
-    return not held_inside and len(fairing.boundary_loops(patch.triangles)) == 1
-
-
-def _eaten(mesh: MeshArrays, problem: Problem, after: Floats) -> Eaten:
-    """Find hard edges that are no more, though they run on outside or were marked sharp."""
-    sharp = None if mesh.sharp is None else mesh.edges[mesh.sharp]
-    return eaten_edges(problem, after, sharp)
-
-
-def _rounded(mesh: MeshArrays, matrix: Floats, problem: Problem, after: Floats, moving: Ints) -> Ints:
-    """Return the mesh vertices outside at hard edges that a smoothed boundary or a band has rounded."""
-    outside = problem.vertices[np.setdiff1d(moving, problem.patch.free)]
-    moves = np.zeros(len(mesh.positions), dtype=bool)
-    moves[outside] = True
-    around = nearby(mesh.triangles, moves)  # one row before the boundary shows no hard edge by itself
-    before = places(mesh, matrix)
-    points = before.copy()
-    points[problem.vertices] = after
-    rounded = fairing.looks.rounded_edges(before, points, around, np.sort(problem.vertices[moving]))
-    found: Ints = np.intersect1d(rounded, outside)
-    return found
+    return Lost(moved_border(problem, after), kept_key(problem, after, offsets))
 
 
 def leading_part(result: fairing.FairResult, own: int) -> fairing.FairResult:

@@ -1,7 +1,4 @@
-"""What is measured on a patch before and after: faces folded over, needles, faces that run through others, the join.
-
-What is folded and what crosses is the engine's decision.
-"""
+"""What the engine sees of a new surface in its mesh, in one call, by the mesh's faces and vertices. Plain numpy."""
 
 from __future__ import annotations
 
@@ -14,9 +11,7 @@ import fairing
 from ..arrays.places import area_vectors
 from ..arrays.region import MeshArrays, Patch, nothing
 from ..arrays.types import Floats, Ints
-from ..fair.engine import Problem
-
-LARGE = 50_000  # triangles
+from ..fair.engine import Problem, Progress
 
 
 @dataclass(frozen=True)
@@ -24,7 +19,6 @@ class Quality:
     """Bad faces, as ascending numbers of the mesh's faces."""
 
     folded: Ints
-    needles: Ints
     crossing: Ints | None  # None: not looked for
 
 
@@ -59,59 +53,87 @@ class Join:
         return found
 
 
-def compare(patch: Patch, points: tuple[Floats, Floats], clear: bool) -> tuple[Quality, Quality]:
-    """Measure the patch at the positions (p, 3) before and after, all finite.
+@dataclass(frozen=True)
+class Measured:
+    """All of it; mesh vertices, ascending."""
 
-    clear: known not to run into itself afterwards. In a large patch that doesn't, whether it did before stays open: to
-    look takes as long as a tenth of the solve.
-    """
-    before, after = points
-    found = np.empty(0, dtype=np.int64) if clear else crossing(patch, after)
-    result = _measured(patch, after, found)
-    look = len(patch.triangles) <= LARGE or bool(len(found))
-    return _measured(patch, before, crossing(patch, before) if look else None), result
-
-
-def measure(patch: Patch, points: Floats) -> Quality:
-    """Measure one state of a patch, points (p, 3); crossings of a large one are not looked for."""
-    look = len(patch.triangles) <= LARGE
-    return _measured(patch, points, crossing(patch, points) if look else None)
+    before: Quality
+    after: Quality
+    join: Join
+    pierced: Ints = field(default_factory=nothing)  # where the surface passes through faces outside, and did not before
+    rounded: Ints = field(default_factory=nothing)  # outside, at hard edges that moved vertices have rounded
+    running_on: Ints = field(default_factory=nothing)  # inside, at hard edges that lead out and are no more
+    marked: Ints = field(default_factory=nothing)  # at edges marked sharp, though not pinned, that are no more
+    seams: Ints = field(default_factory=nothing)  # of held seams of doubled vertices that show as crests
+    stump: Ints = field(default_factory=nothing)  # of the boundary, where it runs over the root of what stays
 
 
-def mean_area(points: Floats, triangles: Ints) -> float:
-    """Return the mean area of some triangles."""
-    return 0.5 * float(np.linalg.norm(area_vectors(points, triangles), axis=1).mean())
+@dataclass(frozen=True)
+class Sheet:
+    """The mesh with a new surface: where the vertices of a patch are in it."""
+
+    points: Floats  # (n + k, 3) in world space, the mesh's own first
+    numbers: Ints  # (p,) of the patch's vertices
+    beside: Ints  # (n + k,) mesh vertices: themselves, or old ones next to new ones
 
 
-def _measured(patch: Patch, points: Floats, crossing: Ints | None) -> Quality:
-    needles: Ints = np.unique(patch.faces[fairing.looks.needles(points, patch.triangles).all])
-    return Quality(folded(patch, points), needles, crossing)
+def places(mesh: MeshArrays, matrix: Floats) -> Floats:
+    """Return the mesh's (n, 3) positions in the space that the 4×4 `matrix` leads to."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        found: Floats = mesh.positions @ matrix[:3, :3].T + matrix[:3, 3]
+    return found
 
 
-def folded(patch: Patch, points: Floats) -> Ints:
-    """Return the faces that are turned over, those aside that have no vertex free to move."""
-    found = fairing.looks.flipped_triangles(points, patch.triangles, fixed=patch.fixed).astype(np.int64)
-    movable = np.isin(patch.triangles[found], patch.free).any(axis=1)
-    faces: Ints = np.unique(patch.faces[found[movable]])
-    return faces
+def moved_sheet(before: Floats, problem: Problem, after: Floats) -> Sheet:
+    """Return the mesh with positions (n, 3) whose vertices problem.vertices are at (q, 3) now."""
+    points = before.copy()
+    points[problem.vertices] = after
+    return Sheet(points, problem.patch.vertices, np.arange(len(points)))
 
 
-def crossing(patch: Patch, points: Floats) -> Ints:
-    """Return the faces that pass through others of the patch."""
-    faces: Ints = np.unique(patch.faces[fairing.self_intersections(points, patch.triangles)])
-    return faces
-
-
-def join(problem: Problem, points: Floats) -> Join:
-    """Measure the join of the patch with the faces around it at the positions (q, 3) of problem.vertices.
+def measured(
+    mesh: MeshArrays,
+    before: tuple[Floats, Patch],
+    after: tuple[Sheet, Problem],
+    *,
+    moved: Ints | None = None,
+    is_clear: bool = False,
+    progress: Progress | None = None,
+) -> Measured:
+    """Measure a surface among the faces of the mesh that are no part of it, and compare it with what was there.
 
     Where the slope is that of the selected faces the boundary stays a hard edge, and where the surface finds its own it
-    may have one: neither is a kink.
+    may have one: neither is a kink. moved: mesh vertices whose edges are compared; None: the faces are others.
+    is_clear: known not to run into itself. Raises fairing.Cancelled.
     """
+    (was, old), (sheet, problem) = before, after
     patch = problem.patch
     rim = np.intersect1d(patch.outline, problem.outside)
     rim = np.setdiff1d(rim[~np.isin(patch.vertices[rim], problem.inward)], patch.free_slopes)
-    return join_at(patch.vertices[rim], fairing.looks.visible_join(points, patch.triangles, problem.outside, rim))
+    found = fairing.looks.judged(
+        sheet.points, sheet.numbers[patch.triangles], mesh.triangles[~mesh.in_patch[mesh.triangle_faces]],
+        held=sheet.numbers[patch.fixed], rim=sheet.numbers[rim], before=was, old=old.vertices[old.triangles],
+        moved=() if moved is None else np.sort(moved), marked=None if mesh.sharp is None else mesh.edges[mesh.sharp],
+        is_clear=is_clear, progress=None if progress is None else lambda _, stage: progress(1.0, stage),
+    )  # fmt: skip
+    assert found.before is not None
+    own = np.zeros(len(sheet.points), dtype=bool)
+    own[sheet.numbers[patch.free]] = True
+    return Measured(
+        before=_quality(old, found.before),
+        after=_quality(patch, found.now),
+        join=join_at(patch.vertices[rim], found.join),
+        pierced=np.unique(patch.vertices[patch.triangles[found.pierced]]),
+        rounded=sheet.beside[found.rounded[~own[found.rounded]]],
+        running_on=sheet.beside[found.rounded[own[found.rounded]]],
+        marked=sheet.beside[found.blunt],
+        seams=sheet.beside[found.seams],
+        stump=np.unique(sheet.beside[found.stump]),
+    )
+
+
+def _quality(patch: Patch, faults: fairing.looks.Faults) -> Quality:
+    return Quality(np.unique(patch.faces[faults.folded]), np.unique(patch.faces[faults.crossing]))
 
 
 def join_at(vertices: Ints, found: fairing.looks.VisibleJoin) -> Join:
@@ -120,22 +142,9 @@ def join_at(vertices: Ints, found: fairing.looks.VisibleJoin) -> Join:
     return Join(vertices, found.degrees, found.seen[order].astype(np.int64), found.limit)
 
 
-def swollen(before: tuple[Patch, Floats], after: tuple[Patch, Floats]) -> Ints:
-    """Return the mesh vertices at the tops of knobs that a patch has after, compared with those before.
-
-    Each with its positions (p, 3).
-    """
-    patch, points = after
-    _, found = _knobs(patch, points)
-    if len(found):  # else what was there before, which only makes them fewer, need not be measured
-        _, found = _knobs(patch, points, _knobs(*before)[0])
-    tops: Ints = patch.vertices[found]
-    return tops
-
-
-def _knobs(patch: Patch, points: Floats, before: float = 0.0) -> tuple[float, Ints]:
-    extent, tops = fairing.looks.knobs(points, patch.triangles, fixed=patch.fixed, before=before)
-    return extent, tops.astype(np.int64)
+def mean_area(points: Floats, triangles: Ints) -> float:
+    """Return the mean area of some triangles."""
+    return 0.5 * float(np.linalg.norm(area_vectors(points, triangles), axis=1).mean())
 
 
 def is_spoilt(mesh: MeshArrays) -> bool:

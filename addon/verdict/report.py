@@ -134,7 +134,6 @@ def _checks(outcomes: list[Fairing], options: FairOptions) -> tuple[Check, ...]:
         *(kink_checks([outcome.join for outcome in outcomes]) if judges_join(options) else ()),
         _count_check("Folded faces", outcomes, lambda quality: quality.folded),
         _count_check("Faces that cross", outcomes, lambda quality: quality.crossing),
-        _count_check("Needles", outcomes, lambda quality: quality.needles),
         Check("Texture distortion", distortion_text(max(o.distortion for o in outcomes))),
     )
 

@@ -13,16 +13,16 @@ from ..arrays.types import Ints
 from ..fair.engine import Result
 from ..options.options import FairOptions
 from .evidence import Evidence
-from .failings import failing
-from .looks import girth_reason, judges_join, visible
+from .failings import failing, is_usable
+from .looks import girth_reason, visible
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
 
 # What may help, each a change for another run.
 GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
-EVEN_CURVATURE, EVEN_SPREAD, WRITE, GROW_OVER = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE", "GROW_OVER"
-ADD_LEFT_OUT, KEEP_DETAIL, ALL_KEYS = "ADD_LEFT_OUT", "KEEP_DETAIL", "ALL_KEYS"
+EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
+ADD_LEFT_OUT, ALL_KEYS = "ADD_LEFT_OUT", "ALL_KEYS"
 _OTHERS = ("automatic", "harmonic", "minimal_energy")  # equations that Least Variation may do better than
 
 
@@ -34,7 +34,6 @@ class Verdict:
     reason: str = ""
     spots: Ints = field(default_factory=nothing)
     remedies: tuple[str, ...] = ()
-    rings: int = 1  # of faces by which GROW_OVER grows the selection
 
 
 class NotUsable(fairing.SolverError):
@@ -48,15 +47,14 @@ class NotUsable(fairing.SolverError):
 
 def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     """Return the verdict on what would be written."""
-    rings = evidence.flank.rings if evidence.flank is not None else 1
     reason, spots = failing(evidence, options)
     if reason:
-        bad = not _calms(evidence)
+        bad = not (_calms(evidence) or is_usable(evidence, options))
         remedies = _remedies(evidence, options, bad)
-        return Verdict(UNUSABLE if bad else LOOK, reason, np.unique(spots), remedies, rings)
+        return Verdict(UNUSABLE if bad else LOOK, reason, np.unique(spots), remedies)
     reason, spots = visible(evidence, options)
     if reason:
-        return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False), rings)
+        return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False))
     return Verdict(GOOD)
 
 
@@ -71,7 +69,7 @@ def _calms(evidence: Evidence) -> bool:
     Those that are left hang on the boundary, which has to stay.
     """
     low_passed = any(evidence.reported("NO_SOLUTION", "distance"))
-    before, after = evidence.before, evidence.after
+    before, after = evidence.seen.before, evidence.seen.after
     if not (evidence.result.converged and low_passed and len(after.folded) < len(before.folded)):
         return False
     return before.crossing is None or after.crossing is None or len(after.crossing) < len(before.crossing)
@@ -89,21 +87,20 @@ def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str,
     was_tried = stands_in or result.equation == "least_variation"
     narrows = bool(girth_reason(result))  # Grow by a Ring helped none of 20 such tubes; Automatic has tried all shapes
     offered = {
-        GROW_OVER: not bad and evidence.flank is not None and judges_join(options),
         ALL_KEYS: len(evidence.lost.key) > 0,
-        KEEP_DETAIL: evidence.lost.is_smoother and options.detail == 0.0,
         ADD_LEFT_OUT: evidence.left_out.count > 0,
         # Over a hard edge a flat cap would become a dome.
         GROW: has_outside and not len(evidence.problem.inward) and not narrows,
         SMOOTH_OUTLINE: has_outside and not options.smooth_boundary and not options.remesh,
         EVEN_SPREAD: bad and _is_folded(evidence) and not options.remesh and options.inner_fairness != "UNIFORM",
-        AS_SELECTED: len(evidence.rounded) > 0 and options.smooth_boundary,
+        AS_SELECTED: len(evidence.seen.rounded) > 0 and options.smooth_boundary,
         HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fair_open_borders,
-        EVEN_CURVATURE: not was_tried and options.equation in (_OTHERS if bad else _OTHERS[1:] if narrows else ()),
+        EVEN_CURVATURE: not was_tried
+        and options.equation in (_OTHERS if bad or not result.converged else _OTHERS[1:] if narrows else ()),
         WRITE: bad and not options.allow_folds,
     }
     return tuple(name for name, offer in offered.items() if offer)
 
 
 def _is_folded(evidence: Evidence) -> bool:
-    return evidence.result.termination == "folded" or len(evidence.after.folded) > 0
+    return evidence.result.termination == "folded" or len(evidence.seen.after.folded) > 0

@@ -3,11 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "base/columns.h"
-#include "geometry/dihedral_bands.h"
-#include "geometry/neighbourhood.h"
 #include "geometry/triangle.h"
 #include "mesh/edges.h"
-#include "mesh/twins.h"
 #include "shape/limits.h"
 
 namespace fairing {
@@ -52,113 +49,6 @@ std::vector<double> marked_heights(const Points& points, const Triangles& triang
     return found;
 }
 
-constexpr int steps = 8;           // of smoothing: what is longer than some six edges is shape
-constexpr int mixed_rings = 2;     // from the outline on, where normals know the other side
-constexpr std::size_t fewest = 4;  // vertices that say something
-
-// Degrees between each vertex's normal and the mean of those around it.
-VectorX deviations(const Points& points, const Triangles& triangles, const EdgeTable& edges) {
-    const Points normals = averaged_normals(points, triangles);
-    VectorX valence = VectorX::Zero(points.cols());
-    for (const auto& [a, b] : edges.ends) {
-        valence[a] += 1.0;
-        valence[b] += 1.0;
-    }
-    Points smooth = normals;
-    for (int step = 0; step < steps; ++step) {
-        Points sums = Points::Zero(3, points.cols());
-        for (const auto& [a, b] : edges.ends) {
-            sums.col(a) += smooth.col(b);
-            sums.col(b) += smooth.col(a);
-        }
-        smooth = 0.5 * (smooth + sums * valence.cwiseMax(1.0).cwiseInverse().asDiagonal());
-    }
-    VectorX degrees(points.cols());
-    for (Eigen::Index v = 0; v < degrees.size(); ++v) {
-        degrees[v] = degrees_between(normals.col(v), Vector3(smooth.col(v)));
-    }
-    return degrees;
-}
-
-struct Quartiles {
-    double lower = 0.0;
-    double median = 0.0;
-    double upper = 0.0;
-};
-
-Quartiles quartiles(const VectorX& values, const Marks& where) {
-    std::vector<double> chosen;
-    for (Eigen::Index v = 0; v < values.size(); ++v) {
-        if (where[static_cast<std::size_t>(v)]) chosen.push_back(values[v]);
-    }
-    std::sort(chosen.begin(), chosen.end());
-    return {chosen[chosen.size() / 4], chosen[chosen.size() / 2], chosen[3 * chosen.size() / 4]};
-}
-
-struct Parts {
-    Marks inside;
-    Marks around;
-};
-
-// The vertices away from the outline, and from where the surroundings end.
-Parts parts_of(const Triangles& inside, const Triangles& outside, const EdgeTable& edges, Eigen::Index vertex_count) {
-    Parts parts{corners(inside, vertex_count), corners(outside, vertex_count)};
-    Marks mixed(parts.inside.size(), 0);
-    for (std::size_t v = 0; v < mixed.size(); ++v) mixed[v] = parts.inside[v] && parts.around[v];
-    for (int e = 0; e < edges.size(); ++e) {
-        if (edges.side_count(e) == 1) mixed[edges.ends[e][0]] = mixed[edges.ends[e][1]] = 1;
-    }
-    grow(edges, mixed_rings, mixed);
-    for (std::size_t v = 0; v < mixed.size(); ++v) {
-        parts.inside[v] = parts.inside[v] && !mixed[v];
-        parts.around[v] = parts.around[v] && !mixed[v];
-    }
-    return parts;
-}
-
-// Signed degrees at all edges between two triangles.
-std::vector<double> bends(const Points& points, const Triangles& triangles) {
-    const DihedralBands bands(points, triangles);
-    std::vector<double> angles;
-    for (int e = 0; e < bands.edges().size(); ++e) {
-        if (bands.edges().side_count(e) == 2) angles.push_back(bands.angle(e));
-    }
-    return angles;
-}
-
-std::size_t count(const Marks& marks) { return static_cast<std::size_t>(std::count(marks.begin(), marks.end(), 1)); }
-
-bool is_needle(const Points& points, const Triangles& triangles, Eigen::Index t) {
-    double longest = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const Vector3 side = points.col(triangles((k + 1) % 3, t)) - points.col(triangles(k, t));
-        longest = std::max(longest, side.squaredNorm());
-    }
-    return !(area_vector(points, triangles.col(t)).norm() > needle_height * longest);
-}
-
-// Of the triangles on the other sides of a triangle's edges.
-std::vector<Vector3> normals_beside(const Points& points, const Triangles& triangles, const EdgeTable& edges, int t) {
-    std::vector<Vector3> normals;
-    for (int k = 0; k < 3; ++k) {
-        const int edge = edges.edge_of_side[3 * t + k];
-        for (int side = 0; side < edges.side_count(edge); ++side) {
-            const int other = edges.side(edge, side) / 3;
-            if (other != t) normals.push_back(area_vector(points, triangles.col(other)));
-        }
-    }
-    return normals;
-}
-
-bool bends(const std::vector<Vector3>& normals) {
-    for (std::size_t k = 1; k < normals.size(); ++k) {
-        for (std::size_t j = 0; j < k; ++j) {
-            if (degrees_between(normals[j], normals[k]) > flat_bend) return true;
-        }
-    }
-    return false;
-}
-
 }  // namespace
 
 VectorX heights(const Points& points, const Triangles& triangles) {
@@ -200,47 +90,6 @@ bool is_spoilt(const Points& points, const Triangles& inside, const Triangles& o
     unmark_border(edges, around);
     std::vector<double> others = marked_heights(points, outside, around);
     return others.empty() || height > rougher * median(others);
-}
-
-bool has_lost_grain(const Smoothed& mesh) {
-    const Triangles inside = without_collapsed(mesh.inside);
-    const Triangles outside = without_collapsed(mesh.outside);
-    Triangles all(3, inside.cols() + outside.cols());
-    all << inside, outside;
-    const EdgeTable edges = make_edges(all, static_cast<int>(mesh.after.cols()));
-    const Parts parts = parts_of(inside, outside, edges, mesh.after.cols());
-    if (std::min(count(parts.inside), count(parts.around)) < fewest) return false;
-    const VectorX now = deviations(mesh.after, all, edges);
-    const Quartiles around = quartiles(now, parts.around);
-    if (around.median < seen_grain || around.upper > even_grain * around.lower) return false;
-    const Quartiles here = quartiles(now, parts.inside);
-    if (here.median > lost_grain * around.median) return false;
-    return quartiles(deviations(mesh.before, all, edges), parts.inside).median > 0.5 * around.median;
-}
-
-bool is_rougher(const Points& points, const Triangles& inside, const Triangles& outside) {
-    std::vector<double> around = bends(points, without_collapsed(outside));
-    const std::vector<double> here = bends(points, without_collapsed(inside));
-    if (std::min(around.size(), here.size()) < fewest) return false;
-    std::sort(around.begin(), around.end());
-    const double low = around[around.size() / 20] - finest_kink;
-    const double high = around[around.size() - 1 - around.size() / 20] + finest_kink;
-    const auto beyond =
-        std::count_if(here.begin(), here.end(), [&](double angle) { return angle < low || angle > high; });
-    return static_cast<double>(beyond) > crumpled_share * static_cast<double>(here.size());
-}
-
-Needles needles(const Points& points, const Triangles& triangles) {
-    Needles found;
-    for (int t = 0; t < triangles.cols(); ++t) {
-        if (is_needle(points, triangles, t)) found.all.push_back(t);
-    }
-    if (found.all.empty()) return found;
-    const EdgeTable edges = make_edges(triangles, static_cast<int>(points.cols()));
-    for (const int t : found.all) {
-        if (bends(normals_beside(points, triangles, edges, t))) found.seen.push_back(t);
-    }
-    return found;
 }
 
 }  // namespace fairing

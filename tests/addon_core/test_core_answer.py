@@ -1,19 +1,19 @@
 """The add-on's way from a mesh to new positions: normals along the outline, the answer, and halves with a mirror."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from addon.arrays.around import outside_triangles
 from addon.arrays.region import MeshArrays, Patch, Reflection, make_patch
-from addon.arrays.types import Floats, Ints, Mask
+from addon.arrays.types import Floats, Mask
 from addon.fair import engine
 from addon.fair.boundary import average_normals, boundary
 from addon.fair.memory import MOST, Memory
 from addon.fair.solve import Kept, pose, solve
 from addon.mirror.reflected import Whole, whole_of
 from addon.options.options import FairOptions
-from addon.verdict import quality
 from addon.verdict.outcome import Fairing, outcome
 from addon.verdict.verdict import AS_SELECTED, GOOD, LOOK
 
@@ -44,7 +44,7 @@ def test_the_sphere_comes_back() -> None:
     np.testing.assert_allclose(np.linalg.norm(done.positions, axis=1), 1.0, atol=1e-6)
     assert done.curvature == pytest.approx((1.0, 1.0), abs=2e-2)
     assert len(done.before.folded) > 0
-    assert (len(done.after.folded), len(done.after.needles), done.verdict.grade) == (0, 0, GOOD)
+    assert (len(done.after.folded), done.verdict.grade) == (0, GOOD)
     assert done.join.worst < 1.0  # a sphere of this size bends by 6° from face to face
 
 
@@ -89,19 +89,17 @@ def test_the_engine_is_asked_for_all_of_the_detail_once(monkeypatch: pytest.Monk
 def test_a_patch_that_may_cross_is_looked_at_and_a_clear_one_is_not(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = spoilt_sphere()
     solved = solve(mesh, EYE, FairOptions())
-    asked: list[float] = []
+    asked: list[bool] = []
+    look = fairing.looks.judged
 
-    def seven(_patch: Patch, positions: Floats) -> Ints:
-        asked.append(float(positions.sum()))
-        return np.arange(7)
+    def judged(*mesh: Any, is_clear: bool, **others: Any) -> fairing.looks.Judged:
+        asked.append(is_clear)
+        return look(*mesh, is_clear=is_clear, **others)
 
-    monkeypatch.setattr(quality, "crossing", seven)
-    clear = outcome(mesh, EYE, FairOptions(), solved)
-    assert clear.before.crossing is not None
-    assert clear.after.crossing is not None
-    assert (len(clear.before.crossing) > 0, len(clear.after.crossing), len(asked)) == (True, 0, 1)
+    monkeypatch.setattr(fairing.looks, "judged", judged)
+    outcome(mesh, EYE, FairOptions(), solved)
     outcome(mesh, EYE, FairOptions(factor=0.5), solved)  # nobody knows of what lies half-way
-    assert len(asked) == 3
+    assert asked == [True, False]
 
 
 def cube_corner(size: int = 13, radius: float = 0.5) -> MeshArrays:
@@ -122,27 +120,6 @@ def test_a_hard_edge_outside_stays_and_one_that_is_rounded_inside_is_reported(sm
     assert answered.verdict.grade == LOOK
     assert answered.verdict.reason.startswith("A hard edge runs on outside")
     assert AS_SELECTED not in answered.verdict.remedies
-
-
-def test_knobs_are_looked_for_in_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh = spoilt_sphere()
-
-    compared: list[float] = []
-
-    def most_lifted(points: Floats, triangles: Ints, *, fixed: Ints, before: float = 0.0) -> tuple[float, Ints]:
-        if not np.allclose(np.linalg.norm(points, axis=1), 1.0, atol=0.02):  # not fair: the spoilt one
-            return knobs(points, triangles, fixed=fixed)
-        compared.append(before)
-        return 1.0, np.setdiff1d(triangles, fixed)[:1]
-
-    knobs = fairing.looks.knobs
-    monkeypatch.setattr(fairing.looks, "knobs", most_lifted)
-    verdict = fair(mesh).verdict
-    assert compared[0] == 0.0
-    assert compared[1] > 0.1  # what the spoilt one has
-    assert verdict.grade == LOOK
-    assert "knob" in verdict.reason
-    assert np.isin(verdict.spots, pose(mesh, EYE, FairOptions())[0].patch.vertices).all()
 
 
 def test_measuring_can_be_cancelled() -> None:
@@ -391,7 +368,7 @@ def test_spots_and_faces_are_those_of_the_half() -> None:
     assert len(done.verdict.spots)
     assert done.verdict.spots.max() < count
     assert len(np.unique(done.verdict.spots)) == len(done.verdict.spots)
-    assert max([*done.before.folded, *done.after.folded, *done.after.needles], default=0) < len(mesh.in_patch)
+    assert max([*done.before.folded, *done.after.folded], default=0) < len(mesh.in_patch)
 
 
 def test_other_options_start_from_the_solver_that_was_kept(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,21 +1,20 @@
 """What a verdict looks at: edges that are gone, seams, faces passed through, spoilt starts, triangles."""
 
-from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from addon.arrays.around import numbered, outside_triangles
-from addon.arrays.region import MeshArrays, Patch, make_patch
+from addon.arrays.region import MeshArrays, make_patch
 from addon.arrays.types import Floats, Ints, Mask
 from addon.fair.engine import Problem
 from addon.fair.solve import pose, solve
 from addon.options.options import FairOptions
 from addon.remesh.remeshing import remesh_arrays
 from addon.verdict import quality
-from addon.verdict.eaten import Eaten, eaten_edges
 from addon.verdict.outcome import Fairing, outcome
-from addon.verdict.quality import is_spoilt
+from addon.verdict.quality import Measured, is_spoilt, measured, moved_sheet
 from addon.verdict.verdict import LOOK
 
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
@@ -40,7 +39,16 @@ def on_ridge(mesh: MeshArrays) -> Mask:
     return found
 
 
-def eaten(mesh: MeshArrays, sharp: Mask | None = None) -> tuple[Eaten, Problem]:
+def eaten_edges(mesh: MeshArrays, problem: Problem, after: Floats, sharp: Mask | None = None) -> Measured:
+    """What is seen of the mesh whose vertices problem.vertices are at (q, 3) now; sharp: (e,) the edges marked so."""
+    before = mesh.positions.copy()
+    before[problem.vertices] = problem.points
+    sheet = moved_sheet(before, problem, after), problem
+    moved = problem.vertices[problem.patch.free]
+    return measured(replace(mesh, sharp=sharp), (before, problem.patch), sheet, moved=moved)
+
+
+def eaten(mesh: MeshArrays, sharp: Mask | None = None) -> tuple[Measured, Problem]:
     """Lower the ridge's free vertices to where their neighbours are: the surface is flat there."""
     problem, _ = pose(mesh, np.eye(4), FairOptions())
     after = problem.points.copy()
@@ -48,8 +56,7 @@ def eaten(mesh: MeshArrays, sharp: Mask | None = None) -> tuple[Eaten, Problem]:
     crest = free[on_ridge(mesh)[problem.vertices[free]]]
     after[crest, 2] = problem.points[free, 2].min()
     after[free, 2] = after[free, 2].min()
-    pairs = None if sharp is None else np.sort(mesh.edges[sharp], axis=1)
-    return eaten_edges(problem, after, pairs), problem
+    return eaten_edges(mesh, problem, after, sharp), problem
 
 
 def crest_of(mesh: MeshArrays, problem: Problem) -> Ints:
@@ -118,7 +125,7 @@ def test_a_pinned_edge_is_not_missed() -> None:
     problem, _ = pose(replace(mesh, pinned=on_ridge(mesh)), np.eye(4), FairOptions())
     after = problem.points.copy()
     after[problem.patch.free, 2] = 0.0  # as high as the ridge, which stays
-    assert len(eaten_edges(problem, after, mesh.edges[along]).marked) == 0
+    assert len(eaten_edges(mesh, problem, after, along).marked) == 0
 
 
 @pytest.mark.parametrize("pinned", [True, False])
@@ -128,7 +135,7 @@ def test_a_pinned_edge_that_gets_blunter_is_not_missed(pinned: bool) -> None:
     problem, _ = pose(replace(mesh, pinned=on_ridge(mesh) & pinned), np.eye(4), FairOptions())
     after = problem.points.copy()
     after[problem.patch.free, 2] *= 0.5
-    assert (len(eaten_edges(problem, after, None).running_on) == 0) == pinned
+    assert (len(eaten_edges(mesh, problem, after).running_on) == 0) == pinned
 
 
 # Doubled vertices inside a selection are an open border that stays: what it holds up must not count as good.
@@ -293,36 +300,56 @@ def test_what_shrinks_to_nothing_counts_for_nothing() -> None:
     assert quality.texture_distortion(after, squares, both) > 0.1
 
 
-def square_patch() -> Patch:
-    """The grid of 4 × 4 quads, all of it selected."""
-    return make_patch(grid(4, 2.0))
+def seen(mesh: MeshArrays, after: Floats, **options: Any) -> Measured:
+    """What is seen of the mesh's patch where its vertices go from their positions to others (n, 3)."""
+    patch = make_patch(mesh)
+    vertices, outside = numbered(patch, outside_triangles(mesh, patch))
+    problem = Problem(patch, after[vertices], np.empty((0, 3)), vertices, outside)
+    return measured(
+        mesh, (mesh.positions, patch), (moved_sheet(mesh.positions, problem, problem.points), problem), **options
+    )
 
 
 def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:
-    patch = square_patch()
     points = grid_points(4)
-    assert len(quality.folded(patch, points)) == 0
     points[12, :2] = (0.9, 0.9)  # the middle, across the corner of the quad above to the right
-    found = quality.folded(patch, points)
-    assert len(found) > 0
-    assert set(found) <= {5, 6, 9, 10}
+    found = seen(grid(4, 2.0), points)
+    assert set(found.after.folded) <= {5, 6, 9, 10}
+    assert len(found.after.folded)
+    assert not len(found.before.folded)
 
 
-def bent_problem(degrees: float, shape: Callable[[Floats], Floats] = lambda p: p) -> Problem:
+def test_crossings_are_looked_for_where_they_are_not_known_to_be_none() -> None:
+    mesh = grid(12, 2.0)
+    points = mesh.positions.copy()
+    x, y, _ = points.T
+    right = x > 0.0
+    folded = np.column_stack([-x, 0.9 * y + 0.02, 0.35 - 0.6 * x])
+    points[right] = folded[right]  # back, and through the left half
+    for is_clear in (False, True):
+        crossing = seen(mesh, points, is_clear=is_clear).after.crossing
+        assert crossing is not None
+        assert (len(crossing) > 0) != is_clear
+
+
+def bent(degrees: float) -> Measured:
     """A plane of quads whose selected middle is turned down along its outline."""
     mesh = grid(16, 0.3)
-    patch = make_patch(mesh)
-    points = shape(mesh.positions)
-    slope = np.tan(np.radians(degrees))
+    points = mesh.positions.copy()
     inside = np.abs(points[:, :2]).max(axis=1) < 0.3
-    points[inside, 2] -= slope * np.minimum(points[inside, 0] + 0.25, 0.125)
-    vertices, outside = numbered(patch, outside_triangles(mesh, patch))
-    return Problem(patch, points[vertices], np.empty((0, 3)), vertices, outside)
+    points[inside, 2] -= np.tan(np.radians(degrees)) * np.minimum(points[inside, 0] + 0.25, 0.125)
+    return seen(mesh, points)
 
 
 def test_the_join_is_seen_where_the_bend_is() -> None:
-    problem = bent_problem(30.0)
-    join = quality.join(problem, problem.points)
-    assert join.worst == pytest.approx(30.0)
-    flat = bent_problem(0.0)
-    assert quality.join(flat, flat.points).worst == pytest.approx(0.0, abs=1e-9)
+    assert bent(30.0).join.worst == pytest.approx(30.0)
+    assert bent(0.0).join.worst == pytest.approx(0.0, abs=1e-9)
+
+
+def test_a_boundary_over_the_root_of_a_bump_is_a_stump_and_one_beyond_it_none() -> None:
+    """A bump bends over within its slope and back beyond it; a bump with its surroundings does not."""
+    for half, is_stump in ((0.25, True), (0.75, False)):
+        mesh = grid(40, half)
+        points = mesh.positions.copy()
+        points[:, 2] = 0.1 * (1.0 - np.tanh((np.linalg.norm(points, axis=1) - 0.25) / 0.05))
+        assert bool(len(seen(replace(mesh, positions=points), points).stump)) == is_stump

@@ -36,7 +36,7 @@ def report(*outcomes: Fairing, **options: Any) -> Report:
 
 def quality(crossing: Ints | None) -> Quality:
     nothing = np.empty(0, dtype=np.int64)
-    return Quality(nothing, nothing, crossing)
+    return Quality(nothing, crossing)
 
 
 BAD = Verdict(UNUSABLE, "2 faces of the result are folded over", np.array([3, 4]), ("GROW", "WRITE"))

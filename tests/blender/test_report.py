@@ -48,7 +48,6 @@ def test_report_of_a_restored_hemisphere() -> None:
         "Kinks show from",
         "Folded faces",
         "Faces that cross",
-        "Needles",
         "Texture distortion",
     ]
     assert found["Shape"] == ("Harmonic", "TOLD")

@@ -101,21 +101,6 @@ def thorn(height: float = 0.06) -> tuple[bpy.types.Object, Any]:
     return obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
 
 
-def test_a_selection_too_tight_for_its_bump_is_grown_over_it() -> None:
-    obj = meshes.grid(48)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.2 * np.exp(-(points[:, :2] ** 2).sum(axis=1) / (2.0 * 0.15**2))
-    meshes.move(obj, points)
-    meshes.enter(obj, meshes.faces_where(obj, lambda c: c.xy.length < 0.2))
-    meshes.run()
-    assert (meshes.report().verdict, meshes.report().remedies.split(",")[0]) == ("LOOK", "GROW_OVER")
-    assert "slope of a bump" in meshes.report().reason
-    assert bpy.ops.mesh.fair_again(way="GROW_OVER") == {"FINISHED"}
-    assert meshes.report().verdict == "GOOD"
-    meshes.leave()
-    assert meshes.positions(obj)[:, 2].max() < 0.04
-
-
 def pulled_pin(aside: float = 0.25) -> bpy.types.Object:
     """A plain with a texture, in edit mode: the mesh folds at a pin that was pulled aside, and is selected there."""
     obj = meshes.grid(24)

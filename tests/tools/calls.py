@@ -284,17 +284,6 @@ def girth(scene: Scene) -> Found:
     return [*figures(found.least, found.largest), ("vertices", None, found.thinnest)]
 
 
-def flank(scene: Scene) -> Found:
-    found = fairing.looks.flank(rough_part(scene)[1], scene.inside, scene.outside)
-    return figures(found is None)
-
-
-def sunken(scene: Scene) -> Found:
-    normals = np.zeros_like(scene.points)
-    normals[scene.rim] = scene.normals
-    return figures(fairing.looks.sunken(scene.other, scene.inside, normals, fixed=scene.rim)[0])
-
-
 def grown(scene: Scene) -> Found:
     found = fairing.grown_outline(scene.other, scene.faces, scene.chosen, rounds=1)
     return [("triangles", None, np.flatnonzero(found.selected))]
@@ -306,18 +295,16 @@ def loops_of(scene: Scene) -> Found:
     return [("vertices", None, np.concatenate(found.loops)), *figures(len(found.torn), outer.sum())]
 
 
-def needles(scene: Scene) -> Found:
-    flat = scene.points.copy()
-    flat[scene.faces[7, 0]] = flat[scene.faces[7, 1:]].mean(axis=0)
-    return figures(len(fairing.looks.needles(flat, scene.faces).all))
-
-
-def rounded(scene: Scene) -> Found:
+def judged(scene: Scene) -> Found:
     edges = fairing.hard_edges(scene.points, scene.faces)
     moved = np.intersect1d(edges, np.setdiff1d(scene.inside, scene.rim))
     after = scene.points.copy()
     after[moved] -= 0.1 * (scene.points[moved] - scene.points.mean(axis=0))
-    return [("vertices", None, fairing.looks.rounded_edges(scene.points, after, scene.faces, moved))]
+    rim = np.unique(scene.rim)
+    found = fairing.looks.judged(
+        after, scene.inside, scene.outside, held=rim, rim=rim, before=scene.points, moved=moved
+    )  # fmt: skip
+    return [("vertices", None, found.rounded), ("plain", rim, found.join.degrees)]
 
 
 ROWS |= {
@@ -339,35 +326,26 @@ ROWS |= {
     "feather_weights": Row(
         ball, lambda s: [("plain", every(s), fairing.feather_weights(s.points, s.inside, s.outside, 0.3))]
     ),
-    "flank": Row(ball, flank),
     "flipped_triangles": Row(
         ball, lambda s: [("triangles", None, fairing.looks.flipped_triangles(rough_part(s)[1], s.faces))]
     ),
     "girth": Row(tube, girth),
     "grown_outline": Row(ball, grown),
     "hard_edges": Row(box, lambda s: [("vertices", None, fairing.hard_edges(s.points, s.faces))]),
-    "has_lost_grain": Row(
-        ball, lambda s: figures(fairing.looks.has_lost_grain(*rough_part(s)[::-1], s.inside, s.outside))
-    ),
     "hierarchy": Row(ball, lambda s: [("vertices", None, fairing.hierarchy(s.points, s.inside, fixed=s.rim)[-1][0])]),
     "hole_loops": Row(ball, loops_of),
     "interpolate": Row(
         ball, lambda s: [("points", every(s), fairing.maps.interpolate(s.points, s.faces, s.rim, s.points[s.rim]))]
     ),
-    "is_rougher": Row(ball, lambda s: figures(fairing.looks.is_rougher(rough_part(s)[1], s.inside, s.outside))),
     "is_spoilt": Row(ball, lambda s: figures(fairing.looks.is_spoilt(rough_part(s)[1], s.inside, s.outside))),
-    "knobs": Row(ball, lambda s: figures(fairing.looks.knobs(s.points, s.inside)[0]), 1e-6),
+    "judged": Row(box, judged),
     "mean_curvature": Row(
         ball, lambda s: [("curvatures", every(s), fairing.mean_curvature(s.points, s.faces))], 1e-7
     ),
-    "needles": Row(ball, needles),
     "paired_quads": Row(ball, lambda s: figures(len(fairing.maps.paired_quads(s.points, s.faces).rest)), numbers=8.5),
-    "rounded_edges": Row(box, rounded),
-    "seam_kinks": Row(box, lambda s: [("vertices", None, fairing.looks.seam_kinks(s.points, s.inside, s.rim))]),
     "self_intersections": Row(
         ball, lambda s: [("triangles", None, fairing.self_intersections(rough_part(s)[1], s.faces))]
     ),
-    "sunken": Row(ball, sunken, 1e-6),
     "surrounding_normals": Row(
         ball, lambda s: at_rim(s, fairing.surrounding_normals(s.points, s.outside, s.rim)), 1e-7
     ),

@@ -8,26 +8,20 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
+from fairing.meshing.patch import Progress
 from fairing.options import arguments
 from fairing.results import FloatArray, IntArray
 
 __all__ = [
     "LIMITS",
-    "Flank",
+    "Faults",
     "Girth",
-    "Needles",
+    "Judged",
     "VisibleJoin",
-    "flank",
     "flipped_triangles",
     "girth",
-    "has_lost_grain",
-    "is_rougher",
     "is_spoilt",
-    "knobs",
-    "needles",
-    "rounded_edges",
-    "seam_kinks",
-    "sunken",
+    "judged",
     "visible_join",
 ]
 
@@ -48,26 +42,6 @@ class Girth(NamedTuple):
     """Vertices beside the thickest one, ascending; none where ``largest`` is 1."""
 
 
-class Flank(NamedTuple):
-    """A boundary on the slope of a bump or a dent."""
-
-    boundary: IntArray
-    """Its vertices, one after the other."""
-    is_bump: bool
-    """Or a dent."""
-    width: float
-    """From the boundary to the end of the slope."""
-
-
-class Needles(NamedTuple):
-    """Triangles without a height."""
-
-    all: IntArray
-    """Those whose height is below a thousandth of their longest side, ascending."""
-    seen: IntArray
-    """Those of them whose neighbours bend by more than 1°: on a plane no one sees them."""
-
-
 class VisibleJoin(NamedTuple):
     """How much a join shows, and where the eye finds a kink."""
 
@@ -79,6 +53,74 @@ class VisibleJoin(NamedTuple):
     """Places in the outline where one does, ascending: there neighbours above the limit add up to five times that."""
 
 
+class Faults(NamedTuple):
+    """What is wrong with a surface by itself: numbers of its triangles, ascending."""
+
+    folded: IntArray
+    """Turned over, as :func:`flipped_triangles` has them, with a corner that is not held."""
+    crossing: IntArray
+    """Those that pass through others of the surface."""
+
+
+class Judged(NamedTuple):
+    """All that the verdict reads of a new surface in its mesh."""
+
+    join: VisibleJoin
+    now: Faults
+    before: Faults | None
+    """Crossings only where there are some now; None without a shape before."""
+    pierced: IntArray
+    """Triangles of the surface that pass through others of the mesh, and did not before."""
+    rounded: IntArray
+    """Moved vertices at hard edges (:func:`fairing.hard_edges`) that run on straight over two edges that stay, and that
+    became flatter by 15° and more; ascending."""
+    blunt: IntArray
+    """Moved vertices at ``marked`` edges of 35° and more that did; none where a quarter of all are marked."""
+    seams: IntArray
+    """Held vertices in the same place as others, as doubled ones are, where the surface shows a kink."""
+    stump: IntArray
+    """Vertices of the boundary where the surface bends over and its surroundings bend back, where they do by more than
+    5° in the mean over all of it."""
+
+
+def judged(
+    vertices: npt.ArrayLike,
+    surface: npt.ArrayLike,
+    others: npt.ArrayLike,
+    *,
+    held: npt.ArrayLike,
+    rim: npt.ArrayLike,
+    before: npt.ArrayLike | None = None,
+    old: npt.ArrayLike | None = None,
+    moved: npt.ArrayLike = (),
+    marked: npt.ArrayLike | None = None,
+    is_clear: bool = False,
+    progress: Progress | None = None,
+) -> Judged:
+    """Measure a surface, triangles (m, 3), and how it lies among the ``others`` of its mesh, (o, 3).
+
+    ``held``: its vertices that stay; ``rim``: those of them at which the join counts. ``before``: where the vertices
+    were; ``old``: the triangles that were there, if not these. ``moved``: vertices whose edges are compared.
+    ``is_clear``: no triangle of the surface passes through another, that is known. Triangles of the others with a
+    corner that is NaN or infinite don't count. On all threads. Errors as for :func:`fairing.fair`.
+    """
+    points = arguments.floats("vertices", vertices)
+    count = len(points)
+    earlier = None if before is None else arguments.floats("before", before)
+    inside = arguments.triangles_within(surface, count)
+    was = inside if old is None or earlier is None else arguments.triangles_within(old, len(earlier))
+    pairs = np.empty((0, 2), np.int32)
+    if marked is not None:
+        pairs = np.sort(arguments.vertices_of("marked", marked, count, 2), axis=1)
+    where = (arguments.vertices_of(*each, count) for each in (("held", held), ("rim", rim), ("moved", moved)))
+    fixed, ends, changed = where
+    rest = arguments.triangles_within(others, count)
+    found = _core.judged(points, inside, rest, fixed, ends, earlier, was, changed, pairs, is_clear, progress)
+    found["join"], found["now"] = VisibleJoin(*found["join"]), Faults(*found["now"])
+    found["before"] = None if found["before"] is None else Faults(*found["before"])
+    return Judged(**found)
+
+
 def girth(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None) -> Girth | None:
     """How thick a surface between boundary loops is, and where; None where no component has several.
 
@@ -88,124 +130,6 @@ def girth(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.Array
     points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
     found = _core.girth(points, faces, held)
     return None if found is None else Girth(*found)
-
-
-def knobs(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None, before: float = 0.0
-) -> tuple[float, IntArray]:
-    """(extent, tops): by how much, of 2π, discs bend both like a ball and like a saddle at most, and where they swell.
-
-    By Gauss and Bonnet a disc's boundary with its slopes settles the integral of its Gaussian curvature; a knob on a
-    neck adds as much of both signs. The tops are the most bent vertices, half of the turn, where that is more than a
-    quarter and more than four fifths of ``before``, the extent of another surface. Components (see
-    :func:`fairing.components`) with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
-    """
-    points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
-    return _core.knobs(points, faces, held, before)
-
-
-def flank(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, around: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None
-) -> Flank | None:
-    """Where a disc's boundary lies on the flank of a bump or a dent, which the surface continues; None where none does.
-
-    All around, the disc bends over to one side and the triangles ``around`` it, (m, 3) wound likewise, as far as it is
-    wide, bend back. Components with several loops, with pins or with an open border don't count. Errors as for
-    :func:`fairing.fair`.
-    """
-    points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
-    beyond = arguments.vertices_of("around", around, len(points), 3)
-    found = _core.flank(points, faces, beyond, held)
-    return None if found is None else Flank(*found)
-
-
-def sunken(
-    vertices: npt.ArrayLike,
-    triangles: npt.ArrayLike,
-    normals: npt.ArrayLike,
-    *,
-    fixed: npt.ArrayLike | None = None,
-) -> tuple[float, IntArray]:
-    """(depth, where): how far discs sink below the lines that run on across them, a share of their lengths; 0: nowhere.
-
-    A line runs from one vertex of the boundary to another as a cubic that leaves both along the tangent planes of the
-    ``normals`` there: unit vectors (n, 3), of which only those of the fixed vertices count, and zeros don't. Only lines
-    that go straight on are drawn; the depth is the median over them, and the vertices are those as deep as that,
-    ascending. Components with several loops or with pins don't count. Errors as for :func:`fairing.fair`.
-    """
-    points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
-    directions = arguments.floats("normals", normals)
-    if directions.shape != points.shape:
-        raise ValueError(f"normals: expected one for each of {len(points)} vertices, got shape {directions.shape}")
-    return _core.sunken(points, faces, directions, held)
-
-
-def has_lost_grain(before: npt.ArrayLike, after: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
-    """Whether the triangles ``inside`` had the pores and the noise of those ``outside``, (m, 3) each, and have no more.
-
-    Grain turns the normals (n, 3) of a surface away from their means over some six edges: by 2.5° or more in the median
-    and evenly, as features don't. ``before`` and ``after`` are positions (n, 3).
-    """
-    old, new = arguments.floats("before", before), arguments.floats("after", after)
-    if old.shape != new.shape:
-        raise ValueError(f"after: expected shape {old.shape} as of before, got {new.shape}")
-    within = arguments.triangles_within(inside, old.shape[0])
-    return _core.has_lost_grain(old, new, within, arguments.triangles_within(outside, old.shape[0]))
-
-
-def is_rougher(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
-    """Whether the triangles ``inside`` are crumpled: many edges bend as those ``outside``, (m, 3) each, do not.
-
-    Beyond the range of nine tenths of these, by more than 5°: more than 16 in 100. Edges on the border don't count.
-    """
-    points = arguments.floats("vertices", vertices)
-    within = arguments.triangles_within(inside, points.shape[0])
-    return _core.is_rougher(points, within, arguments.triangles_within(outside, points.shape[0]))
-
-
-def needles(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> Needles:
-    """Triangles without a height, and those of them that are seen."""
-    points = arguments.floats("vertices", vertices)
-    return Needles(*_core.needles(points, arguments.triangles_within(triangles, points.shape[0])))
-
-
-def rounded_edges(
-    before: npt.ArrayLike,
-    after: npt.ArrayLike,
-    triangles: npt.ArrayLike,
-    moved: npt.ArrayLike,
-    *,
-    marked: npt.ArrayLike | None = None,
-) -> IntArray:
-    """Those of the vertices ``moved`` (k,), ascending, at hard edges that became flatter by 15° and more.
-
-    ``before``, ``after``: (n, 3). Hard edges are those of :func:`fairing.hard_edges` that run on straight: two of a
-    chain stay with their triangles. With ``marked``, (m, 2), these count instead, wherever they
-    end, as far as they bent by 35°; none where more than a quarter of all edges are marked. Triangles with a corner
-    that is NaN or infinite are left out.
-    """
-    old = arguments.floats("before", before)
-    new = arguments.floats("after", after, old.shape[0])
-    faces = arguments.triangles_within(triangles, old.shape[0])
-    where = arguments.vertices_of("moved", moved, len(old))
-    pairs = None
-    if marked is not None:
-        pairs = np.sort(arguments.vertices_of("marked", marked, len(old), 2), axis=1)
-    known = np.isfinite(old[faces]).all(axis=(1, 2)) & np.isfinite(new[faces]).all(axis=(1, 2))
-    return _core.rounded_edges(old, new, faces[known], where, pairs)
-
-
-def seam_kinks(
-    vertices: npt.ArrayLike, triangles: npt.ArrayLike, held: npt.ArrayLike, limit: float = LIMITS["visible_kink"]
-) -> IntArray:
-    """Vertices at seams inside a surface that stay, ascending, where it shows a kink.
-
-    A seam is where vertices of ``held`` lie in the same place, as doubled ones do: the surface is open there, and what
-    held it up shows as a crest. ``limit``: ``limit`` of :func:`fairing.looks.visible_join`.
-    """
-    points, faces = arguments.mesh(vertices, triangles)
-    places = arguments.vertices_of("held", held, len(points))
-    return _core.seam_kinks(points, faces, places, limit)
 
 
 def is_spoilt(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:

@@ -1,4 +1,4 @@
-"""Looks and maps: girth, needles, seams, rounded edges, knobs, conformal maps."""
+"""Looks and maps: girth, seams, rounded edges, conformal maps."""
 
 from collections.abc import Callable
 
@@ -14,6 +14,7 @@ import shapes
 from holes import FloatArray, IntArray
 
 AROUND, ROWS = 16, 40
+NOTHING = np.empty((0, 3), dtype=np.int64)
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]])
 
@@ -59,27 +60,6 @@ def test_only_the_tube_counts_beside_a_disc() -> None:
     assert np.abs(points[girth.thinnest - 4, 2] - 2.0).max() < 0.35
 
 
-def test_triangles_without_a_height_are_needles() -> None:
-    assert not len(fairing.looks.needles(QUAD, TWO).all)
-    flat = QUAD.copy()
-    flat[1] = (0.5, 0.5 - 1e-4, 0.0)  # next to the diagonal
-    assert fairing.looks.needles(flat, TWO).all.tolist() == [0]
-    flat[1] = np.nan
-    assert 0 in fairing.looks.needles(flat, TWO).all
-
-
-@pytest.mark.parametrize(("degrees", "seen"), [(0.0, False), (0.5, False), (2.0, True), (90.0, True)])
-def test_a_needle_is_seen_where_its_neighbours_bend(degrees: float, seen: bool) -> None:
-    """A needle along x between two triangles that turn down by half of the degrees each."""
-    half = np.radians(degrees) / 2.0
-    y, z = np.cos(half), -np.sin(half)
-    points = np.array([[0, 0, 0], [1, 0, 0], [0.5, 1e-5, 0], [0.5, -y, z], [0.2, y, z], [0.8, y, z]], dtype=np.float64)
-    triangles = np.array([[0, 1, 2], [1, 0, 3], [0, 2, 4], [2, 1, 5]])
-    found = fairing.looks.needles(points, triangles)
-    assert found.all.tolist() == [0]
-    assert found.seen.tolist() == ([0] if seen else [])
-
-
 def slit(degrees: float, length: int) -> tuple[FloatArray, IntArray, IntArray]:
     """Two slopes over a grid that meet at x = 0 by so many degrees; the ridge is doubled in its middle."""
     size = 12
@@ -97,12 +77,16 @@ def slit(degrees: float, length: int) -> tuple[FloatArray, IntArray, IntArray]:
     return np.concatenate([points, points[ridge]]), triangles, np.concatenate([ridge, twin[ridge]])
 
 
+def kinks(points: FloatArray, triangles: IntArray, held: IntArray) -> list[int]:
+    return fairing.looks.judged(points, triangles, NOTHING, held=held, rim=()).seams.tolist()
+
+
 def test_a_seam_is_kinked_where_a_long_kink_shows_across_it() -> None:
     points, triangles, held = slit(40.0, 8)
-    assert fairing.looks.seam_kinks(points, triangles, held).tolist() == sorted(held)
-    assert not len(fairing.looks.seam_kinks(points, triangles, held[:0]))  # a hole in the mesh
+    assert kinks(points, triangles, held) == sorted(held)
+    assert not kinks(points, triangles, held[:0])  # a hole in the mesh
     for degrees, length in ((5.0, 8), (40.0, 2)):
-        assert not len(fairing.looks.seam_kinks(*slit(degrees, length)))
+        assert not kinks(*slit(degrees, length))
 
 
 @pytest.mark.parametrize("sides", [4, 6, 9])
@@ -186,27 +170,36 @@ def flattened(points: Floats, rows: int, by: float) -> tuple[Floats, Ints]:
     return after, moved
 
 
+def rounded(points: Floats, after: Floats, triangles: Ints, moved: Ints) -> list[int]:
+    """The vertices at hard edges that are rounded where these have moved, of a surface of all their triangles."""
+    inside = np.isin(triangles, moved).any(axis=1)
+    held = np.setdiff1d(triangles[inside], moved)
+    surface, others = triangles[inside], triangles[~inside]
+    found = fairing.looks.judged(after, surface, others, held=held, rim=held, before=points, moved=moved)
+    return found.rounded.tolist()
+
+
 @pytest.mark.parametrize("degrees", [90.0, 60.0, 45.0])
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_ridge_that_was_lowered_at_its_end_is_found(turned: bool, degrees: float) -> None:
     points, triangles = roof(degrees)
     after, moved = flattened(points, 3, 0.4)
     triangles = triangles[:, ::-1] if turned else triangles  # a valley
-    assert fairing.looks.rounded_edges(points, after, triangles, moved).tolist() == moved.tolist()
+    assert rounded(points, after, triangles, moved) == moved.tolist()
 
 
 def test_what_keeps_its_edge_is_none() -> None:
     for degrees, rows, by in ((90.0, 3, 0.01), (30.0, 3, 0.4), (90.0, 1, 0.05)):
         points, triangles = roof(degrees)
         after, moved = flattened(points, rows, by)
-        assert not len(fairing.looks.rounded_edges(points, after, triangles, moved)), (degrees, rows, by)
+        assert not rounded(points, after, triangles, moved), (degrees, rows, by)
 
 
 def test_a_whole_ridge_that_moves_is_a_change_of_shape() -> None:
     """A row of noise lies within the band that is smoothed; a hard edge runs on out of it."""
     points, triangles = roof(90.0)
     after, moved = flattened(points, ROWS_ROUNDED + 1, 0.4)
-    assert not len(fairing.looks.rounded_edges(points, after, triangles, moved))
+    assert not rounded(points, after, triangles, moved)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -216,79 +209,7 @@ def test_noise_that_is_smoothed_is_no_hard_edge(seed: int) -> None:
     inner = np.flatnonzero((points[:, 0] < 6.0) & (np.abs(points[:, 1]) < 3.0))
     after = rough.copy()
     after[inner] = points[inner]
-    assert not len(fairing.looks.rounded_edges(rough, after, triangles, inner))
-
-
-# Knobs against what a surface must do: by Gauss and Bonnet a round bump of slope θ turns by 2π (1 − cos θ).
-RINGS, COLUMNS = 40, 48
-
-
-def disc() -> npt.NDArray[np.int64]:
-    """Triangles between rings of vertices around vertex 0, which is the middle."""
-    rings = 1 + np.arange(RINGS * COLUMNS).reshape(RINGS, COLUMNS)
-    ahead = np.roll(rings, -1, axis=1)
-    middle = np.stack([np.zeros(COLUMNS, dtype=np.int64), rings[0], ahead[0]], axis=1)
-    inside, outside, beside, beyond = (part.ravel() for part in (rings[:-1], rings[1:], ahead[:-1], ahead[1:]))
-    bands = [np.stack([inside, outside, beyond], axis=1), np.stack([inside, beyond, beside], axis=1)]
-    return np.concatenate([middle, *bands])
-
-
-def tops(points: Floats, before: float = 0.0) -> npt.NDArray[np.int32]:
-    """Where the disc swells."""
-    return fairing.looks.knobs(points, disc(), before=before)[1]
-
-
-def turned(radii: Floats, heights: Floats) -> Floats:
-    """The disc's vertices on a surface of revolution: a profile of RINGS + 1 points, the first on the axis."""
-    around = 2.0 * np.pi * np.arange(COLUMNS) / COLUMNS
-    x, y = np.outer(radii[1:], np.cos(around)), np.outer(radii[1:], np.sin(around))
-    z = np.repeat(heights[1:], COLUMNS)
-    return np.concatenate([[[0.0, 0.0, heights[0]]], np.stack([x.ravel(), y.ravel(), z], axis=1)])
-
-
-def bump(degrees: float) -> Floats:
-    """A bump on a plane that is steepest, by so much, half-way down."""
-    radii = np.linspace(0.0, 1.0, RINGS + 1)
-    return turned(radii, np.tan(np.radians(degrees)) / np.pi * (1.0 + np.cos(np.pi * radii)))
-
-
-def test_a_bump_counts_from_a_quarter_of_a_turn_on() -> None:
-    limit = np.degrees(np.arccos(1.0 - 0.25))
-    assert not len(tops(bump(limit - 3.0)))
-    found = tops(bump(limit + 3.0))
-    assert 0 in found
-    assert np.linalg.norm(bump(limit)[found, :2], axis=1).max() < 0.5  # the ball, not the neck
-    assert not len(tops(bump(0.0)))
-
-
-def test_a_round_end_is_no_knob_and_a_ball_on_a_neck_is_one() -> None:
-    angles = np.linspace(0.0, 0.5 * np.pi, RINGS + 1)
-    half_ball = turned(np.sin(angles), np.cos(angles))
-    assert not len(tops(half_ball))
-    half = RINGS // 2
-    angles = np.linspace(0.0, 2.5, half + 1)
-    radii = np.concatenate([np.sin(angles), np.linspace(np.sin(2.5), 2.0, RINGS - half + 1)[1:]])
-    ball = turned(radii, np.concatenate([np.cos(angles), np.full(RINGS - half, np.cos(2.5))]))
-    found = tops(ball)
-    assert len(found)
-    assert ball[found, 2].min() > np.cos(2.5)  # on the ball alone
-
-
-def test_what_became_calmer_is_none() -> None:
-    old = fairing.looks.knobs(bump(75.0), disc())[0]
-    assert old == pytest.approx(1.0 - np.cos(np.radians(75.0)), abs=0.02)
-    limit = np.degrees(np.arccos(1.0 - 0.8 * old))
-    assert not len(tops(bump(limit - 3.0), old))
-    assert len(tops(bump(limit + 3.0), old))
-
-
-@pytest.mark.parametrize(("degrees", "count"), [(37.0, 0), (60.0, 2)])
-def test_pieces_count_each_on_its_own(degrees: float, count: int) -> None:
-    """Two of .2 turns are none of .4."""
-    points = bump(degrees)
-    both = np.concatenate([points, points + 3.0])
-    _, found = fairing.looks.knobs(both, np.concatenate([disc(), disc() + len(points)]))
-    assert np.count_nonzero(np.isin(found, [0, len(points)])) == count
+    assert not rounded(rough, after, triangles, inner)
 
 
 # fairing.maps.conformal_map: exact maps come back; a border that is fixed all around makes it harmonic.

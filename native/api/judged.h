@@ -1,0 +1,51 @@
+// All that a verdict reads of a new surface in its mesh, measured in one call.
+#pragma once
+
+#include "base/progress.h"
+#include "geometry/hard_edges.h"
+#include "shape/stump.h"
+#include "shape/visible_join.h"
+
+namespace fairing {
+
+// Points that no triangle has may be anything; of the others, triangles with a corner that isn't finite don't count.
+struct JudgedMesh {
+    Points points;
+    Triangles surface;
+    Triangles others;  // that are no part of it, wound either way
+    Indices held;      // vertices of the surface that stay
+    Indices rim;       // those of them at which the join counts
+};
+
+// The same mesh as it was, with other triangles where the surface is. `moved`: vertices whose edges are compared,
+// ascending; none where the triangles are others. `marked`: of these edges, those that are to stay.
+struct JudgedBefore {
+    Points points;
+    Triangles surface;
+    Indices moved = {};
+    VertexPairs marked = {};
+};
+
+// Triangles of a surface, ascending.
+struct Faults {
+    Indices folded;    // turned over, with a corner that moves
+    Indices crossing;  // through others of the surface
+};
+
+struct Judged {
+    VisibleJoin join;
+    Faults now;
+    std::optional<Faults> before;  // crossings only where there are some now
+    Indices pierced;               // triangles of the surface that pass through others, and did not before
+    Indices rounded;  // moved vertices at hard edges that ran on outside or outside alone, and are flat now
+    Indices blunt;    // the same at marked edges of the surface
+    Indices seams;    // see shape/kinks
+    Stump stump;      // only where it is above `stump` (shape/limits)
+};
+
+// Vertices by the mesh's numbers. `is_clear`: no triangle of the surface is known to cross another one. Throws what
+// check_mesh throws, and Cancelled.
+Judged judged(const JudgedMesh& now, const std::optional<JudgedBefore>& before, bool is_clear,
+              const ProgressCallback& progress);
+
+}  // namespace fairing
