@@ -15,11 +15,8 @@ from ..verdict.verdict import (
     ADD_LEFT_OUT,
     ALL_KEYS,
     AS_SELECTED,
-    EVEN_CURVATURE,
     EVEN_SPREAD,
-    GROW,
     HOLD_BORDER,
-    SMOOTH_OUTLINE,
     WRITE,
 )
 from ..words.words import said
@@ -42,15 +39,6 @@ _WAYS: dict[str, tuple[dict[str, Any], str, str]] = {
         "Spread Uniformly",
         "Fair again with edges of equal length, whatever the old mesh was like",
     ),
-    EVEN_CURVATURE: (
-        {"shape": "LEAST_VARIATION"},
-        "Least Variation",
-        "Fair again with the shape Least Variation, which exists more often",
-    ),
-    GROW: ({}, "Grow by a Ring", "Select one ring of faces more and fair again"),
-    SMOOTH_OUTLINE: (
-        {"smooth_boundary": True}, "Smooth Boundary", "Smooth the boundary and the two rings around it, and fair again"
-    ),
     WRITE: ({"allow_folds": True}, "Apply Anyway", "Write the result as it is, folds and all"),
 }  # fmt: skip
 _ITEMS = tuple((way, name, text) for way, (_, name, text) in _WAYS.items())
@@ -70,7 +58,7 @@ class MESH_OT_fair_again(bpy.types.Operator):
     bl_label = "Fair Again"
     # No UNDO of its own: the run that it starts has one, and the redo panel.
 
-    way: EnumProperty(name="Change", description="What is changed in the options", items=_ITEMS, default=GROW)
+    way: EnumProperty(name="Change", description="What is changed in the options", items=_ITEMS, default=ADD_LEFT_OUT)
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:
@@ -88,8 +76,6 @@ class MESH_OT_fair_again(bpy.types.Operator):
             last_run.select_region(context)
             if self.way == ADD_LEFT_OUT:
                 bpy.ops.mesh.fair_select(what="LEFT_OUT")
-            if self.way == GROW:
-                bpy.ops.mesh.select_more()
             bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
             last_run.try_way("" if self.way == WRITE else self.way)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"

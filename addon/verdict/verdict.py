@@ -14,16 +14,14 @@ from ..fair.engine import Result
 from ..options.options import FairOptions
 from .evidence import Evidence
 from .failings import failing, is_usable
-from .looks import girth_reason, visible
+from .looks import visible
 
 GOOD, LOOK, UNUSABLE = "GOOD", "LOOK", "UNUSABLE"
 GRADES = (GOOD, LOOK, UNUSABLE)
 
 # What may help, each a change for another run.
-GROW, SMOOTH_OUTLINE, AS_SELECTED, HOLD_BORDER = "GROW", "SMOOTH_OUTLINE", "AS_SELECTED", "HOLD_BORDER"
-EVEN_CURVATURE, EVEN_SPREAD, WRITE = "EVEN_CURVATURE", "EVEN_SPREAD", "WRITE"
+AS_SELECTED, HOLD_BORDER, EVEN_SPREAD, WRITE = "AS_SELECTED", "HOLD_BORDER", "EVEN_SPREAD", "WRITE"
 ADD_LEFT_OUT, ALL_KEYS = "ADD_LEFT_OUT", "ALL_KEYS"
-_OTHERS = ("automatic", "harmonic", "minimal_energy")  # equations that Least Variation may do better than
 
 
 @dataclass(frozen=True)
@@ -82,21 +80,12 @@ def _once(spots: Ints) -> Ints:
 
 
 def _remedies(evidence: Evidence, options: FairOptions, bad: bool) -> tuple[str, ...]:
-    result, has_outside = evidence.result, len(evidence.problem.outside) > 0
-    stands_in = result.provenance not in ("equation", "low_passed")
-    was_tried = stands_in or result.equation == "least_variation"
-    narrows = bool(girth_reason(result))  # Grow by a Ring helped none of 20 such tubes; Automatic has tried all shapes
     offered = {
         ALL_KEYS: len(evidence.lost.key) > 0,
         ADD_LEFT_OUT: evidence.left_out.count > 0,
-        # Over a hard edge a flat cap would become a dome.
-        GROW: has_outside and not len(evidence.problem.inward) and not narrows,
-        SMOOTH_OUTLINE: has_outside and not options.smooth_boundary and not options.remesh,
         EVEN_SPREAD: bad and _is_folded(evidence) and not options.remesh and options.inner_fairness != "UNIFORM",
         AS_SELECTED: len(evidence.seen.rounded) > 0 and options.smooth_boundary,
         HOLD_BORDER: (bad or len(evidence.lost.border) > 0) and options.fair_open_borders,
-        EVEN_CURVATURE: not was_tried
-        and options.equation in (_OTHERS if bad or not result.converged else _OTHERS[1:] if narrows else ()),
         WRITE: bad and not options.allow_folds,
     }
     return tuple(name for name, offer in offered.items() if offer)

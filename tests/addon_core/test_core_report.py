@@ -39,7 +39,7 @@ def quality(crossing: Ints | None) -> Quality:
     return Quality(nothing, crossing)
 
 
-BAD = Verdict(UNUSABLE, "2 faces of the result are folded over", np.array([3, 4]), ("GROW", "WRITE"))
+BAD = Verdict(UNUSABLE, "2 faces of the result are folded over", np.array([3, 4]), ("WRITE",))
 
 
 def test_a_sphere_meets_all(sphere: Fairing) -> None:

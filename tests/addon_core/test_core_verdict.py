@@ -18,13 +18,10 @@ from addon.verdict.quality import Join, Measured, Quality
 from addon.verdict.verdict import (
     ADD_LEFT_OUT,
     AS_SELECTED,
-    EVEN_CURVATURE,
     EVEN_SPREAD,
     GOOD,
-    GROW,
     HOLD_BORDER,
     LOOK,
-    SMOOTH_OUTLINE,
     UNUSABLE,
     WRITE,
     Verdict,
@@ -104,11 +101,6 @@ def kinked(*degrees: float) -> Join:
     return Join(ints(7, 8, 9), np.array(degrees), ints(2, 0))
 
 
-def over_a_hard_outline(fine: Evidence) -> Evidence:
-    """The flat top of a box would become a dome."""
-    return with_seen(replace(fine, problem=replace(fine.problem, inward=ints(1, 2))), join=SEEN)
-
-
 def ended(ending: Any, steps: int) -> Callable[[Evidence], Evidence]:
     return lambda fine: replace(
         fine, result=replace(fine.result, converged=False, termination=ending, iterations=steps)
@@ -139,15 +131,14 @@ ROWS = {
     "clean": Row(lambda fine: fine, GOOD, remedies=()),
     "rounded outside": Row(
         seen(rounded=ints(3, 8)), LOOK, "Smooth Boundary has rounded a hard edge outside at 2 vertices: turn it off",
-        [3, 8], {"smooth_boundary": True}, (GROW, AS_SELECTED),
+        [3, 8], {"smooth_boundary": True}, (AS_SELECTED,),
     ),
     "stump": Row(
         seen(stump=ints(4, 7)), LOOK, "The boundary runs over the root of a bump…", [4, 7],
         good=(DETAIL, BULGE, FACTOR, FILM),
     ),
     "border": Row(but(lost=Lost(border=ints(7))), LOOK, None, [7], {"fair_open_borders": True}, has=(HOLD_BORDER,)),
-    "seen": Row(seen(join=SEEN), has=(GROW,), lacks=(ADD_LEFT_OUT,)),
-    "over a hard outline": Row(over_a_hard_outline, lacks=(GROW,)),
+    "seen": Row(seen(join=SEEN), lacks=(ADD_LEFT_OUT,)),
     "fold": Row(after(folded=ints(FACE)), UNUSABLE, "1 face of the result is folded over", CORNERS),
     "fold of a texture": Row(after(folded=ints(FACE)), UNUSABLE, options=CONFORMAL, has=(EVEN_SPREAD,)),
     "fold of an even mesh": Row(after(folded=ints(FACE)), UNUSABLE, options=UNIFORM, lacks=(EVEN_SPREAD,)),
@@ -186,7 +177,7 @@ ROWS = {
     "marked, with a large kink": Row(seen(**MARKED, join=kinked(12.5, 3.0, 41.0)), LOOK, "A kink shows…"),
     "kink": Row(
         seen(join=kinked(12.5, 3.0, 31.0)), LOOK, "A kink shows at 2 vertices of the boundary, of 31° at worst", [9, 7],
-        remedies=(GROW, SMOOTH_OUTLINE), good=(FILM, FACTOR),
+        remedies=(), good=(FILM, FACTOR),
     ),
     "turned back": Row(
         seen(join=Join(ints(7, 8), np.array([12.5, 105.9]), ints(1, 0))), LOOK,
@@ -236,18 +227,12 @@ def test_what_the_engine_names_is_shown(fine: Evidence, elements: Any, figures: 
         (None, ""),
     ],
 )
-def test_a_waist_and_a_balloon_deserve_a_look_and_even_curvature(
-    piped: Evidence, girth: tuple[float, float] | None, reason: str
-) -> None:
+def test_a_waist_and_a_balloon_deserve_a_look(piped: Evidence, girth: tuple[float, float] | None, reason: str) -> None:
     tube = replace(piped, result=replace(piped.result, girth=girth))
     for shape in ("AUTOMATIC", "HARMONIC", "MINIMAL_ENERGY"):
         verdict = judged(tube, shape=shape)
         assert (verdict.grade, verdict.reason) == (LOOK if reason else GOOD, reason)
-        assert (EVEN_CURVATURE in verdict.remedies) == (bool(reason) and shape != "AUTOMATIC")
-        assert GROW not in verdict.remedies  # it helped none of twenty such tubes
         assert bool(len(verdict.spots)) == bool(reason)
-    taken = replace(tube, result=replace(tube.result, equation="least_variation"))
-    assert EVEN_CURVATURE not in judged(taken).remedies  # it is what Automatic has taken
     for meant in ({"detail": 0.5}, {"bulge": 1.0}, {"factor": 0.5}, {"continuity": "G0"}):
         assert judged(tube, **meant).grade == GOOD, meant
 
@@ -278,20 +263,17 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     ):
         assert "What it came to" not in judged(spoilt).reason
         assert judged(spoilt).grade == UNUSABLE
-        assert judged(spoilt).remedies[-2:] == (EVEN_CURVATURE, WRITE)
+        assert judged(spoilt).remedies[-1] == WRITE
     reported = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
     assert judged(replace(lost, result=replace(lost.result, warnings=(reported,)))).grade == UNUSABLE
     outline = fine.problem.patch.vertices[fine.problem.patch.outline]
     assert set(verdict.spots) <= set(outline)
     assert len(verdict.spots)
-    assert verdict.remedies == (GROW, SMOOTH_OUTLINE, EVEN_CURVATURE)
-    assert judged(lost, shape="LEAST_VARIATION", smooth_boundary=True).remedies == (GROW,)
+    assert verdict.remedies == ()
     border = judged(lost, fair_open_borders=True)
     assert HOLD_BORDER in border.remedies
     assert border.reason.startswith("Why: a fair border may not exist where it is rough beside the selection")
     assert HOLD_BORDER not in judged(fine, fair_open_borders=True).remedies
-    tried = replace(lost, result=replace(lost.result, provenance="loft"))
-    assert judged(tried).remedies == (GROW, SMOOTH_OUTLINE)
 
 
 def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
@@ -363,7 +345,7 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     problem, _ = pose(whole, np.eye(4), FairOptions())
     lost = replace(fine, problem=problem, result=replace(fine.result, converged=False, termination="stalled"))
     verdict = judged(lost)
-    assert verdict.remedies == (EVEN_CURVATURE,)
+    assert verdict.remedies == ()
     assert verdict.reason.startswith("No fair surface was found: the search came to a halt")
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
 

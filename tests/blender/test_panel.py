@@ -249,10 +249,10 @@ def test_every_kind_of_button_is_drawn_without_an_object() -> None:
 def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
     shown = meshes.report()
     shown.verdict, shown.reason, shown.written, shown.objects = "LOOK", "It is so", True, "Grid"
-    shown.remedies, shown.warnings, shown.free_vertices = "GROW,SMOOTH_OUTLINE,EVEN_CURVATURE", "One\nTwo", 5
-    assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Look here", "It is so", "Least Variation"]
+    shown.remedies, shown.warnings, shown.free_vertices = "WRITE,HOLD_BORDER,ALL_KEYS", "One\nTwo", 5
+    assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Look here", "It is so", "All Keys"]
     details = drawn("VIEW3D_PT_fairing_details").splitlines()
-    assert details[:6] == ["Grid", "Show Worst Spots", "Grow by a Ring", "Smooth Boundary", "One", "Two"]
+    assert details[:6] == ["Grid", "Show Worst Spots", "Hold Open Border", "Apply Anyway", "One", "Two"]
     shown.verdict, shown.reason, shown.remedies = "GOOD", "", ""
     assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Good", "One"]
     assert drawn("VIEW3D_PT_fairing_details").splitlines()[:2] == ["Grid", "Two"]
