@@ -2,13 +2,15 @@
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from addon.arrays.region import MeshArrays
 from addon.arrays.types import Floats, Ints
 from addon.fair.local_pins import WIDTH as REACH
-from addon.fair.local_pins import lone_pins, without_lone_pins
+from addon.fair.local_pins import lone_pins, pulled, without_lone_pins
 from addon.fair.solve import pose, solve
 from addon.options.options import FairOptions
 from addon.verdict.outcome import Fairing, outcome
@@ -223,3 +225,20 @@ def test_pins_that_alone_hold_a_closed_surface_hold_it_as_a_whole() -> None:
     closed = polygon_mesh(corners, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]], [True] * 4)
     closed = replace(closed, pinned=np.arange(4) == 0)
     assert without_lone_pins(closed, options)[0] is closed
+
+
+def test_a_pin_leaves_the_far_side_of_something_thin_alone() -> None:
+    x, y = (np.arange(81) % 9 / 8.0, np.arange(81) // 9 / 8.0)
+    top = np.stack([x, y, np.zeros(81)], axis=1)
+    cells = np.array([[k, k + 1, k + 10] for k in range(71) if k % 9 < 8])
+    sheets = np.concatenate([top, top - [0.0, 0.0, 0.01]])
+    own = sheets.copy()
+    own[40, 2] = 0.1
+    patch = SimpleNamespace(
+        vertices=np.arange(162), triangles=np.concatenate([cells, cells[:, ::-1] + 81]), fixed=np.arange(0)
+    )
+    problem: Any = SimpleNamespace(patch=patch, own_points=own)
+    lift = (pulled(problem, sheets, np.arange(162) == 40, 0.1) - sheets)[:, 2]
+    assert lift[40] == 0.1
+    assert np.count_nonzero(lift) > 1
+    assert not lift[81:].any()
