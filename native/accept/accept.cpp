@@ -101,7 +101,7 @@ bool is_finer(const Patch& patch, const Points& points, double edge) {
     const auto high = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 99 / 100);
     std::nth_element(lengths.begin(), high, lengths.end());
     const double mean = mean_edge(patch, points);
-    return mean < edge && *high <= most_of_even * mean;
+    return *high < edge || (mean < edge && *high <= most_of_even * mean);
 }
 
 struct Difference {

@@ -29,7 +29,7 @@ private:
     [[nodiscard]] const Problem& source() const override { return levels_.problem(levels_.coarsest()); }
 
     [[nodiscard]] Points membrane() const override {
-        return start_.proxy() ? start_.membrane() : proxy_membrane(source(), progress_);
+        return start_.proxy ? start_.membrane : proxy_membrane(source(), progress_);
     }
 
     // Columns of a surface of the problem's patch.
@@ -38,26 +38,23 @@ private:
     }
 
     // What large patches do not find from their start, they would not find without it either.
-    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) override {
-        const int shown = problem_.patch.free_count;
-        const Progress part = progress_.range(0.0, 0.5);
-        if (start_.proxy() && !guess) {
-            SolvedProxy proxy = solve_fine_proxy(source(), *start_.proxy(), shown, part);
-            if (proxy.converged() || shown >= smallest_telling) return proxy;
-        }
-        return solve_proxy(source(), guess, membrane, shown, part);
-    }
+    [[nodiscard]] std::optional<CoarseProxy> known_proxy() const override { return start_.proxy; }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
     // from what both meshes share in the unit disc. The coarse levels are no help there: limbs are points on them.
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
-        for (std::size_t k = levels_.coarsest() + 1; k-- > 0;) levels_.set_up_tangential(k, progress_);
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own,
+                  Care care) override {
+        const bool is_set_up = levels_.work(0).tangential != nullptr;
+        for (std::size_t k = levels_.coarsest() + 1; k-- > 0 && !is_set_up;) levels_.set_up_tangential(k, progress_);
         std::vector<Start> starts;
         if (own) starts.push_back(start_from(by_surface(source(), *own, proxy.mesh.patch, target), target));
         starts.push_back(start_from(by_history(source(), proxy.history, proxy.mesh, target), target));
         Start& start = least_folded(starts, target);
         Placement settled = spread(std::move(start.settled), target);
-        if (!proxy.converged()) return {std::move(settled), {}, 0};  // no solution: its folds don't matter
+        if (care == Care::roughly) {
+            const std::size_t folded = folds_of_placement(problem_, target, settled).size();
+            return {std::move(settled), {}, folded};
+        }
         Placed best = without_folds(std::move(settled), target);
         if (best.folded.empty()) return best;
         keep_better(unfolded(std::move(start.raw), target), best);
@@ -65,6 +62,13 @@ private:
         if (const auto disc = by_disc(problem_, proxy.mesh.patch, target))
             keep_better(place_from(problem_, *levels_.work(0).tangential, target, *disc, progress_.here()), best);
         return best;
+    }
+
+    Placed placed_near(const SolvedProxy& proxy, const TargetSurface& target, const Points& near) override {
+        Placement start = by_surface(problem_, near, proxy.mesh.patch, target);
+        slide(0, target, start);
+        Placed best = without_folds(std::move(start), target);
+        return best.folded.empty() ? best : placed(proxy, target, on_source(near), Care::without_folds);
     }
 
     // What the springs fold is what they folded at first.
@@ -152,18 +156,14 @@ private:
         return {std::move(where), std::move(points)};
     }
 
-    [[nodiscard]] bool may_polish(const Placed& placed) const override {
-        return placed.folded_by_springs <= problem_.tolerated_folds;
-    }
-
-    Solution on_users_mesh(Solution placed, const SolvedSurface& surface) override {
+    std::optional<Solution> on_users_mesh(const Solution& placed) override {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
         if (std::holds_alternative<RowWeights>(*problem_.weights)) {
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }
-        return polished(problem_, work, std::move(placed), surface, progress_.range(0.6, 1.0));
+        return polished(problem_, work, placed, progress_.range(0.6, 1.0));
     }
 
     const CoarseStart& start_;
@@ -176,8 +176,8 @@ CoarseStart::CoarseStart(const Problem& problem, const Traits& traits, const Pro
     if (!begins_low_passed(problem, traits)) return;
     const Levels levels(traits.low_passed(), Outlines::kept, coarsest_size);
     const Problem& coarsest = levels.problem(levels.coarsest());
-    membrane_ = proxy_membrane(coarsest, progress);
-    proxy_.emplace(solve_coarse_proxy(coarsest, membrane_, problem.patch.free_count, progress));
+    membrane = proxy_membrane(coarsest, progress);
+    proxy.emplace(solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress));
 }
 
 std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,

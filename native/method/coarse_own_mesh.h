@@ -10,19 +10,14 @@ namespace fairing {
 // Where the engine's mesh of a large patch begins whose one loop is jagged: at the surface between the low-passed
 // loop, which shows whether more work is in vain. Of 50 regions of scans with 10,000 or 30,000 free vertices where
 // that had no surface none was solved over it, nor over its own loop without folds.
-class CoarseStart {
-public:
+struct CoarseStart {
     CoarseStart(const Problem& problem, const Traits& traits, const Progress& progress);
 
-    // False for other patches.
-    [[nodiscard]] bool is_in_vain() const { return proxy_ && proxy_->end != CoarseEnd::converged; }
-    [[nodiscard]] const std::optional<CoarseProxy>& proxy() const { return proxy_; }
-    // Of the coarsest level, 3 × its vertices.
-    [[nodiscard]] const Points& membrane() const { return membrane_; }
+    // Nothing for other patches.
+    std::optional<CoarseProxy> proxy;
+    Points membrane;  // of the coarsest level, 3 × its vertices
 
-private:
-    std::optional<CoarseProxy> proxy_;
-    Points membrane_;
+    [[nodiscard]] bool is_in_vain() const { return proxy && proxy->end != CoarseEnd::converged; }
 };
 
 // Nothing of the user's size is solved before its surface is known. Folds count on the finest level alone: coarse

@@ -33,22 +33,22 @@ private:
     [[nodiscard]] Points membrane() const override { return proxy_membrane(problem_, progress_); }
     [[nodiscard]] Points on_source(const Points& points) const override { return points; }
 
-    SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) override {
-        return solve_proxy(problem_, guess, membrane, problem_.patch.free_count, progress_.range(0.0, 0.6));
-    }
-
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
-        work_.tangential =
-            make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        const auto put = proxy.converged() ? place : place_roughly;
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own,
+                  Care care) override {
+        if (!work_.tangential)
+            work_.tangential =
+                make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
+        const auto put = care == Care::without_folds ? place : place_roughly;
         return put(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
     }
 
-    [[nodiscard]] bool may_polish(const Placed&) const override { return true; }
+    Placed placed_near(const SolvedProxy& proxy, const TargetSurface& target, const Points& near) override {
+        return placed(proxy, target, near, Care::without_folds);
+    }
 
-    Solution on_users_mesh(Solution placed, const SolvedSurface& surface) override {
+    std::optional<Solution> on_users_mesh(const Solution& placed) override {
         work_.normal = make_normal_operator(problem_);
-        return polished(problem_, work_, std::move(placed), surface, progress_.range(0.8, 1.0));
+        return polished(problem_, work_, placed, progress_.range(0.8, 1.0));
     }
 
     Workspace work_;
@@ -90,6 +90,21 @@ Points beside(const Patch& patch, const Points& offsets, const Points& placed) {
 Problem for_few_steps(const Problem& problem) {
     Problem result = problem;
     result.conduct.limits = problem.options.tolerance < SolverOptions{}.tolerance ? brisk : nearby;
+    result.conduct.contracts = true;
+    return result;
+}
+
+// The user's vertices as they were placed on a proxy (`target`), with its H and normals; `folded` where no placement
+// without folds was found on a surface that is one.
+Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const TargetSurface& target,
+                         const Placed& placed) {
+    Solution result = proxy.solution;
+    result.polished = false;
+    result.points = placed.placement.points;
+    result.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
+    result.mean_curvature = carried_over(placed.placement, target, proxy.solution.mean_curvature, problem);
+    result.crosses = !crossing_triangles(proxy.mesh.patch.triangles, proxy.mesh.points).empty();
+    if (proxy.converged()) refuse_folds(problem, placed, result);
     return result;
 }
 
@@ -124,52 +139,58 @@ bool OwnSurface::is_start(const Problem& problem) const {
     return solved || problem.patch.loop_count() > most_loops_of_tubes;
 }
 
-Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const TargetSurface& target,
-                         const Placed& placed) {
-    Solution result = proxy.solution;
-    result.polished = false;
-    result.points = placed.placement.points;
-    result.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
-    result.mean_curvature = carried_over(placed.placement, target, proxy.solution.mean_curvature, problem);
-    result.crosses = !crossing_triangles(proxy.mesh.patch.triangles, proxy.mesh.points).empty();
-    if (proxy.converged()) refuse_folds(problem, placed, result);
-    return result;
-}
-
-Solution polished(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
-                  const Progress& progress) {
+std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& placed,
+                                 const Progress& progress) {
     Solution own = iterate(for_few_steps(problem), work, placed.points, progress);
-    if (own.termination != Termination::converged || !agree(problem, own, surface)) return placed;
+    if (own.termination != Termination::converged) return std::nullopt;
     own.boundary_normals = one_sided_normals(problem.patch, own.points);
     own.from_surface = true;
     own.crosses = placed.crosses;
-    return flaw_of(problem, own) == Flaw::absent ? own : placed;
+    if (flaw_of(problem, own) != Flaw::absent) return std::nullopt;
+    return own;
 }
 
-SolvedSurface surface_of(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement) {
-    return {target, proxy.solution.mean_curvature, mean_edge(proxy.mesh.patch, proxy.mesh.points), placement.where};
+// The user's vertices on a proxy's surface, polished once where that comes to something. Where springs alone fold
+// triangles, the equation's solution by them would be folded, too.
+Solution OnOwnMesh::on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Care care, Polish polish) {
+    const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
+    const Placed best = near_ ? placed_near(proxy, target, *near_) : placed(proxy, target, own, care);
+    Solution solution = placed_solution(problem_, proxy, target, best);
+    const bool may_polish = polish == Polish::wanted && solution.termination == Termination::converged;
+    if (!may_polish || best.folded_by_springs > problem_.tolerated_folds) return solution;
+    if (!near_) polished_ = on_users_mesh(solution);
+    near_ = solution.points;
+    const SolvedSurface surface{target, proxy.solution.mean_curvature, mean_edge(proxy.mesh.patch, proxy.mesh.points),
+                                best.placement.where};
+    return polished_ && agree(problem_, *polished_, surface) ? *polished_ : solution;
 }
 
+// A coarse proxy's surface is start enough for a mesh that carries the equation; folds are left to the fine one. The
+// membrane tells the sheets of a tube, whose vertices the history of a proxy may lay across it.
 std::optional<Solution> OnOwnMesh::run(const std::optional<OwnSurface>& guess, Polish polish) {
-    Stopwatch watch;
-    std::map<std::string, double> seconds;
     const Points begin = membrane();
     const SurfaceState start = measured_surface(source(), begin);
+    const int shown = problem_.patch.free_count;
     std::optional<Points> own;
-    if (guess) own = on_source(guess->points);
-    seconds["fill"] = watch.lap();
-    const SolvedProxy proxy = solved_proxy(guess && guess->is_start(problem_) ? own : std::nullopt, begin);
-    seconds["proxy"] = watch.lap();
-    if (polish == Polish::unwanted && !proxy.converged()) return std::nullopt;
-    const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-    const Placed best = placed(proxy, target, own);
-    Solution solution = placed_solution(problem_, proxy, target, best);
-    seconds["placement"] = watch.lap();
-    if (polish == Polish::wanted && solution.termination == Termination::converged && may_polish(best))
-        solution = on_users_mesh(std::move(solution), surface_of(proxy, target, best.placement));
-    seconds["polish"] = watch.lap();
+    if (guess || problem_.patch.loop_count() == 2) own = guess ? on_source(guess->points) : begin;
+    std::optional<SolvedProxy> proxy;
+    std::optional<CoarseProxy> coarse = known_proxy();
+    Solution solution;
+    solution.polished = false;
+    if (guess && guess->is_start(problem_)) proxy = solve_proxy_near(source(), *own, shown, progress_.range(0.0, 0.6));
+    if (proxy && !proxy->converged()) proxy.reset();
+    if (!proxy && !coarse) {
+        coarse = solve_coarse_proxy(source(), begin, shown, progress_.range(0.0, 0.3));
+        const bool is_start = coarse->end == CoarseEnd::converged && problem_.options.equation == Equation::harmonic;
+        if (is_start && polish == Polish::wanted) solution = on_surface(coarse->surface, own, Care::roughly, polish);
+    }
+    if (!solution.polished) {
+        if (!proxy) proxy = solve_proxy(source(), std::move(*coarse), begin, shown, progress_.range(0.3, 0.6));
+        if (polish == Polish::unwanted && !proxy->converged()) return std::nullopt;
+        const Care care = proxy->converged() ? Care::without_folds : Care::roughly;  // without a solution folds stay
+        solution = on_surface(*proxy, own, care, polish);
+    }
     solution.initial_residual = largest_residual(source(), start, outer_residual(source(), start));
-    solution.seconds = std::move(seconds);
     return solution;
 }
 

@@ -4,7 +4,6 @@
 
 #include "accept/accept.h"
 #include "base/progress.h"
-#include "base/stopwatch.h"
 #include "method/plan.h"
 #include "operators/normal_operator.h"
 #include "placement/place.h"
@@ -14,7 +13,7 @@
 
 namespace fairing {
 
-class CoarseStart;  // method/coarse_own_mesh
+struct CoarseStart;  // method/coarse_own_mesh
 
 // What the steps of a plan have come to so far.
 struct Attempts {
@@ -53,19 +52,10 @@ struct OwnSurface {
     [[nodiscard]] bool is_start(const Problem& problem) const;
 };
 
-// The user's vertices as they were placed on a proxy (`target`), with its H and normals; `folded` where no placement
-// without folds was found on a surface that is one.
-Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const TargetSurface& target,
-                         const Placed& placed);
-
-// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Gives that
-// solution where it converges, agrees with that surface and is accepted, `placed` itself otherwise. `work` belongs to
-// the problem.
-Solution polished(const Problem& problem, Workspace& work, Solution placed, const SolvedSurface& surface,
-                  const Progress& progress);
-
-// The proxy's surface, for that comparison.
-SolvedSurface surface_of(const SolvedProxy& proxy, const TargetSurface& target, const Placement& placement);
+// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Nothing
+// where it does not converge or is not accepted. `work` belongs to the problem.
+std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& placed,
+                                 const Progress& progress);
 
 // Whether the equation is solved on the user's mesh, too, where that carries it. Unwanted: nothing comes back where no
 // mesh of the engine's own carries it.
@@ -86,15 +76,26 @@ protected:
     [[nodiscard]] virtual const Problem& source() const = 0;
     [[nodiscard]] virtual Points membrane() const = 0;
     [[nodiscard]] virtual Points on_source(const Points& points) const = 0;
-    virtual SolvedProxy solved_proxy(const std::optional<Points>& guess, const Points& membrane) = 0;
-    // The user's vertices; `own`: the guess, of the source.
-    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) = 0;
-    // Whether the user's mesh may carry the equation, and its solution there.
-    [[nodiscard]] virtual bool may_polish(const Placed& placed) const = 0;
-    virtual Solution on_users_mesh(Solution placed, const SolvedSurface& surface) = 0;
+    // A coarse proxy that is known, over a boundary next to this one.
+    [[nodiscard]] virtual std::optional<CoarseProxy> known_proxy() const { return std::nullopt; }
+    // The user's vertices; `own`: the guess, of the source. Roughly: folds stay.
+    enum class Care { roughly, without_folds };
+    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own,
+                          Care care) = 0;
+    // From where they lie on a surface nearby.
+    virtual Placed placed_near(const SolvedProxy& proxy, const TargetSurface& target, const Points& near) = 0;
+    // The equation's solution on the user's mesh.
+    virtual std::optional<Solution> on_users_mesh(const Solution& placed) = 0;
 
     const Problem& problem_;
     const Progress& progress_;
+
+private:
+    Solution on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Care care, Polish polish);
+
+    // Where the user's vertices lie on the first surface, and what they were polished to.
+    std::optional<Points> near_;
+    std::optional<Solution> polished_;
 };
 
 }  // namespace fairing

@@ -42,13 +42,12 @@ bool is_short(const Problem& problem) {
 // slower at 20,000, 1.4 times faster at 40,000; at 100,000 it alone gets there).
 constexpr int largest_direct = 25'000;
 
-// On the user's own connectivity. What a coarse level of a disc refuses, the whole mesh would only refuse later; but
-// between smooth loops pipes and blends may have no surface on a coarse mesh and keep it on their own.
-std::vector<Step> on_the_users_mesh(const Problem& problem, const Traits& traits) {
-    if (!traits.has_levels) return {Step::direct};
+// Whether what levels don't find is sought on the user's mesh alone, too. What a coarse level of a large disc refuses,
+// the whole mesh would only refuse later; but between smooth loops pipes and blends may have no surface on a coarse
+// mesh and keep it on their own.
+bool goes_on_directly(const Problem& problem, const Traits& traits) {
     const bool is_smooth = problem.patch.loop_count() > 1 && !traits.is_jagged;
-    const bool goes_on = !traits.is_large || (is_smooth && problem.patch.free_count <= largest_direct);
-    return goes_on ? std::vector{Step::levels, Step::direct} : std::vector{Step::levels};
+    return !traits.is_large || (is_smooth && problem.patch.free_count <= largest_direct);
 }
 
 // Between real loops whose membrane is poor the old shape nearly always decides (method/plan).
@@ -60,9 +59,13 @@ bool has_little_chance(const Traits& traits) {
 std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, bool lifts_pins) {
     if (problem.options.equation == Equation::soap_film) return {Step::direct};
     if (problem.options.equation == Equation::least_variation) return {Step::least_variation};
-    std::vector<Step> steps = on_the_users_mesh(problem, traits);
+    std::vector<Step> steps{traits.has_levels ? Step::levels : Step::direct};
     const bool is_hopeless = (traits.is_large && traits.is_beyond_reach) || has_little_chance(traits);
     if (!is_hopeless) steps.push_back(Step::own_mesh);
+    if (traits.has_levels && goes_on_directly(problem, traits)) {
+        const bool at_last = problem.options.equation == Equation::harmonic;  // the engine's mesh begins with that
+        steps.insert(at_last ? steps.end() : steps.begin() + 1, Step::direct);
+    }
     if (!is_uniform(problem.weights)) steps.push_back(Step::uniform_weights);
     if (traits.is_jagged && !traits.has_old_shape) steps.push_back(Step::low_passed);
     if (lifts_pins) steps.push_back(Step::lifted_pins);

@@ -137,7 +137,8 @@ Placed place_roughly(const Problem& problem, const TangentialStep& tangential, c
     Placement placement = guess ? by_surface(problem, *guess, surface.mesh.patch, surface.target)
                                 : by_history(problem, surface.history, surface.mesh, surface.target);
     settle(problem, tangential, surface.target, placement, progress.here());
-    return {std::move(placement), {}, 0};
+    const std::size_t folded = folds_of_placement(problem, surface.target, placement).size();
+    return {std::move(placement), {}, folded};
 }
 
 Placed place_from(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,

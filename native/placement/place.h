@@ -55,7 +55,7 @@ struct OwnMeshSurface {
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress);
 
-// The same without care for folds, for a surface that is no solution: the springs alone, from `guess` or by history.
+// The same without care for folds, for what is no solution yet: the springs alone, from `guess` or by history.
 Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
                      const std::optional<Points>& guess, const Progress& progress);
 

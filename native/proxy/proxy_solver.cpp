@@ -89,16 +89,15 @@ public:
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too. Meshes whose
     // edges grow alike begin with one coarse proxy. Where that ends nowhere the finest interior is left out: of 20
     // small patches it led on to a surface on seven, and so did the next one on these.
-    SolvedProxy from_membrane(const Points& membrane) {
+    SolvedProxy from_coarse(CoarseProxy begun, const Points& membrane) {
+        if (begun.end == CoarseEnd::far) return std::move(begun.surface);  // a fine one would not be found
         std::optional<SolvedProxy> least_bent;
-        std::optional<CoarseProxy> begun;
         const std::vector<Fineness> meshes = tried();
         for (std::size_t k = 0; k < meshes.size(); ++k) {
-            if (k == 0 || meshes[k].growth != meshes[k - 1].growth) begun.emplace(coarse(membrane, meshes[k]));
+            if (k > 0 && meshes[k].growth != meshes[k - 1].growth) begun = coarse(membrane, meshes[k]);
             const bool is_next_alike = k + 1 < meshes.size() && meshes[k + 1].growth == meshes[k].growth;
-            if (is_next_alike && begun->end != CoarseEnd::converged) continue;
-            SolvedProxy proxy = fine(*begun, meshes[k]);
-            if (proxy.refused) return proxy;
+            if (is_next_alike && begun.end != CoarseEnd::converged) continue;
+            SolvedProxy proxy = fine(begun, meshes[k]);
             if (proxy.converged()) return proxy;
             if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
         }
@@ -113,21 +112,22 @@ public:
         mesh.adapt(sizing);
         descend(mesh);
         mesh.adapt(sizing);
-        const auto snapshot = mesh.snapshot();
+        auto snapshot = mesh.snapshot();
         const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.here());
-        const Solution solution = solve_equation(problem, work, start, progress_.here());
+        Solution solution = solve_equation(problem, work, start, progress_.here());
         const CoarseEnd end = end_of(solution, problem_, shown_);
-        mesh.read_back(snapshot.patch, end == CoarseEnd::converged ? solution.points : start);
-        return {std::move(mesh), end};
+        const Points surface = end == CoarseEnd::converged ? solution.points : start;
+        mesh.read_back(snapshot.patch, surface);
+        return {measured(std::move(mesh), snapshot, problem, surface, std::move(solution)), end};
     }
 
     SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
-        lay_over_outline(coarse.mesh);
-        if (coarse.end == CoarseEnd::far) return given_up(std::move(coarse.mesh));
+        ProxyMesh mesh = std::move(coarse.surface.history);
+        lay_over_outline(mesh);
         const Sizing sizing{std::min(fineness.growth, finest_growth), longest_of(fineness), free_limit_};
-        return solve_fine(std::move(coarse.mesh), sizing, coarse.end == CoarseEnd::converged);
+        return solve_fine(std::move(mesh), sizing, coarse.end == CoarseEnd::converged);
     }
 
 private:
@@ -189,15 +189,6 @@ private:
         return measured(std::move(mesh), snapshot, problem, start, std::move(solution));
     }
 
-    // The least bent surface of a coarse proxy; a fine one would not be found.
-    [[nodiscard]] SolvedProxy given_up(ProxyMesh mesh) const {
-        auto snapshot = mesh.snapshot();
-        const Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
-        SolvedProxy proxy = measured(std::move(mesh), snapshot, problem, snapshot.points, {});
-        proxy.refused = true;
-        return proxy;
-    }
-
     // `problem`: of the snapshot's patch.
     static SolvedProxy measured(ProxyMesh mesh, ProxyMesh::Snapshot& snapshot, const Problem& problem,
                                 const Points& points, Solution solution) {
@@ -205,12 +196,7 @@ private:
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
         const double energy = willmore_energy(problem, state.points);
-        return {std::move(mesh),
-                {std::move(snapshot.patch), state.points},
-                std::move(solution),
-                state.normals,
-                energy,
-                false};
+        return {std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
     }
 
     const Problem& problem_;
@@ -242,22 +228,17 @@ double mean_outline_edge(const Problem& problem) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
+SolvedProxy solve_proxy(const Problem& problem, CoarseProxy coarse, const Points& membrane, int shown,
                         const Progress& progress) {
-    ProxySolve solve(problem, shown, progress);
-    if (guess) {
-        SolvedProxy proxy = solve.from_surface(*guess);
-        if (proxy.converged()) return proxy;
-    }
-    return solve.from_membrane(membrane);
+    return ProxySolve(problem, shown, progress).from_coarse(std::move(coarse), membrane);
+}
+
+SolvedProxy solve_proxy_near(const Problem& problem, const Points& near, int shown, const Progress& progress) {
+    return ProxySolve(problem, shown, progress).from_surface(near);
 }
 
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress) {
     return ProxySolve(problem, shown, progress).coarse(membrane, first_fineness);
-}
-
-SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress) {
-    return ProxySolve(problem, shown, progress).fine(std::move(coarse), first_fineness);
 }
 
 Points proxy_membrane(const Problem& problem, const Progress& progress) {

@@ -15,19 +15,9 @@ struct SolvedProxy {
     Solution solution;         // of the patch of `mesh`
     Points normals;            // at its vertices
     double energy;             // Willmore
-    bool refused;              // the coarse proxy was far from any surface
 
     [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
 };
-
-// Solves on a proxy from `guess`, if there is one: positions of all vertices of the problem's patch near the surface.
-// Where that fails it begins again from `membrane`. The steps: a coarse proxy, Willmore descent with flips and
-// smoothing in between, the accurate iteration there and on a refined proxy. Where a proxy fails the next finer one is
-// tried. When all fail, the least bent of their surfaces comes back, not converged. `shown`: free vertices of the
-// user's mesh, of which the problem may be a coarse level; a proxy of many more would resolve what that mesh can't
-// represent.
-SolvedProxy solve_proxy(const Problem& problem, const std::optional<Points>& guess, const Points& membrane, int shown,
-                        const Progress& progress);
 
 // Least number of `shown` for which a coarse proxy predicts finer ones.
 inline constexpr int smallest_telling = 5000;
@@ -36,14 +26,22 @@ inline constexpr int smallest_telling = 5000;
 enum class CoarseEnd { converged, near, far };
 
 struct CoarseProxy {
-    ProxyMesh mesh;  // of the harmonic surface where that was found, or the least bent one
+    SolvedProxy surface;  // harmonic where that was found, or the least bent one
     CoarseEnd end;
 };
 
-// The two halves of solve_proxy, with its first proxy alone. The coarse one may have converged over another boundary
-// next to this one.
+// Willmore descent from the membrane with flips and smoothing in between, then the accurate iteration. `shown`: free
+// vertices of the user's mesh, of which the problem may be a coarse level; a proxy of many more would resolve what that
+// mesh can't represent.
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
-SolvedProxy solve_fine_proxy(const Problem& problem, CoarseProxy coarse, int shown, const Progress& progress);
+
+// On a proxy refined from `coarse`, which may have converged over another boundary next to this one; where that fails
+// on the next finer one, from `membrane`. When all fail, the least bent of their surfaces comes back, not converged.
+SolvedProxy solve_proxy(const Problem& problem, CoarseProxy coarse, const Points& membrane, int shown,
+                        const Progress& progress);
+
+// From positions of all vertices of the problem's patch near the surface. May not converge.
+SolvedProxy solve_proxy_near(const Problem& problem, const Points& near, int shown, const Progress& progress);
 
 // Free vertices of a mesh of the engine's own beside `shown` ones of the user's; many more would resolve what these
 // can't show.
