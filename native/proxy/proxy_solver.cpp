@@ -163,12 +163,6 @@ private:
         }
     }
 
-    // Of 17 fine proxies over regions of scans that did not converge from a coarse one's surface, a descent and another
-    // iteration found two, both from a step below this. Small patches have all patience.
-    [[nodiscard]] bool ends_far(const Solution& solution) const {
-        return !is_small(shown_) && problem_.patch.loop_count() == 1 && solution.least_step > near_step;
-    }
-
     // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
     SolvedProxy solve_fine(ProxyMesh mesh, const Sizing& sizing, bool from_converged) {
         mesh.adapt(sizing);
@@ -179,7 +173,10 @@ private:
         Points start = snapshot.points;
         Solution solution;
         if (from_converged) solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
-        const bool hopeless = from_converged && ends_far(solution);
+        // Of 17 over regions of scans that did not converge from a coarse one's surface, a descent and another
+        // iteration found two, both from a step below this. Small patches have all patience.
+        const bool ends_far = problem_.patch.loop_count() == 1 && solution.least_step > near_step;
+        const bool hopeless = from_converged && ends_far && !is_small(shown_);
         // The Willmore descent leads away from straight pipes: only where it is needed.
         if (solution.termination != Termination::converged && !hopeless) {
             start = globalise(problem, work, start, progress_.range(0.4, 0.5));
