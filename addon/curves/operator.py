@@ -14,7 +14,8 @@ from ..options.properties import CurvesProperties
 from ..run import compare, job, last_run
 from ..run.asked import AskedInEditMode, Say, done
 from ..run.operator import InEditMode
-from ..verdict.properties import clear
+from ..verdict.properties import store_word
+from ..verdict.verdict import worst
 from ..words.words import said
 from .spanning import NO_WIRE, Spanned, span_arrays
 
@@ -37,9 +38,11 @@ class Asked(AskedInEditMode):
     def finish(self, context: bpy.types.Context, outcomes: list[Spanned], say: Say) -> set[str]:
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
-        clear(context.window_manager.fairing_report)
         added = job.write_each(context, zip(self.names, outcomes, strict=True), spanned.add_to_edit_mesh)
         warnings = [each for outcome in outcomes for each in outcome.warnings]
+        new = sum(len(outcome.positions) for outcome in outcomes)
+        verdict = worst(outcome.verdict for outcome in outcomes)
+        store_word(context.window_manager.fairing_report, self.names, new, verdict)
         cells, left = (sum(getattr(each, name) for each in outcomes) for name in ("cells", "left_open"))
         text = said("from_curves", faces=sum(each.faces for each in added), cells=cells, left=left)
         return done(say, (*warnings, *(note for each in added for note in each.notes)), text)

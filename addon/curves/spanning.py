@@ -15,6 +15,8 @@ from ..fair.engine import Progress
 from ..mirror.reflected import Whole, with_image
 from ..options.other_options import CurvesOptions
 from ..remesh.faces import Faces, faces_of, paired_faces
+from ..verdict.looks import STAND_INS
+from ..verdict.verdict import GOOD, LOOK, Verdict
 from ..words.findings import Origin
 from ..words.sentences import in_mesh_words, sentences
 from ..words.words import said
@@ -40,10 +42,11 @@ class Spanned:
     left_open: int
     warnings: tuple[str, ...]
     options: CurvesOptions
+    verdict: Verdict
     whole: Whole | None = None  # the mesh with its image, whose numbers these are
 
     def for_half(self, whole: Whole) -> Spanned:
-        return replace(self, whole=whole)
+        return replace(self, whole=whole, verdict=whole.about_half(self.verdict))
 
     @property
     def faces(self) -> Faces:
@@ -111,4 +114,5 @@ def _spanned(
         left_open=len(result.left_open),
         warnings=sentences(result.warnings, origin),
         options=options,
+        verdict=Verdict(LOOK, STAND_INS[result.equation], outline) if result.equation in STAND_INS else Verdict(GOOD),
     )

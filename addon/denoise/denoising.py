@@ -14,6 +14,8 @@ from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress
 from ..mirror.reflected import whole_of
 from ..options.other_options import DenoiseOptions
+from ..verdict.verdict import GOOD, LOOK, Verdict
+from ..words.words import said
 
 
 @dataclass(frozen=True)
@@ -23,6 +25,7 @@ class Denoised:
     vertices: Ints  # (k,) mesh indices, ascending
     positions: Floats  # (k, 3)
     largest: float  # distance that one of them moves, in world space
+    verdict: Verdict
     keys: tuple[MovedKey, ...] = ()
 
 
@@ -57,4 +60,5 @@ def _denoised(mesh: MeshArrays, matrix: Floats, options: DenoiseOptions, progres
     )  # fmt: skip
     moved = np.flatnonzero(free & (smooth != world.positions).any(axis=1))
     way = np.linalg.norm(smooth[moved] - world.positions[moved], axis=1)
-    return Denoised(moved, to_local(smooth[moved], matrix), float(way.max(initial=0.0)))
+    verdict = Verdict(GOOD) if len(moved) else Verdict(LOOK, said("unmoved"))
+    return Denoised(moved, to_local(smooth[moved], matrix), float(way.max(initial=0.0)), verdict)

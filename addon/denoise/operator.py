@@ -11,7 +11,8 @@ from ..options.properties import DenoiseProperties
 from ..run import compare, job, last_run
 from ..run.asked import AskedInEditMode, Say, done
 from ..run.operator import InEditMode
-from ..verdict.properties import clear
+from ..verdict.properties import store_word
+from ..verdict.verdict import worst
 from ..words.words import said
 from .denoising import Denoised, denoise_arrays
 
@@ -27,10 +28,11 @@ class Asked(AskedInEditMode):
 
     def finish(self, context: bpy.types.Context, outcomes: list[Denoised], say: Say) -> set[str]:
         last_run.forget()  # Again would fair
-        clear(context.window_manager.fairing_report)
         compare.remember(self.tasks, outcomes)
         job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one)
         count = sum(len(outcome.vertices) for outcome in outcomes)
+        verdict = worst(outcome.verdict for outcome in outcomes)
+        store_word(context.window_manager.fairing_report, self.names, count, verdict)
         return done(say, (), said("moved_by", n=count, largest=max(outcome.largest for outcome in outcomes)))
 
 

@@ -31,8 +31,8 @@ from ..run.background import TICK, has_events
 from ..run.job import Refused, each_of, write_each
 from ..run.redo import Redone
 from ..translations import translated
-from ..verdict.properties import clear, store_refusal
-from ..verdict.verdict import UNUSABLE, NotUsable
+from ..verdict.properties import store_refusal, store_word
+from ..verdict.verdict import UNUSABLE, NotUsable, worst
 from ..words.words import said
 from .rounding import NO_SEAM, Rounded, round_arrays, seams_of
 from .typed import Typed
@@ -144,13 +144,14 @@ class Asked(AskedInEditMode):
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
         handle.flank = self.tasks[0].flank
-        clear(context.window_manager.fairing_report)
         written = write_each(context, zip(self.names, outcomes, strict=True), remeshed.write_edit_mesh)
         if not all(each.is_symmetric for each in written):
             say({"WARNING"}, translated(NOT_SYMMETRIC))
         for warning in (each for outcome in outcomes for each in outcome.warnings):
             say({"WARNING"}, translated(warning))
         count = sum(each.new_vertices for each in written)
+        verdict = worst(outcome.verdict for outcome in outcomes)
+        store_word(context.window_manager.fairing_report, self.names, count, verdict)
         seconds = time.perf_counter() - self.begin
         say({"INFO"}, translated(said("new_vertices", n=count, seconds=seconds)))
         return {"FINISHED"}

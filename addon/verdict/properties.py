@@ -8,7 +8,7 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
 
 from .report import GRADE_NAMES, MET, MISSED, TOLD, Report
-from .verdict import LOOK, UNUSABLE
+from .verdict import LOOK, UNUSABLE, Verdict
 
 _GRADES = tuple((grade, name, "") for grade, name in GRADE_NAMES.items())
 _STATES = ((MET, "Met", ""), (MISSED, "Missed", ""), (TOLD, "Told", ""))
@@ -84,6 +84,13 @@ def store_awaited(shown: Any, objects: Sequence[str], size: float, reason: str) 
     clear(shown)
     shown.objects, shown.free_vertices, shown.written = ", ".join(objects), max(1, round(size)), True
     shown.verdict, shown.reason = LOOK, kept(reason)
+
+
+def store_word(shown: Any, objects: Sequence[str], count: int, verdict: Verdict) -> None:
+    """Let a FairReport show the word on a run of another operator, which has no figures; count: of vertices."""
+    clear(shown)
+    shown.objects, shown.free_vertices, shown.written = ", ".join(objects), count, True
+    shown.verdict, shown.reason = verdict.grade, kept(verdict.reason)
 
 
 def store(shown: Any, report: Report) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -54,6 +55,11 @@ def judge(evidence: Evidence, options: FairOptions) -> Verdict:
     if reason:
         return Verdict(LOOK, reason, _once(spots), _remedies(evidence, options, bad=False))
     return Verdict(GOOD)
+
+
+def worst(verdicts: Iterable[Verdict]) -> Verdict:
+    """Return the first of the worst."""
+    return max(verdicts, key=lambda verdict: GRADES.index(verdict.grade))
 
 
 def because_of(verdict: Verdict, causes: tuple[str, ...]) -> Verdict:
