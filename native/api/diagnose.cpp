@@ -17,16 +17,6 @@ namespace fairing {
 
 namespace {
 
-void warn_of_flips(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
-    Indices flipped = solution.flipped ? *solution.flipped : flipped_triangles(patch, solution.points);
-    if (flipped.empty()) return;
-    flipped = input_numbers(patch, std::move(flipped));
-    warnings.push_back(about(
-        Code::flipped_triangles,
-        counted(flipped.size(), "triangle of the result is turned over", "triangles of the result are turned over"),
-        flipped, ElementKind::triangle, "triangles"));
-}
-
 void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
     constexpr double widest_turn = 20.0;  // degrees: 18 edges to a circle are not worth a word
     Indices sharp;
@@ -46,16 +36,6 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
                         sharp,
                         ElementKind::vertex,
                         {{"degrees", widest}, {"edges", size_of(sharp) / 2}}});
-}
-
-void warn_of_crossings(const Patch& patch, const Solution& solution, Diagnostics& warnings) {
-    Indices crossing = solution.crossings ? *solution.crossings : crossing_triangles(patch.triangles, solution.points);
-    if (crossing.empty()) return;
-    crossing = input_numbers(patch, std::move(crossing));
-    warnings.push_back(about(Code::self_intersection,
-                             counted(crossing.size(), "triangle of the result passes through others of the patch",
-                                     "triangles of the result pass through others of the patch"),
-                             crossing, ElementKind::triangle, "triangles"));
 }
 
 // The end of a sentence on a component, and the figures in it.
@@ -332,9 +312,22 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     return diagnostic;
 }
 
+void warn_of_folds(Indices flipped, Indices crossing, Diagnostics& warnings) {
+    const auto warn = [&](Code code, Indices triangles, const char* one, const char* many) {
+        if (triangles.empty()) return;
+        const std::string text = counted(triangles.size(), one, many);
+        warnings.push_back(about(code, text, std::move(triangles), ElementKind::triangle, "triangles"));
+    };
+    warn(Code::flipped_triangles, std::move(flipped), "triangle of the result is turned over",
+         "triangles of the result are turned over");
+    warn(Code::self_intersection, std::move(crossing), "triangle of the result passes through others of the patch",
+         "triangles of the result pass through others of the patch");
+}
+
 void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings) {
-    warn_of_flips(patch, solution, warnings);
-    warn_of_crossings(patch, solution, warnings);
+    Indices flipped = solution.flipped ? *solution.flipped : flipped_triangles(patch, solution.points);
+    Indices crossing = solution.crossings ? *solution.crossings : crossing_triangles(patch.triangles, solution.points);
+    warn_of_folds(input_numbers(patch, std::move(flipped)), input_numbers(patch, std::move(crossing)), warnings);
     warn_of_sharp_outline(patch, prescribed, warnings);
 }
 

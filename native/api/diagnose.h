@@ -52,6 +52,9 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution);
 // Triangles of a patch by the numbers that the caller knows, ascending.
 Indices input_numbers(const Patch& patch, Indices triangles);
 
+// FLIPPED_TRIANGLES and SELF_INTERSECTION, with these triangles (the caller's numbers), where there are some.
+void warn_of_folds(Indices flipped, Indices crossing, Diagnostics& warnings);
+
 // Diagnostics of a solved patch: flipped and crossing triangles, and a boundary that turns more than 20° from vertex to
 // vertex.
 void diagnose(const Patch& patch, const Solution& solution, const Points& prescribed, Diagnostics& warnings);

@@ -92,7 +92,15 @@ void name_once(FairResult& report) {
     report.join = joins;
 }
 
+bool is_usable(const FairResult& report) {
+    return report.converged && std::ranges::none_of(report.warnings, is_fold);
+}
+
 }  // namespace
+
+bool is_fold(const Diagnostic& warning) {
+    return warning.code == Code::flipped_triangles || warning.code == Code::self_intersection;
+}
 
 Points joined(const Points& one, const Points& other) {
     Points both(3, one.cols() + other.cols());
@@ -178,7 +186,13 @@ FilledHole HoleJob::filled(const Progress& progress) const {
         if (auto made = along(*through_, progress.range(0.0, 0.5))) return timed(std::move(*made));
     }
     if (auto made = fan(progress)) return timed(finished(std::move(*made), split_));
-    return timed(finished(surface(progress), split_));
+    FilledHole made = finished(surface(progress.range(0.0, 0.95)), split_);
+    const SolverOptions& solver = options_.fair.solver;
+    const bool may_differ = !options_.bridge && solver.otherwise != Otherwise::stop;
+    if (may_differ && solver.equation != Equation::soap_film && !is_usable(made.report)) {
+        if (auto other = film(progress.range(0.95, 1.0))) return timed(std::move(*other));
+    }
+    return timed(std::move(made));
 }
 
 FilledHole HoleJob::closed_by_face() const {
@@ -247,11 +261,7 @@ std::optional<SolvedHole> HoleJob::from_fan(const Progress& progress) const {
                           normals()};
     const SolvedHole made =
         on_mesh(patch, {options_.spacing, few_solved, options_.spread}, Start::given, Otherwise::stop, progress);
-    const bool is_broken = std::any_of(made.report.warnings.begin(), made.report.warnings.end(), [](const auto& each) {
-        return each.code == Code::folded || each.code == Code::flipped_triangles ||
-               each.code == Code::self_intersection;
-    });
-    return made.report.converged && !is_broken ? std::optional(made) : std::nullopt;
+    return is_usable(made.report) ? std::optional(made) : std::nullopt;
 }
 
 SolvedHole HoleJob::on_mesh(const HolePatch& patch, const WantedLengths& wanted, Start start, Otherwise otherwise,
@@ -266,11 +276,38 @@ SolvedHole HoleJob::on_mesh(const HolePatch& patch, const WantedLengths& wanted,
     return made;
 }
 
+// On a mesh as coarse as asked for, or on the next finer one that does not fold over the surface's bends.
 SolvedHole HoleJob::coarser(const SolvedHole& solved, const Progress& progress) const {
-    NewMesh mesh;
-    const HolePatch coarse =
-        meshed(solved.patch, split_.count(), {options_.spacing, 0, options_.spread}, held(), progress, &mesh);
-    return cut_from(solved, coarse, mesh.triangle, mesh.weights);
+    constexpr int finer = 4;  // times as many vertices: edges half as long
+    WantedLengths wanted{options_.spacing, 0, options_.spread};
+    for (;;) {
+        NewMesh mesh;
+        const HolePatch coarse = meshed(solved.patch, split_.count(), wanted, held(), progress, &mesh);
+        SolvedHole made = cut_from(solved, coarse, mesh.triangle, mesh.weights);
+        wanted.least_count = finer * std::max(1, static_cast<int>(mesh.triangle.size()));
+        if (is_usable(made.report) || !solved.report.converged) return made;
+        if (wanted.least_count >= solved.patch.vertices.cols() - split_.count()) return solved;
+    }
+}
+
+// Where the equation has no surface, the one of least area closes the hole: with kinks, which is said.
+std::optional<FilledHole> HoleJob::film(const Progress& progress) const {
+    FillOptions options = options_;
+    options.fair.solver.equation = Equation::soap_film;
+    options.fair.solver.load = options.fair.bulge = 0.0;
+    options.joins_curvature = false;
+    FilledHole made = HoleJob(mesh_, hole_, nullptr, options).filled(progress);
+    if (!is_usable(made.report)) return std::nullopt;
+    std::erase_if(made.report.warnings, [](const Diagnostic& each) { return each.code == Code::not_tangent; });
+    const double kink = made.report.join.size() > 0 ? made.report.join.maxCoeff() : 0.0;
+    made.report.warnings.push_back(
+        {Code::no_solution,
+         "no fair surface was found over a hole of " + std::to_string(hole_.loops[0].vertices.size()) +
+             " edges: the one of least area closes it, with a kink of up to " + std::to_string(std::lround(kink)) + "°",
+         made.report.fixed,
+         ElementKind::vertex,
+         {{"film", 1.0}, {"degrees", kink}}});
+    return made;
 }
 
 SolvedHole HoleJob::surface(const Progress& progress) const {

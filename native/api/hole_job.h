@@ -46,6 +46,7 @@ private:
     [[nodiscard]] SolvedHole on_mesh(const HolePatch& patch, const WantedLengths& wanted, Start start,
                                      Otherwise otherwise, const Progress& progress) const;
     [[nodiscard]] SolvedHole coarser(const SolvedHole& solved, const Progress& progress) const;
+    [[nodiscard]] std::optional<FilledHole> film(const Progress& progress) const;
     [[nodiscard]] bool is_plain() const;
     [[nodiscard]] FilledHole finished(SolvedHole solved, const SplitBoundary& split) const;
     [[nodiscard]] FairResult solved(const HolePatch& patch, Start start, Otherwise otherwise,
@@ -61,6 +62,9 @@ private:
     std::vector<BoundaryLoop> loops_;  // in local numbers
     SplitBoundary split_;
 };
+
+// Whether it says that triangles of the patch fold over or cross.
+bool is_fold(const Diagnostic& warning);
 
 // The callback that reports a part of a run.
 ProgressCallback within(const Progress& part);

@@ -1,10 +1,12 @@
-
+#include "api/diagnose.h"
 #include "api/hole_job.h"
 #include "api/kept_skin.h"
+#include "api/measure.h"
 #include "api/remesh.h"
 #include "base/columns.h"
 #include "base/errors.h"
 #include "fill/quads.h"
+#include "geometry/self_intersection.h"
 
 namespace fairing {
 
@@ -86,6 +88,9 @@ SolvedHole cut_from(const SolvedHole& solved, const HolePatch& patch, const Indi
         warning.elements.erase(std::remove_if(warning.elements.begin(), warning.elements.end(), is_gone),
                                warning.elements.end());
     }
+    std::erase_if(made.report.warnings, is_fold);
+    warn_of_folds(flipped_triangles(patch.input({})), crossing_triangles(patch.triangles, patch.vertices),
+                  made.report.warnings);
     return made;
 }
 

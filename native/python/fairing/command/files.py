@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from fairing.command import obj, ply, scenes
+from fairing.command import obj, off, ply, scenes
 from fairing.objects.hosts import opened
 from fairing.objects.parts import Parts
 
@@ -27,22 +27,23 @@ def _write_cells(meshio: Any, target: Path, parts: Parts, make: Any) -> list[str
     return []
 
 
+_OWN: dict[str, Any] = {".obj": obj, ".off": off}
 _READ: dict[str, Callable[[Any, Path], tuple[Parts, Any]]] = {
-    "fairing": lambda _, source: obj.read(source),
+    "fairing": lambda _, source: _OWN[source.suffix.lower()].read(source),
     "plyfile": ply.read,
     "trimesh": scenes.read,
     "meshio": _read_cells,
 }
 _WRITE: dict[str, Callable[[Any, Path, Parts, Any], list[str]]] = {
-    "fairing": lambda _, *what: obj.write(*what),
+    "fairing": lambda _, target, *what: _OWN[target.suffix.lower()].write(target, *what),
     "plyfile": ply.write,
     "trimesh": scenes.write,
     "meshio": _write_cells,
 }
 # What a library can't read the next one reads; the first one writes.
 _KINDS = {
-    ".ply": ("plyfile",), ".obj": ("fairing",), ".stl": ("trimesh", "meshio"),
-    **dict.fromkeys((".off", ".glb", ".gltf", ".3mf"), ("trimesh",)),
+    ".ply": ("plyfile",), **dict.fromkeys(_OWN, ("fairing",)), ".stl": ("trimesh", "meshio"),
+    **dict.fromkeys((".glb", ".gltf", ".3mf"), ("trimesh",)),
     **dict.fromkeys((".vtk", ".vtu", ".msh", ".xdmf", ".inp", ".med", ".su2", ".mesh"), ("meshio",)),
     **dict.fromkeys((".bdf", ".nas", ".dat", ".avs"), ("meshio",)),
 }  # fmt: skip

@@ -22,6 +22,8 @@ def read(plyfile: Any, source: Path) -> tuple[Parts, Any]:
         file = plyfile.PlyData.read(str(source), known_list_len=triangles)
     except plyfile.PlyParseError:
         file = plyfile.PlyData.read(str(source))
+    if "face" not in file:
+        raise ValueError("it has no faces")
     data, face = _stored(file["vertex"]), file["face"]
     lists = {each.name: list(face[each.name]) for each in face.properties if _is_list(each)}
     rows = lists.get("vertex_indices") or lists.get("vertex_index") or next(iter(lists.values()))

@@ -13,15 +13,11 @@ from fairing.objects.parts import Parts, Polygons, alike
 from fairing.results import FloatArray
 
 _OBJECT = "\0object"  # data: the number of the object that vertices and faces belong to
-_SCENES = (".glb", ".gltf", ".3mf")
 
 
 def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
     """All objects as one mesh, each where it stands first, and the scene with the objects, their names and places."""
     scene = trimesh.load_scene(source, process=False)
-    if source.suffix.lower() not in _SCENES:
-        parts, make = opened(scene.to_mesh())
-        return (_welded(parts) if source.suffix.lower() == ".stl" else parts), make
     meshes = {name: opened(mesh) for name, mesh in scene.geometry.items() if hasattr(mesh, "faces")}
     if not meshes:
         raise ValueError("it holds no mesh")
@@ -30,15 +26,17 @@ def read(trimesh: Any, source: Path) -> tuple[Parts, Any]:
         matrix, name = scene.graph[node]
         places.setdefault(name, matrix)
     matrices = [places.get(name, np.eye(4)) for name in meshes]
-    return _joined([parts for parts, _ in meshes.values()], matrices), (source, scene, meshes, matrices)
+    parts = _joined([parts for parts, _ in meshes.values()], matrices)
+    if source.suffix.lower() == ".stl":
+        return _welded(parts), next(iter(meshes.values()))[1]
+    return parts, (source, scene, meshes, matrices)
 
 
 def write(trimesh: Any, target: Path, parts: Parts, known: Any) -> list[str]:
     """Write a mesh, into the scene that was read if there is one; tell what it can't have."""
-    digits = {"digits": 17} if target.suffix.lower() == ".off" else {}
     if not isinstance(known, tuple):
         make = known or opened(trimesh.Trimesh([[0, 0, 0]] * 3, [[0, 1, 2]], process=False))[1]
-        make(parts).export(str(target), **digits)
+        make(parts).export(str(target))
         return sorted({*parts.vertex_data, *parts.face_data})
     source, scene, meshes, matrices = known
     for number, (name, (before, make)) in enumerate(meshes.items()):
@@ -52,7 +50,7 @@ def write(trimesh: Any, target: Path, parts: Parts, known: Any) -> list[str]:
 def _welded(parts: Parts) -> Parts:
     """Of a soup of triangles: one vertex for each place."""
     first, number = alike(parts.points)
-    said = {name: values for name, values in parts.face_data.items() if values.any()}
+    said = {name: values for name, values in parts.face_data.items() if name != _OBJECT and values.any()}
     return Parts(parts.points[first], Polygons(number[parts.faces.corners], parts.faces.sizes), {}, said)
 
 

@@ -8,7 +8,6 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing.maps import interpolate
-from fairing.measure import vertex_normals
 from fairing.objects.parts import Data, Parts
 from fairing.results import FloatArray, IntArray
 
@@ -59,8 +58,8 @@ def with_normals(made: Parts, moved: IntArray) -> Parts:
         return made
     near = np.unique(made.triangles[np.isin(made.triangles, made.same[moved]).any(axis=1)])
     touched = np.flatnonzero(np.isin(made.same, near))
-    smooth = vertex_normals(made.points, made.triangles)[made.same[touched]]
-    own = vertex_normals(made.points, made.own, normals="averaged")[touched]
+    smooth = _normals(made.points, made.triangles)[made.same[touched]]
+    own = _normals(made.points, made.own)[touched]
     data = dict(made.vertex_data)
     for name in stored:
         data[name] = values = data[name].copy()
@@ -68,6 +67,14 @@ def with_normals(made: Parts, moved: IntArray) -> Parts:
         hard[made.same[(values != values[made.same]).any(axis=1)]] = True
         values[touched] = np.where(hard[made.same[touched], None], own, smooth)
     return Parts(made.points, made.faces, data, made.face_data)
+
+
+def _normals(points: FloatArray, triangles: IntArray) -> FloatArray:
+    """(n, 3) of any triangles, by their areas: files have some that join in no manifold."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    sums = np.zeros_like(points)
+    np.add.at(sums, triangles, np.cross(b - a, c - a)[:, None])
+    return sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), np.finfo(float).tiny)
 
 
 def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
