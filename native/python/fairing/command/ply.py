@@ -114,4 +114,4 @@ def _element(plyfile: Any, name: str, columns: dict[str, Any], old: Any) -> Any:
 def _kind(kind: str, largest: Any) -> str:
     """The type, or a wider one that holds the largest number."""
     whole = np.dtype(kind).kind != "f"
-    return np.result_type(kind, np.min_scalar_type(int(largest))).str[1:] if whole else kind
+    return next(each for each in (kind, "u1", "u2", "i4", "u4") if np.iinfo(each).max >= largest) if whole else kind
