@@ -92,9 +92,7 @@ void name_once(FairResult& report) {
     report.join = joins;
 }
 
-bool is_usable(const FairResult& report) {
-    return report.converged && std::ranges::none_of(report.warnings, is_fold);
-}
+bool is_usable(const FairResult& report) { return report.converged && std::ranges::none_of(report.warnings, is_fold); }
 
 }  // namespace
 
@@ -285,7 +283,7 @@ SolvedHole HoleJob::coarser(const SolvedHole& solved, const Progress& progress) 
         const HolePatch coarse = meshed(solved.patch, split_.count(), wanted, held(), progress, &mesh);
         SolvedHole made = cut_from(solved, coarse, mesh.triangle, mesh.weights);
         wanted.least_count = finer * std::max(1, static_cast<int>(mesh.triangle.size()));
-        if (is_usable(made.report) || !solved.report.converged) return made;
+        if (is_usable(made.report) || !is_usable(solved.report)) return made;
         if (wanted.least_count >= solved.patch.vertices.cols() - split_.count()) return solved;
     }
 }
@@ -298,7 +296,9 @@ std::optional<FilledHole> HoleJob::film(const Progress& progress) const {
     options.joins_curvature = false;
     FilledHole made = HoleJob(mesh_, hole_, nullptr, options).filled(progress);
     if (!is_usable(made.report)) return std::nullopt;
-    std::erase_if(made.report.warnings, [](const Diagnostic& each) { return each.code == Code::not_tangent; });
+    std::erase_if(made.report.warnings, [](const Diagnostic& each) {
+        return each.code == Code::not_tangent || each.code == Code::normals_from_patch;
+    });
     const double kink = made.report.join.size() > 0 ? made.report.join.maxCoeff() : 0.0;
     made.report.warnings.push_back(
         {Code::no_solution,

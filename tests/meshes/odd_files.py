@@ -59,8 +59,21 @@ def _binary_stl(attribute: int = 0) -> bytes:
     return bytes(80) + struct.pack("<I", len(TRIANGLES)) + rows
 
 
+def _off(plain: str, word: str, vertex: str, face: str) -> bytes:
+    """`vertex`, `face`: what follows in each row."""
+    _, counts, *rows = plain.splitlines()
+    tails = [vertex] * len(CORNERS) + [face] * len(QUADS)
+    return "\r\n".join([word, counts, *map("".join, zip(rows, tails, strict=True)), ""]).encode()
+
+
+def _binary_off(order: str, tail: tuple[int, ...]) -> bytes:
+    places = struct.pack(f"{order}24f", *(x for corner in CORNERS for x in corner))
+    faces = [number for quad in QUADS for number in (4, *quad, *tail)]
+    return b"OFF BINARY\n" + struct.pack(f"{order}3i", 8, 5, 0) + places + struct.pack(f"{order}{len(faces)}i", *faces)
+
+
 def good() -> dict[str, bytes]:
-    """Files by names; all of them are the box. Dialects are OBJ's, which is read here: others are their libraries'."""
+    """Files by names; all of them are the box. Dialects are OBJ's and OFF's, which are read here."""
     plain = off(CORNERS, QUADS)
     return {
         **{f"{form}.ply": ply(form) for form in ("ascii", "binary_little_endian", "binary_big_endian")},
@@ -71,6 +84,19 @@ def good() -> dict[str, bytes]:
         "twice.ply": ply(faces=[*QUADS, (4, 4, 5)]),
         "wedges.ply": _wedges(),
         "plain.off": plain.encode(),
+        **{
+            f"{word or 'no_word'}{face}.off": _off(plain, word, vertex, face)
+            for word, vertex, face in [
+                ("", "", " 255 0 0"),
+                ("OFF", " 10 20 30", " 3"),
+                ("COFF", " 255 0 0 255", ""),
+                ("4OFF", " 1", ""),
+                ("NCOFF", " 0 0 1 9 8 7", " .5 .5 .5 1"),
+                ("STCNOFF", " 0 0 1 .1 .2 .3 1 .5 .25", ""),
+            ]
+        },
+        "larger_end_first.off": _binary_off(">", (0,)),
+        "pmp.off": _binary_off("<", ()),
         "comments.off": plain.replace("OFF\n", "OFF # here\n# counts\n").encode(),
         "text.stl": _stl(),
         "long_name.stl": _stl("a box, exported: 10 facets (vertex, facet)"),

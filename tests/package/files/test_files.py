@@ -59,6 +59,34 @@ def test_odd_files_are_read(name: str, tmp_path: Path) -> None:
     assert report["not_written"] == sorted(lost)
 
 
+def test_faces_and_colours_of_off_files_stay(tmp_path: Path) -> None:
+    (tmp_path / "box.off").write_bytes(GOOD["NCOFF .5 .5 .5 1.off"])
+    mesh, _ = filled(tmp_path / "box.off")
+    assert mesh.faces.sizes.tolist()[:5] == [4] * 5
+    assert mesh.vertex_data["colors"][0].tolist() == [9, 8, 7]
+    assert mesh.face_data["colors"][0].tolist() == [0.5, 0.5, 0.5, 1.0]
+
+
+def test_numbers_that_need_more_than_two_bytes_are_written(tmp_path: Path) -> None:
+    (tmp_path / "box.ply").write_bytes(GOOD["ascii.ply"])
+    _, write = files.read(tmp_path / "box.ply")
+    corners = np.array([0, 1, 69_999], np.int32)
+    write(tmp_path / "large.ply", Parts(np.random.default_rng(0).random((70_000, 3)), Polygons(corners, np.array([3]))))
+    assert np.array_equal(files.read(tmp_path / "large.ply")[0].faces.corners, corners)
+
+
+@pytest.mark.parametrize("kind", [".glb", ".stl"])
+def test_normals_are_left_to_nobody(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without SciPy trimesh takes minutes for those of a large mesh."""
+    trimesh = pytest.importorskip("trimesh")
+    mesh = trimesh.Trimesh(*holed(), process=False)
+    mesh.vertex_normals = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1)[:, None]
+    mesh.export(tmp_path / f"tube{kind}")
+    monkeypatch.setattr(trimesh.geometry, "weighted_vertex_normals", None)
+    monkeypatch.setattr(trimesh.geometry, "mean_vertex_normals", None)
+    filled(tmp_path / f"tube{kind}")
+
+
 def test_broken_files_are_rows_of_the_report(tmp_path: Path) -> None:
     """The batch goes on, and nothing but the report is on the standard output."""
     for name, raw in BROKEN.items():

@@ -296,3 +296,18 @@ def test_what_is_wrong_elsewhere_is_no_matter() -> None:
     assert found.surface is not None
     assert plain.surface is not None
     assert np.abs(found.surface.vertices - plain.surface.vertices).max() < 1e-9
+
+
+def test_a_loop_without_a_fair_surface_is_closed_by_the_one_of_least_area() -> None:
+    """Slopes that lean out by 120° at every other vertex of a circle: a flat disc, said; none with ``otherwise``."""
+    angle = np.arange(16) * np.pi / 8
+    points = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
+    lean = np.radians(120) * np.where(np.arange(16) % 2, 1, -1)[:, None]
+    normals = np.sin(lean) * points + np.cos(lean) * [0, 0, 1]
+    given: Any = (points, np.empty((0, 3), int), [np.arange(16)])
+    result = fairing.fill(*given, normals=normals)
+    (warning,) = result.warnings
+    assert result.converged and result.equation == "soap_film"
+    assert abs(result.vertices[:, 2]).max() < 1e-9
+    assert warning.code == "NO_SOLUTION" and warning.figures["film"] == 1.0 and "16 edges" in warning.message
+    assert not fairing.fill(*given, normals=normals, otherwise="stop").converged

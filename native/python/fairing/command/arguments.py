@@ -13,7 +13,7 @@ from fairing.command.work import SUFFIX
 
 _AFTER = """
 exit status: 0, all results are good; 1, some should be looked at; 3, some can't be used and were not written, or a file
-can't be read; 2, the arguments are wrong. OBJ and OFF need nothing else; other formats: pip install 'intrinsic-fairing[io]'.
+can't be read; 2, the arguments are wrong. OBJ and OFF need nothing else; others: pip install 'intrinsic-fairing[io]'.
 Many files: give several, and --jobs.
 """
 

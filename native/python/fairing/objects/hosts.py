@@ -133,9 +133,9 @@ def _open3d(mesh: Any) -> Opened:
     return Parts(np.asarray(mesh.vertices), Polygons.of(np.asarray(mesh.triangles)), *used), make
 
 
-_READERS: dict[str, Callable[[Any], Opened]] = {  # by the names that a mesh of each has
+_READERS: dict[str, Callable[[Any], Opened]] = {  # by the names that a mesh of each has; the first costs nothing
     "points faces point_data cell_data n_cells": _pyvista,
     "points cells point_data cell_data": _meshio,
-    "vertices triangles vertex_normals triangle_uvs": _open3d,
+    "triangle_uvs vertices triangles vertex_normals": _open3d,
     "vertices faces vertex_attributes face_attributes visual": _trimesh,
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from fairing.objects.data import is_normal, mixed, mixes, nearest, spread
 from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
-from fairing.results import FilletResult, FloatArray, IntArray, NewMeshResult
+from fairing.results import FilletResult, FloatArray, IntArray, NewMeshResult, SolverError
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,12 +142,13 @@ def _rows(parts: Parts, sides: Sides, surface: tuple[FloatArray, IntArray], new:
             own = {p: v for p, v in sides.copies.get(side, {}).items() if p in everywhere}
             copies = own if differs and own else everywhere
             pins, rows = np.array(list(copies)), values[list(copies.values())]
-            if not mixes(rows):
-                found[name][mine] = rows[nearest(points[new.places[mine]], points[pins])]
-                continue
             around = np.unique(sides.corners[sides.of_rim == side]) if differs else None
             trend = (points[around], values[around]) if differs else None
-            found[name][mine] = spread(surface, (pins, rows), held, trend)[new.places[mine]]
+            with suppress(SolverError):  # over triangles without area nothing spreads
+                if mixes(rows):
+                    found[name][mine] = spread(surface, (pins, rows), held, trend)[new.places[mine]]
+                    continue
+            found[name][mine] = rows[nearest(points[new.places[mine]], points[pins])]
     return found
 
 
