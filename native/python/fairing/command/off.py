@@ -80,7 +80,8 @@ def _binary(raw: bytes) -> tuple[npt.NDArray[np.float64], list[list[int]]]:
     for order, coloured in ((">", True), ("<", False)):
         whole = np.frombuffer(raw, f"{order}i4", len(raw) // 4)
         count, size = whole[:2].tolist()
-        at, rows = 3 + 3 * count, []
+        at = 3 + 3 * count
+        rows: list[list[int]] = []
         while count > 0 and len(rows) < size and 0 <= at < len(whole) and 0 < whole[at] < len(whole) - at:
             end = at + 1 + int(whole[at])
             rows.append(whole[at + 1 : end].tolist())
