@@ -109,8 +109,7 @@ class FilletOptions(Chosen):
     quads: bool = option(
         VERTICES,
         "Quads",
-        "Quads in rows along the seam that continue the edges outside from side to side. Where the sides have no "
-        "pairs, pairs of triangles",
+        "Quads in rows along the seam that continue the edges outside from side to side. Where none fit, triangles",
         False,
     )
     width_group: str = shared.group(

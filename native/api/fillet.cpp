@@ -31,8 +31,13 @@ Indices triangles_at_walls(const SeamMesh& mesh, const SeamDistance& distance) {
     return {found.begin(), found.end()};
 }
 
-LevelLine points_of_fillet(const SeamMesh& mesh, const SeamDistance& distance, const FilletInput& input,
-                           SideNormals& sides) {
+}  // namespace
+
+LevelLine fillet_line(PreparedFillet& made) {
+    const SeamMesh& mesh = made.mesh;
+    const SeamDistance& distance = made.distance;
+    const FilletInput& input = made.input;
+    SideNormals& sides = made.sides;
     const LevelLine found = level_line(mesh, distance, resolution * input.spacing, snap * input.spacing);
     const Indices passed = triangles_at(found);
     sides.find_at(passed);
@@ -43,6 +48,8 @@ LevelLine points_of_fillet(const SeamMesh& mesh, const SeamDistance& distance, c
     part_walls(mesh, distance, sides, input.spacing, line);
     return line;
 }
+
+namespace {
 
 // A side of a piece of the fillet beyond which there is none.
 struct EndSide {
@@ -151,16 +158,6 @@ void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
 
 }  // namespace
 
-FilletCut cut_along_line(const PreparedFillet& made, LevelLine line) {
-    for (LinePoint& point : line.points) {
-        if (!point.bound())
-            point.weights = weights_in(made.mesh.points, made.mesh.triangles, point.triangle, point.place);
-    }
-    FilletCut result;
-    result.mesh = cut_along(made.mesh, made.distance, line);
-    return result;
-}
-
 void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut) {
     add_boundary(made.mesh, made.input, made.sides, cut);
     for (int& parent : cut.mesh.parent) parent = made.plane[parent];
@@ -181,8 +178,7 @@ FilletCut cut_fillet(const FilletInput& given, const ProgressCallback& callback)
     PreparedFillet made(given);
     progress.report(0.3, "distance");
     FilletCut result;
-    result.mesh =
-        cut_along(made.mesh, made.distance, points_of_fillet(made.mesh, made.distance, made.input, made.sides));
+    result.mesh = cut_along(made.mesh, made.distance, fillet_line(made));
     result.eaten = eaten_parts(made.mesh, made.distance, result.mesh, 0.5 * made.input.spacing);
     progress.report(0.7, "cut");
     if (std::all_of(result.eaten.begin(), result.eaten.end(), [](const EatenPart& part) { return part.held; }))

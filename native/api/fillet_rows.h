@@ -2,17 +2,18 @@
 #pragma once
 
 #include "api/fillet.h"
-#include "fillet/row_mesh.h"
 
 namespace fairing {
 
-// A fillet's surface, solved on triangles.
-struct SolvedFillet {
+// A fillet's surface, solved on triangles within the pieces of a cut. Numbers: the mesh's vertices, the cut's points,
+// new ones.
+struct FilletSurface {
     Points vertices;
     Triangles triangles;
     Indices fixed;
-    Points normals;  // 3 × fixed
-    Points before;   // where each vertex was on the mesh
+    Points normals;            // 3 × fixed
+    Points before;             // where each vertex was on the mesh
+    std::vector<char> inside;  // of the cut's pieces: whether they are within it
 };
 
 struct WantedRows {
@@ -22,18 +23,19 @@ struct WantedRows {
 };
 
 struct FilletRows {
-    FilletCut cut;              // along the quads' border
-    std::vector<Quad> quads;    // of the mesh's vertices, the cut's points, and new ones:
-    Points places;              // these, on the surface,
-    Indices solved;             // the triangles of the surface that they lie on,
-    Points on_solved;           // and their weights there;
-    Indices given;              // the triangles of the mesh beneath them,
-    Points on_given;            // and their weights there;
-    std::vector<char> on_seam;  // whether they lie on a seam
+    FilletCut cut;                          // without the line's points that quads leave out
+    std::vector<std::array<int, 4>> quads;  // of the surface's vertices, and of new ones, which follow:
+    Triangles triangles;                    // beside them, and the surface's that stay
+    Points places;                          // the new ones on the surface,
+    Indices solved;                         // the triangles of the surface that they lie on,
+    Points on_solved;                       // and their weights there;
+    Indices given;                          // the triangles of the mesh beneath them,
+    Points on_given;                        // and their weights there;
+    std::vector<char> on_seam;              // whether they lie on a seam
 };
 
-// None where no rows fit. Throws Cancelled, and what check_mesh throws of the surface.
-std::optional<FilletRows> fillet_rows(const FilletInput& input, const WantedRows& wanted, const SolvedFillet& surface,
+// None where no rows fit. `input`: as for the cut. Throws Cancelled, and what check_mesh throws of the surface.
+std::optional<FilletRows> fillet_rows(const FilletInput& input, const WantedRows& wanted, const FilletSurface& surface,
                                       const ProgressCallback& progress);
 
 }  // namespace fairing

@@ -27,9 +27,9 @@ struct GivenPlace {
 };
 GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place);
 
-// Without its last fields, from the pieces' weights on.
-FilletCut cut_along_line(const PreparedFillet& made, LevelLine line);
-// Finds these.
+// Where it is cut.
+LevelLine fillet_line(PreparedFillet& made);
+// Finds what of a cut is not its mesh.
 void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut);
 
 }  // namespace fairing

@@ -33,13 +33,13 @@ py::dict from_cut(const FilletCut& cut) {
 
 py::object from_rows(const std::optional<FilletRows>& rows) {
     if (!rows) return py::none();
-    return py::dict("cut"_a = from_cut(rows->cut), "quads"_a = rows->quads, "places"_a = rows->places,
-                    "solved"_a = rows->solved, "on_solved"_a = rows->on_solved, "given"_a = rows->given,
-                    "on_given"_a = rows->on_given, "on_seam"_a = rows->on_seam);
+    return py::dict("cut"_a = from_cut(rows->cut), "quads"_a = rows->quads, "triangles"_a = rows->triangles,
+                    "places"_a = rows->places, "solved"_a = rows->solved, "on_solved"_a = rows->on_solved,
+                    "given"_a = rows->given, "on_given"_a = rows->on_given, "on_seam"_a = rows->on_seam);
 }
 
-// Vertices, triangles, fixed, normals, before.
-using Surface = std::tuple<Points, Triangles, Indices, Points, Points>;
+// Vertices, triangles, fixed, normals, before, inside.
+using Surface = std::tuple<Points, Triangles, Indices, Points, Points, std::vector<char>>;
 
 }  // namespace
 
@@ -68,9 +68,10 @@ void bind_fillet(py::module_& module) {
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles, const Edges& edges,
            const Widths& widths, const std::tuple<double, double>& spacings, const std::optional<VertexPairs>& counted,
            const Surface& surface) {
-            const auto& [points, faces, fixed, normals, before] = surface;
+            const auto& [points, faces, fixed, normals, before, inside] = surface;
             return fillet_rows(input_of(vertices, triangles, edges, widths, std::get<0>(spacings)),
-                               {std::get<1>(spacings), counted}, {points, faces, fixed, normals, before}, progress);
+                               {std::get<1>(spacings), counted}, {points, faces, fixed, normals, before, inside},
+                               progress);
         },
         &from_rows);
     bind(

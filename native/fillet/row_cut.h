@@ -2,18 +2,33 @@
 #pragma once
 
 #include "fillet/cut_mesh.h"
-#include "fillet/row_mesh.h"
 
 namespace fairing {
 
-// Throws NoRows unless the quads have the border of the pieces within the fillet, but for the dropped points.
-void check_border(const SplitMesh& cut, const Indices& dropped, const std::vector<Quad>& quads);
+// Takes points out of the line of a cut mesh: the pieces outside close up to a point beside each.
+class ClosedPieces {
+public:
+    // `vertices`: of the mesh and the cut. Keeps references to both.
+    ClosedPieces(const Points& vertices, SplitMesh& cut);
+    // Points that follow each other on the line, between two others. False, and nothing changes, where a piece would
+    // turn over or leave its plane.
+    bool drop(const Indices& points);
+    void finish();
 
-// Takes points out of the line: the pieces outside close up to a point beside each. `vertices`: of the mesh and the
-// cut. Throws NoRows where one would turn over.
-void drop_points(const Points& vertices, const Indices& dropped, SplitMesh& cut);
+private:
+    using Piece = Eigen::Vector3i;
+    void add(const Piece& piece, int parent);
+    void remove(int t);
+    [[nodiscard]] Indices around(const std::vector<int>& star, const Indices& group) const;
+    [[nodiscard]] std::vector<Piece> meshed(const Indices& rim) const;
+    [[nodiscard]] Vector3 at(int v) const { return vertices_.col(v); }
 
-// Degrees: the widest angle of a quad; above 180 where it is not convex.
-double widest_angle(const Quad& quad, const Points& vertices);
+    const Points& vertices_;
+    SplitMesh& cut_;
+    std::vector<Indices> at_;  // of each vertex: the pieces outside
+    std::vector<Piece> corners_;
+    std::vector<char> gone_;
+    std::vector<char> dropped_;  // of each vertex
+};
 
 }  // namespace fairing

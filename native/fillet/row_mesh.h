@@ -1,27 +1,18 @@
-// Quads in rows over a fillet: strips along its seams, blocks where they meet, caps where they fade out.
+// Quads in rows over a fillet of triangles: each band by itself, and the corners at which all bands have rows.
 #pragma once
 
-#include "fillet/row_line.h"
+#include "fillet/row_strip.h"
 
 namespace fairing {
 
-using Quad = std::array<int, 4>;
-
 struct RowMesh {
-    std::vector<Quad> quads;  // of the mesh's vertices, the line's new points, and new vertices,
-    struct Place {
-        int triangle;  // which have these places on the mesh
-        Vector3 weights;
-        bool on_seam;
-    };
-    std::vector<Place> places;
+    std::vector<Quad> quads;                 // of the surface's vertices and new ones
+    std::vector<Eigen::Vector3i> triangles;  // where rows end
+    std::vector<VertexPair> ends;            // edges of the surface where its triangles go on
 };
 
-// Where a place on the mesh is on the fillet.
-using Carried = std::function<Vector3(const Vector3&)>;
-
-// As many rows across each side as spacings go into the width. Numbers the line. Throws NoRows.
-RowMesh row_mesh(const SeamMesh& mesh, const SeamWalks& walks, const RowStrips& strips, const RowSizes& sizes,
-                 const Carried& carried, RowLine& line);
+// Adds vertices to the surface. `must`: of each vertex of its border, whether an edge outside needs it.
+RowMesh row_mesh(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, const RowSizes& sizes,
+                 RowSurface& surface);
 
 }  // namespace fairing

@@ -1,28 +1,19 @@
 #include <doctest/doctest.h>
 
 #include "fillet/row_cut.h"
+#include "fillet/row_surface.h"
 
 using namespace fairing;
 
-namespace {
-
-// A square of two triangles within a fillet.
-SplitMesh square() {
-    SplitMesh cut;
-    cut.triangles.resize(3, 2);
-    cut.triangles.col(0) << 0, 1, 2;
-    cut.triangles.col(1) << 0, 2, 3;
-    cut.parent = {0, 1};
-    cut.inside = {1, 1};
-    return cut;
-}
-
-}  // namespace
-
-TEST_CASE("rows: quads that leave the border of a fillet are none") {
-    CHECK_NOTHROW(check_border(square(), {}, {{0, 1, 2, 3}}));
-    CHECK_THROWS_AS(check_border(square(), {}, {{4, 1, 2, 3}}), NoRows);
-    CHECK_THROWS_AS(check_border(square(), {}, {{0, 1, 2, 3}, {0, 1, 2, 3}}), NoRows);
+TEST_CASE("rows: a gap between two chains is filled with triangles that are not turned over") {
+    Points points(3, 5);                // 0, 1, 2 on the right, 3, 4 on the left of them
+    points << 1.0, 1.0, 1.0, 0.0, 0.0,  //
+        0.0, 1.0, 2.0, 0.0, 2.0,        //
+        0.0, 0.0, 0.0, 0.0, 0.0;
+    const auto place = [&](int v) { return Vector3(points.col(v)); };
+    const auto up = [](double z) { return [z](int) { return Vector3(0.0, 0.0, z); }; };
+    CHECK(zipped({0, 1, 2}, {3, 4}, place, up(1.0), 1e-3).size() == 3);
+    CHECK(zipped({0, 1, 2}, {3, 4}, place, up(-1.0), 1e-3).empty());
 }
 
 TEST_CASE("rows: a concave quad has an angle above 180 degrees") {
@@ -30,8 +21,9 @@ TEST_CASE("rows: a concave quad has an angle above 180 degrees") {
     points << 0.0, 1.0, 1.0, 0.0, 0.7,  //
         0.0, 0.0, 1.0, 1.0, 0.7,        //
         0.0, 0.0, 0.0, 0.0, 0.0;
-    CHECK(widest_angle({0, 1, 2, 3}, points) == doctest::Approx(90.0));
-    CHECK(widest_angle({1, 2, 3, 4}, points) > 180.0);
+    const auto at = [&](int v) { return Vector3(points.col(v)); };
+    CHECK(widest_angle({at(0), at(1), at(2), at(3)}) == doctest::Approx(90.0));
+    CHECK(widest_angle({at(1), at(2), at(3), at(4)}) > 180.0);
 }
 
 TEST_CASE("rows: pieces outside close up over a point that goes, and none turns over") {
@@ -48,7 +40,10 @@ TEST_CASE("rows: pieces outside close up over a point that goes, and none turns 
     cut.parent = {0, 1, 2};
     cut.inside = {0, 0, 0};
     cut.line = {{0, 1}, {1, 2}};
-    drop_points(points, {1}, cut);
+    ClosedPieces pieces(points, cut);
+    CHECK(pieces.drop({1}));
+    CHECK_FALSE(pieces.drop({0}));
+    pieces.finish();
     CHECK(cut.triangles.cols() == 2);
     CHECK(cut.line == std::vector<VertexPair>{{0, 2}});
     CHECK((cut.triangles.array() != 1).all());

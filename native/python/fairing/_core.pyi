@@ -109,7 +109,7 @@ def fillet_rows(
     widths: tuple[_F, _F],
     spacings: tuple[float, float],
     counted: list[list[int]] | None,
-    surface: tuple[_F, _I, _I, _F, _F],
+    surface: tuple[_F, _I, _I, _F, _F, list[bool]],
     progress: _Run,
 ) -> _Fields | None: ...
 def cut_fillet(

@@ -12,7 +12,7 @@ from fairing import _core
 from fairing.filleting.rounded import Given, Made, Wishes, in_rows, nearest, result_of, solved
 from fairing.measure import hard_edges
 from fairing.meshing.patch import Limit, Progress, Watch, refuse_made_here
-from fairing.meshing.quads import FACES, no_rows, quads_of
+from fairing.meshing.quads import FACES, quads_of
 from fairing.options import arguments
 from fairing.options.checks import of_own_boundary
 from fairing.options.groups import Options
@@ -169,7 +169,7 @@ def fillet(
     faces : {"triangles", "quads"}
         "quads": rows along the seams. A column crosses them at each of their vertices and at each edge outside that
         comes to the line, which so goes on to the other side, and where the surface asks for one. ``result.quads``
-        says which triangles are halves of one. NO_QUAD_ROWS tells where pairs of triangles stand in (docs/quads.md).
+        says which triangles are halves of one; where no rows fit, triangles stay. NO_QUAD_ROWS tells that none do.
     neighbours : (e, 2) int
         For quads, those edges of the mesh that count, of quads and polygons. Default: all edges of the triangles.
     max_vertices : int
@@ -279,18 +279,13 @@ def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
 
 
 def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:
-    """Quads in rows; where there are none, pairs of triangles."""
-    rows = in_rows(mesh, made, wishes, length, counted, None)
-    if rows:
-        made, pairs = rows
-    else:
-        if length > wishes.spacing:
-            wishes = replace(wishes, spacing=length)
-            made = solved(mesh, mesh.cut(wishes, None), wishes)
-        _, pairs, _ = _core.paired_quads(made.vertices, made.triangles, np.empty((0, 2), np.int32))
-        warning = no_rows(mesh.seams.ravel(), "seams")
-        made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
-    result = result_of(mesh, made, wishes)
+    """Quads in rows, and triangles where there are none."""
+    rows, pairs = in_rows(mesh, made, wishes, length, counted, None) or (made, np.empty((0, 2), np.int32))
+    if not len(pairs):
+        where, text = np.unique(mesh.seams).astype(np.int32), "no rows of quads fit along the seams: triangles stay"
+        warning = Diagnostic("NO_QUAD_ROWS", text, where, "vertex", {"edges": float(len(mesh.seams)), "seams": 1.0})
+        rows = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
+    result = result_of(mesh, rows, wishes)
     return replace(result, quads=quads_of(result.triangles, pairs + result.outside))
 
 

@@ -209,53 +209,40 @@ def in_rows(
     """And the pairs (q, 2) of its triangles that are quads; None where no rows fit."""
     carried = np.einsum("kc,kcd->kd", made.weights, given.points[given.triangles[made.old]])
     before = np.concatenate([given.points, carried])
-    patch = made.patch
-    assert patch.fixed is not None
-    assert patch.normals is not None
+    fixed, normals = made.patch.fixed, made.patch.normals
+    assert fixed is not None
+    assert normals is not None
     rows = _core.fillet_rows(
         given.points, given.triangles, (given.seams.tolist(), wishes.walls.tolist()), wishes.widths,
         (wishes.spacing, spacing), None if counted is None else counted.tolist(),
-        (made.vertices, made.triangles, patch.fixed, patch.normals, before), progress,
+        (made.vertices, made.triangles, fixed, normals, before, made.inside.tolist()), progress,
     )  # fmt: skip
     if rows is None:
         return None
-    count = len(rows["quads"])
-    return _with_rows(given, made, rows, wishes), np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
-
-
-def _with_rows(given: Given, made: Made, rows: dict[str, Any], wishes: Wishes) -> Made:
-    cut = rows["cut"]
-    placed = np.concatenate([given.points, cut["points"]])
-    vertices = np.concatenate([placed, rows["places"]])
-    halves = halves_of(vertices, rows["quads"])
-    whole = cut["inside"]  # of pieces outside that are meshed anew a corner may lie beyond the parent
-    within = {"points": cut["points"], "triangles": cut["triangles"][whole], "parent": cut["parent"][whole]}
-    within["weights"] = cut["weights"].reshape(-1, 3, 3)[whole].reshape(-1, 3)
-    on_line, line_weights = line_places(within, len(given.points))
-    line_weights = np.clip(line_weights, 0.0, None)
-    weights = np.concatenate([line_weights / line_weights.sum(axis=1, keepdims=True), rows["on_given"]])
-    rim = cut["boundary"][np.isin(cut["boundary"], rows["quads"])]
-    curvature = np.concatenate([np.zeros(len(given.points)), made.values["mean_curvature"]])
-    inner = (curvature[made.triangles[rows["solved"]]] * rows["on_solved"]).sum(axis=1)
-    fixed = made.values["fixed"]
-    near = nearest(vertices[rim], made.vertices[fixed])
+    vertices = np.concatenate([made.vertices, rows["places"]])
+    triangles = np.concatenate([halves_of(vertices, rows["quads"]), rows["triangles"]])
+    known, stays = made.values["mean_curvature"], np.isin(made.values["fixed"], triangles)
+    corners = made.triangles[rows["solved"]] - len(given.points)
+    inner = (np.where(corners < 0, 0.0, known[np.maximum(corners, 0)]) * rows["on_solved"]).sum(axis=1)
     values = {
-        **made.values, "fixed": rim, "cut": True, "polished": False,
-        **{name: read_only(made.values[name][near]) for name in ("boundary_angle", "join")},
-        "mean_curvature": np.concatenate([curvature[fixed[nearest(cut["points"], made.vertices[fixed])]], inner]),
-        "warnings": tuple(_moved(warning, made, vertices, rows["quads"]) for warning in made.values["warnings"]),
+        **made.values, "cut": True, "polished": False, "mean_curvature": np.concatenate([known, inner]),
+        **{name: read_only(made.values[name][stays]) for name in ("fixed", "boundary_angle", "join")},
+        "warnings": tuple(_moved(warning, made, vertices, triangles) for warning in made.values["warnings"]),
     }  # fmt: skip
-    on_seam = len(placed) + np.flatnonzero(rows["on_seam"])
-    return replace(
-        made, cut={**cut, "eaten": made.cut["eaten"]}, inside=cut["inside"],
-        triangles=halves, vertices=vertices, line_count=len(cut["points"]), patch=Patch(vertices, halves, rim, None),
-        old=np.concatenate([on_line, rows["given"]]).astype(np.int32), weights=weights, on_seam=on_seam, values=values,
+    rowed = replace(
+        made, cut={**rows["cut"], "eaten": made.cut["eaten"]}, inside=rows["cut"]["inside"], triangles=triangles,
+        vertices=vertices, patch=Patch(vertices, triangles, values["fixed"], None),
+        old=np.concatenate([made.old, rows["given"]]).astype(np.int32),
+        weights=np.concatenate([made.weights, rows["on_given"]]),
+        on_seam=np.concatenate([made.on_seam, len(made.vertices) + np.flatnonzero(rows["on_seam"])]), values=values,
     )  # fmt: skip
+    count = len(rows["quads"])
+    return rowed, np.arange(2 * count, dtype=np.int32).reshape(2, count).T.copy()
 
 
-def _moved(warning: Diagnostic, made: Made, vertices: FloatArray, quads: IntArray) -> Diagnostic:
-    """For what it names on the solved mesh the nearest vertices of the quads."""
+def _moved(warning: Diagnostic, made: Made, vertices: FloatArray, triangles: IntArray) -> Diagnostic:
+    """For what it names on the solved mesh the nearest vertices of the one with rows."""
     names = warning.elements if warning.kind == "vertex" else made.triangles[warning.elements].ravel()
-    used = np.unique(quads)
+    used = np.unique(triangles)
     near = used[np.unique(nearest(made.vertices[names], vertices[used]))]
     return replace(warning, elements=read_only(near.astype(np.int32)), kind="vertex")

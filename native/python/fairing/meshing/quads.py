@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fairing.results import Diagnostic, FloatArray, IntArray, PairedQuads, read_only
+from fairing.results import FloatArray, IntArray, PairedQuads, read_only
 
 FACES = ("triangles", "quads")
 
@@ -35,17 +35,3 @@ def quads_of(triangles: IntArray, pairs: IntArray) -> PairedQuads:
     rest = np.setdiff1d(np.arange(len(triangles), dtype=np.int32), pairs)
     quads = np.stack(at, axis=1).astype(np.int32).reshape(-1, 4)
     return PairedQuads(*(read_only(each) for each in (quads, triangles[rest], pairs, rest)))
-
-
-def no_rows(loop: IntArray, why: str) -> Diagnostic:
-    """Why the quads over a boundary are pairs of triangles."""
-    texts = {
-        "curves": "edges that stay run through it",
-        "several": "more than two boundary loops are joined",
-        "shape": "no pattern fits its corners",
-        "seams": "the lines beside its seams have no pairs",
-    }
-    text = f"the quads over the boundary of {len(loop)} edges are pairs of triangles, in no rows: {texts[why]}"
-    return Diagnostic(
-        "NO_QUAD_ROWS", text, np.unique(loop).astype(np.int32), "vertex", {"edges": float(len(loop)), why: 1.0}
-    )

@@ -1,0 +1,37 @@
+// The rows of one band laid: in pieces where there are places without rows, with triangles at their ends.
+#pragma once
+
+#include "fillet/row_strip.h"
+
+namespace fairing {
+
+class RowPieces {
+public:
+    // Keeps references. `owner`: of the ways over the surface at which rows end.
+    RowPieces(RowColumns& columns, RowSurface& surface, const RowSizes& sizes, RowStrip& strip, int owner)
+        : columns_(columns), surface_(surface), sizes_(sizes), strip_(strip), owner_(owner) {}
+
+    // Throws NoRows where none fit, or where they don't come to a corner or a wall to which they should.
+    void lay();
+
+private:
+    // From some vertices on to others.
+    struct Piece {
+        std::array<Pair, 2> outer;
+        std::array<RowEnd, 2> ends;
+    };
+    void lay(Piece piece);
+    bool lay_part(const Piece& piece);
+    [[nodiscard]] std::array<Pair, 2> bounds(Piece& piece) const;
+    [[nodiscard]] bool is_whole_wall(const Piece& piece, int which) const;
+    bool add_end(const Column& last, const Piece& piece, int which);
+    [[nodiscard]] Indices beyond(const Column& last, const Piece& piece, int which, const Indices& way) const;
+
+    RowColumns& columns_;
+    RowSurface& surface_;
+    const RowSizes& sizes_;
+    RowStrip& strip_;
+    int owner_;
+};
+
+}  // namespace fairing

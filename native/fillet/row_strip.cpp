@@ -1,0 +1,275 @@
+#include "fillet/row_strip.h"
+
+#include <Eigen/Geometry>
+
+#include "base/progress.h"
+#include "fillet/limits.h"
+#include "geometry/triangle.h"
+
+namespace fairing {
+
+namespace {
+
+// Of the bulge over a column's chord: where the surface leaves the quads between two columns by more, another one comes
+// between.
+constexpr double bent = 0.6;         // where strips meet at corners it is up to .47, between vertices of a ring less
+constexpr double flat = 0.02;        // of the width: what bulges less is flat
+constexpr double shortest = 0.5;     // of the width: columns as near as that get none between them
+constexpr double near_column = 0.1;  // of the width: columns are no nearer to each other at the border
+constexpr double pairing = 0.2;      // of the width: so much further a vertex that an edge outside needs is taken
+constexpr double skew = 0.4;         // of the width: a column leads no further along the seam
+constexpr double seen = 1.05;        // of width · tan(turn / 2): as far along are feet of what lies across from a turn
+constexpr std::size_t fewest = 5;    // columns of a closed strip, the first one twice
+
+double way_of(const RowStrip& strip, const Pair& at) {
+    return 0.5 * (strip.sides[right].ways[at[right]] + strip.sides[left].ways[at[left]]);
+}
+
+}  // namespace
+
+Pair RowStrip::last_pair() const {
+    return {static_cast<int>(sides[right].vertices.size()) - 1, static_cast<int>(sides[left].vertices.size()) - 1};
+}
+
+void RowStrip::open_at(const Pair& at) {
+    closed = false;
+    for (const Side side : {right, left}) {
+        BandSide& own = sides[side];
+        own.vertices.pop_back();
+        own.ways.pop_back();
+        const auto begin = at[side] % std::ssize(own.vertices);
+        for (int k = 0; k < begin; ++k) own.ways[k] += arc->length();
+        std::rotate(own.vertices.begin(), own.vertices.begin() + begin, own.vertices.end());
+        std::rotate(own.ways.begin(), own.ways.begin() + begin, own.ways.end());
+    }
+}
+
+void RowStrip::turn_to(const Pair& at) {
+    open_at(at);
+    closed = true;
+    for (BandSide& side : sides) {
+        side.vertices.push_back(side.vertices.front());
+        side.ways.push_back(side.ways.front() + arc->length());
+    }
+}
+
+RowStrip strip_of(const Band& band, const std::vector<char>& must, double width) {
+    RowStrip strip{&band.arc, band.sides, band.arc.closed, {RowEnd::open, RowEnd::open}, {}, {}, {}, {}, {}};
+    for (const BandSide& side : band.sides)
+        strip.closed = strip.closed && side.vertices.size() > 3 && side.vertices.front() == side.vertices.back();
+    if (!strip.closed) return strip;
+    const BandSide& one = strip.sides[right];
+    BandSide& other = strip.sides[left];
+    Pair at{0, 0};
+    while (at[right] + 2 < std::ssize(one.vertices) && must[one.vertices[at[right]]] == 0) ++at[right];
+    const double length = band.arc.length();
+    const auto off = [&](int k) {
+        const double bonus = must[other.vertices[k]] != 0 ? pairing * width : 0.0;
+        return std::abs(std::remainder(other.ways[k] - one.ways[at[right]], length)) - bonus;
+    };
+    for (int k = 1; k + 1 < std::ssize(other.vertices); ++k) {
+        if (off(k) < off(at[left])) at[left] = k;
+    }
+    const double ahead = other.ways[at[left]] - one.ways[at[right]];
+    if (std::abs(ahead) > 0.5 * length) {
+        for (double& way : other.ways) way -= std::copysign(length, ahead);
+    }
+    strip.turn_to(at);
+    return strip;
+}
+
+void add_quads(const std::vector<Indices>& grid, std::vector<Quad>& quads) {
+    for (std::size_t i = 0; i + 1 < grid.size(); ++i) {
+        for (std::size_t j = 0; j + 1 < grid[i].size(); ++j)
+            quads.push_back({grid[i][j], grid[i + 1][j], grid[i + 1][j + 1], grid[i][j + 1]});
+    }
+}
+
+Vector3 RowColumns::on_seam(const SeamArc& arc, double way, int& half_edge) const {
+    const double on_arc = arc.closed ? way - arc.length() * std::floor(way / arc.length()) : way;
+    const auto after = std::upper_bound(arc.ways.begin(), arc.ways.end(), on_arc) - arc.ways.begin();
+    const auto k = std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(arc.half_edges) - 1);
+    half_edge = arc.half_edges[k];
+    const double along = std::clamp((on_arc - arc.ways[k]) / mesh_.length[half_edge], 0.0, 1.0);
+    return (1.0 - along) * mesh_.points.col(mesh_.tail(half_edge)) + along * mesh_.points.col(mesh_.head(half_edge));
+}
+
+void RowColumns::lift(int vertex, const SeamArc& arc, double way) {
+    int half_edge = none;
+    const Vector3 before = on_seam(arc, way, half_edge);
+    surface_.lift(vertex, half_edge, before);
+}
+
+// On the conic that is tangent to the sides' lines to the seam: between planes it is the arc.
+Column RowColumns::column(const RowStrip& strip, const Crossing& crossing) {
+    const int from = strip.sides[right].vertices[crossing.at[right]];
+    const int to = strip.sides[left].vertices[crossing.at[left]];
+    int half_edge = none;
+    const Vector3 seam = on_seam(*strip.arc, crossing.way, half_edge);
+    const Vector3 come = surface_.place(from) - seam;
+    const Vector3 go = surface_.place(to) - seam;
+    const double weight = std::sin(0.5 * radians_between(come, go));  // a circle's, between sides of one length
+    const auto conic = [&](double t) {
+        const double begin = (1.0 - t) * (1.0 - t);
+        return Vector3(seam + (begin * come + t * t * go) / (begin + 2.0 * weight * t * (1.0 - t) + t * t));
+    };
+    Column made{crossing.at, crossing.way, surface_.along(conic, sizes_.rows)};
+    surface_.lift(made.ids[sizes_.rows / 2 - 1], half_edge, seam);
+    made.ids.insert(made.ids.begin(), from);
+    made.ids.push_back(to);
+    return made;
+}
+
+// The vertex on a side that is nearest to a way; one that an edge outside needs comes first if it is near, too.
+int RowColumns::nearest(const BandSide& side, double way) const {
+    const auto off = [&](int k) {
+        return std::abs(side.ways[k] - way) - (must_[side.vertices[k]] != 0 ? pairing * sizes_.width : 0.0);
+    };
+    int best = 0;
+    for (int k = 1; k < std::ssize(side.ways); ++k) {
+        if (off(k) < off(best)) best = k;
+    }
+    int last = best;  // of several that are reached from one place, as around a corner, the middle one
+    while (last + 1 < std::ssize(side.ways) && off(last + 1) == off(best)) ++last;
+    return (best + last) / 2;
+}
+
+// Of the seam's inner vertices.
+std::vector<RowColumns::Turn> RowColumns::turns(const SeamArc& arc, double from) const {
+    const auto way = [&](int h) { return Vector3(mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h))); };
+    std::vector<Turn> found;
+    const std::size_t count = arc.half_edges.size();
+    for (std::size_t k = arc.closed ? 0 : 1; k < count; ++k) {
+        const double angle = radians_between(way(arc.half_edges[(k + count - 1) % count]), way(arc.half_edges[k]));
+        const double first = arc.closed ? std::floor((from - arc.ways[k]) / arc.length()) : 0.0;
+        for (int lap = 0; lap < (arc.closed ? 3 : 1); ++lap)
+            found.push_back({arc.ways[k] + (first + lap) * arc.length(), angle});
+    }
+    return found;
+}
+
+// What lies across from a turn has its foot beside it: the column leads over the turn.
+double RowColumns::over_turn(double way, const std::vector<Turn>& turns) const {
+    for (const auto& [at, angle] : turns) {
+        if (std::abs(way - at) <= seen * sizes_.width * std::tan(0.5 * angle)) way = at;
+    }
+    return way;
+}
+
+// Where the seam turns, and across from each vertex that an edge outside needs.
+std::vector<RowColumns::Crossing> RowColumns::wanted(const RowStrip& strip, const Pair& first, const Pair& last,
+                                                     const std::vector<Turn>& turns) const {
+    std::vector<Crossing> found;
+    for (const auto& [at, angle] : turns) {
+        if (angle >= corner_angle)
+            found.push_back({{nearest(strip.sides[right], at), nearest(strip.sides[left], at)}, at});
+    }
+    for (const Side side : {right, left}) {
+        const BandSide& own = strip.sides[side];
+        const BandSide& across = strip.sides[1 - side];
+        for (int k = first[side] + 1; k < last[side]; ++k) {
+            if (must_[own.vertices[k]] == 0) continue;
+            Pair at{};
+            at[side] = k;
+            at[1 - side] = nearest(across, own.ways[k]);
+            if (std::abs(across.ways[at[1 - side]] - own.ways[k]) <= skew * sizes_.width)
+                found.push_back({at, over_turn(way_of(strip, at), turns)});
+        }
+    }
+    std::ranges::stable_sort(found, {}, &Crossing::way);
+    return found;
+}
+
+bool RowColumns::is_clear(const RowStrip& strip, const Crossing& one, const Crossing& two) const {
+    return two.way > one.way && std::ranges::all_of(std::array{right, left}, [&](Side side) {
+               const Indices& own = strip.sides[side].vertices;
+               return two.at[side] > one.at[side] &&
+                      surface_.length_before(own[two.at[side]], own[one.at[side]]) >= near_column * sizes_.width;
+           });
+}
+
+std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first, const Pair& last,
+                                        const std::array<Indices, 2>& given) {
+    const double from = way_of(strip, first);
+    const std::vector<Turn> turned = turns(*strip.arc, from);
+    const Crossing begin{first, strip.closed ? over_turn(from, turned) : from};
+    const Crossing end{last, strip.closed ? begin.way + strip.arc->length() : way_of(strip, last)};
+    std::vector<Crossing> crossings{begin};
+    for (const Crossing& each : wanted(strip, first, last, turned)) {
+        if (is_clear(strip, crossings.back(), each) && is_clear(strip, each, end)) crossings.push_back(each);
+    }
+    std::vector<Column> made;
+    for (const Crossing& each : crossings) made.push_back(column(strip, each));
+    made.push_back(strip.closed ? Column{end.at, end.way, made.front().ids} : column(strip, end));
+    if (!given[0].empty()) made.front().ids = given[0];
+    if (!given[1].empty()) made.back().ids = given[1];
+    for (std::size_t k = 0; k + 1 < made.size();) {  // more where the surface is not straight
+        checkpoint();
+        const std::optional<Crossing> at = between(strip, made[k], made[k + 1]);
+        const std::optional<Column> middle = at ? std::optional(column(strip, *at)) : std::nullopt;
+        if (middle && (is_bent(made[k], *middle, made[k + 1]) || (strip.closed && made.size() < fewest)))
+            made.insert(made.begin() + static_cast<std::ptrdiff_t>(k) + 1, *middle);
+        else
+            ++k;
+    }
+    return made;
+}
+
+// Half way between two columns, where these are not near.
+std::optional<RowColumns::Crossing> RowColumns::between(const RowStrip& strip, const Column& one,
+                                                        const Column& two) const {
+    Crossing found{{}, 0.5 * (one.way + two.way)};
+    if (two.way - one.way <= shortest * sizes_.width) return std::nullopt;
+    for (const Side side : {right, left}) {
+        if (two.at[side] - one.at[side] < 2) return std::nullopt;
+        found.at[side] = half_way(strip.sides[side], one.at[side], two.at[side]);
+    }
+    return found;
+}
+
+int RowColumns::half_way(const BandSide& side, int begin, int end) const {
+    std::vector<double> lengths{0.0};
+    for (int k = begin; k < end; ++k)
+        lengths.push_back(lengths.back() + surface_.length_before(side.vertices[k + 1], side.vertices[k]));
+    const auto found = std::lower_bound(lengths.begin(), lengths.end(), 0.5 * lengths.back()) - lengths.begin();
+    return std::clamp(begin + static_cast<int>(found), begin + 1, end - 1);
+}
+
+bool RowColumns::is_bent(const Column& one, const Column& middle, const Column& two) const {
+    const auto at = [&](int v) { return surface_.place(v); };
+    const double share = two.way > one.way ? (middle.way - one.way) / (two.way - one.way) : 0.5;
+    const Vector3 chord = 0.5 * (at(middle.ids.front()) + at(middle.ids.back()));
+    double off = 0.0;
+    double bulge = std::numeric_limits<double>::infinity();
+    for (std::size_t j = 1; j + 1 < middle.ids.size(); ++j) {
+        const Vector3 along = (at(two.ids[j]) - at(one.ids[j])).normalized();
+        const Vector3 leaves = at(middle.ids[j]) - (1.0 - share) * at(one.ids[j]) - share * at(two.ids[j]);
+        off = std::max(off, (leaves - leaves.dot(along) * along).norm());
+        bulge = std::min(bulge, (at(middle.ids[j]) - chord).norm());
+    }
+    return off > std::max(bent * bulge, flat * sizes_.width);
+}
+
+int RowColumns::mend(const RowStrip& strip, std::vector<Column>& columns) {
+    const auto is_good = [&](std::size_t one, std::size_t two) {
+        std::vector<Quad> quads;
+        add_quads({columns[one].ids, columns[two].ids}, quads);
+        return surface_.are_good(quads);
+    };
+    for (std::size_t k = 0; k + 1 < columns.size();) {
+        const auto place = columns.begin() + static_cast<std::ptrdiff_t>(k);
+        if (is_good(k, k + 1))
+            ++k;
+        else if (k + 2 < columns.size() && is_good(k, k + 2))
+            columns.erase(place + 1);
+        else if (k > 0 && is_good(k - 1, k + 1))
+            columns.erase(place);
+        else if (const auto at = between(strip, columns[k], columns[k + 1]))
+            columns.insert(place + 1, column(strip, *at));
+        else
+            return static_cast<int>(k);
+    }
+    return none;
+}
+
+}  // namespace fairing
