@@ -22,7 +22,7 @@ public:
           columns_(mesh, must, sizes, surface),
           corners_(bands.corners.size()) {
         for (const Band& band : bands.bands) {
-            strips_.push_back({strip_of(band, must, sizes.width)});
+            strips_.push_back({strip_of(mesh, band, must, sizes.width)});
             strips_.back().fails = band.sides[right].vertices.size() < 2 || band.sides[left].vertices.size() < 2;
         }
         for (std::size_t c = 0; c < corners_.size(); ++c) prepare(c);

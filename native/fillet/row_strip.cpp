@@ -25,6 +25,24 @@ double way_of(const RowStrip& strip, const Pair& at) {
     return 0.5 * (strip.sides[right].ways[at[right]] + strip.sides[left].ways[at[left]]);
 }
 
+double turn_at(const SeamMesh& mesh, const SeamArc& arc, std::size_t k) {
+    const auto way = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
+    const std::size_t count = arc.half_edges.size();
+    return radians_between(way(arc.half_edges[(k + count - 1) % count]), way(arc.half_edges[k]));
+}
+
+// Of a closed seam: where it turns, or across from an edge outside.
+double begin_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must) {
+    for (std::size_t k = 0; k < band.arc.half_edges.size(); ++k) {
+        if (turn_at(mesh, band.arc, k) >= corner_angle) return band.arc.ways[k];
+    }
+    for (const BandSide& side : band.sides) {
+        const auto found = std::ranges::find_if(side.vertices, [&](int v) { return must[v] != 0; });
+        if (found != side.vertices.end()) return side.ways[found - side.vertices.begin()];
+    }
+    return band.sides[right].ways.front();
+}
+
 }  // namespace
 
 Pair RowStrip::last_pair() const {
@@ -53,26 +71,28 @@ void RowStrip::turn_to(const Pair& at) {
     }
 }
 
-RowStrip strip_of(const Band& band, const std::vector<char>& must, double width) {
+RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must, double width) {
     RowStrip strip{&band.arc, band.sides, band.arc.closed, {RowEnd::open, RowEnd::open}, {}, {}, {}, {}, {}};
     for (const BandSide& side : band.sides)
         strip.closed = strip.closed && side.vertices.size() > 3 && side.vertices.front() == side.vertices.back();
     if (!strip.closed) return strip;
-    const BandSide& one = strip.sides[right];
-    BandSide& other = strip.sides[left];
-    Pair at{0, 0};
-    while (at[right] + 2 < std::ssize(one.vertices) && must[one.vertices[at[right]]] == 0) ++at[right];
     const double length = band.arc.length();
-    const auto off = [&](int k) {
-        const double bonus = must[other.vertices[k]] != 0 ? pairing * width : 0.0;
-        return std::abs(std::remainder(other.ways[k] - one.ways[at[right]], length)) - bonus;
-    };
-    for (int k = 1; k + 1 < std::ssize(other.vertices); ++k) {
-        if (off(k) < off(at[left])) at[left] = k;
-    }
-    const double ahead = other.ways[at[left]] - one.ways[at[right]];
-    if (std::abs(ahead) > 0.5 * length) {
-        for (double& way : other.ways) way -= std::copysign(length, ahead);
+    const double way = begin_of(mesh, band, must);
+    Pair at{};
+    for (const Side side : {right, left}) {
+        BandSide& own = strip.sides[side];
+        const auto off = [&](int k) {
+            const double bonus = must[own.vertices[k]] != 0 ? pairing * width : 0.0;
+            return std::abs(std::remainder(own.ways[k] - way, length)) - bonus;
+        };
+        for (int k = 1; k + 1 < std::ssize(own.vertices); ++k) {
+            if (off(k) < off(at[side])) at[side] = k;
+        }
+        int last = at[side];  // of several that are reached from one place the middle one
+        while (last + 2 < std::ssize(own.vertices) && off(last + 1) == off(at[side])) ++last;
+        at[side] = (at[side] + last) / 2;
+        const double laps = std::round((own.ways[at[side]] - way) / length);
+        for (double& each : own.ways) each -= laps * length;
     }
     strip.turn_to(at);
     return strip;
@@ -136,11 +156,10 @@ int RowColumns::nearest(const BandSide& side, double way) const {
 
 // Of the seam's inner vertices.
 std::vector<RowColumns::Turn> RowColumns::turns(const SeamArc& arc, double from) const {
-    const auto way = [&](int h) { return Vector3(mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h))); };
     std::vector<Turn> found;
     const std::size_t count = arc.half_edges.size();
     for (std::size_t k = arc.closed ? 0 : 1; k < count; ++k) {
-        const double angle = radians_between(way(arc.half_edges[(k + count - 1) % count]), way(arc.half_edges[k]));
+        const double angle = turn_at(mesh_, arc, k);
         const double first = arc.closed ? std::floor((from - arc.ways[k]) / arc.length()) : 0.0;
         for (int lap = 0; lap < (arc.closed ? 3 : 1); ++lap)
             found.push_back({arc.ways[k] + (first + lap) * arc.length(), angle});

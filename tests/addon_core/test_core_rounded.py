@@ -59,11 +59,9 @@ def _normal(mesh: MeshArrays, face: int) -> np.ndarray:
     return normal / np.linalg.norm(normal)
 
 
-def test_a_seam_that_ends_where_its_face_turns_in_gets_blocks_around_its_end() -> None:
-    """One edge of an L, from its inner corner: the line leads around that through the half turn to the next edge.
-
-    Two blocks of a quarter lie there, each with a pole; the other end is at a wall, without one.
-    """
+def test_a_seam_that_ends_where_its_face_turns_in_has_triangles_there_alone() -> None:
+    """One edge of an L, from its inner corner: the line leads around that through the half turn to the next edge. The
+    other end is at a wall."""
     ell = np.array([[1.0, 1.0], [1.0, 2.0], [0.0, 2.0], [0.0, 0.0], [2.0, 0.0], [2.0, 1.0]])
     points = np.concatenate([np.column_stack([ell, np.full(6, z)]) for z in (0.0, 1.0)])
     walls = [[k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k] for k in range(6)]
@@ -72,12 +70,11 @@ def test_a_seam_that_ends_where_its_face_turns_in_gets_blocks_around_its_end() -
     result = round_arrays(mesh, seam, ALL, FilletOptions(width=0.2, quads=True))
     assert result.warnings == ()
     new = result.polygons.polygons[result.unselected :]
-    assert {len(polygon) for polygon in new} == {4}
-    sides = [(a, b) for polygon in new for a, b in zip(polygon, [*polygon[1:], polygon[0]], strict=True)]
-    border = {v for a, b in sides if (b, a) not in set(sides) for v in (a, b)}
-    around = np.bincount([v for polygon in new for v in polygon])
-    inner = [int(around[v]) for v in set(np.concatenate(new).tolist()) - border]
-    assert (inner.count(3), set(inner)) == (2, {3, 4})
+    places = np.concatenate([mesh.positions[result.part.stay], result.new_positions])
+    along = np.array([places[polygon, 1].mean() for polygon in new])
+    count = np.array([len(polygon) for polygon in new])
+    assert (count[(along > 1.3) & (along < 1.9)] == 4).all()
+    assert (count == 4).sum() >= 8
 
 
 @pytest.mark.parametrize(("sides", "length"), [(4, 3.2), (6, 4.8)])

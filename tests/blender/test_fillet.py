@@ -360,4 +360,4 @@ def test_quads_in_no_rows_are_told() -> None:
         None,
         module("options.other_options").FilletOptions(width=WIDTH, quads=True),
     )
-    assert "No rows of quads fit along the seam: triangles stay" in result.warnings
+    assert "No rows of quads fit along the seam" in result.warnings
