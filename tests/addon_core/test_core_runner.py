@@ -13,6 +13,14 @@ from addon.run.runner import NAME, Run, stop_all
 import fairing
 
 
+def test_raises_what_the_work_raises() -> None:
+    def work(_progress: Any) -> int:
+        raise ValueError("spoilt")
+
+    with pytest.raises(ValueError, match="spoilt"):
+        Run(work).result()
+
+
 def test_shows_progress_and_ends() -> None:
     reported, go_on = threading.Event(), threading.Event()
 
