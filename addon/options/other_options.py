@@ -88,7 +88,7 @@ class FilletOptions(Chosen):
         SURFACE,
         "Clamp",
         "No wider than there is room beside each edge, and a message says where. Otherwise such a width is refused",
-        False,
+        True,
     )
     profile: float = option(
         SURFACE,
@@ -102,7 +102,8 @@ class FilletOptions(Chosen):
     spacing: float = shared.length(
         VERTICES,
         "Edge Length",
-        "Length of the new edges, in world space, with Quads across the seam; 0: a quarter of the least width",
+        "Length of the new edges, in world space, with Quads across the seam; less where the fillet is narrower; "
+        "0: a quarter of its width",
         0.0,
         slider=(0.0, 1.0),
     )

@@ -3,9 +3,8 @@
 #include <map>
 #include <set>
 
-#include <Eigen/Geometry>
-
 #include "api/prepared_fillet.h"
+#include "fillet/end_cuts.h"
 #include "fillet/limits.h"
 #include "geometry/flips.h"
 #include "geometry/triangle.h"
@@ -42,8 +41,8 @@ LevelLine fillet_line(PreparedFillet& made) {
     const Indices passed = triangles_at(found);
     sides.find_at(passed);
     LevelLine line = resampled(mesh, distance, found, input.spacing, sides);
-    join_at_walls(mesh, input.spacing, line);
-    part_seams(mesh, input.spacing, line);
+    join_at_walls(mesh, distance, input.spacing, line);
+    part_seams(mesh, distance, input.spacing, line);
     sides.find_at(triangles_at_walls(mesh, distance));
     part_walls(mesh, distance, sides, input.spacing, line);
     return line;
@@ -70,21 +69,6 @@ std::vector<EndSide> ends_of(const SplitMesh& cut) {
     return ends;
 }
 
-// Barycentric weights of a place in the plane of a triangle.
-Vector3 weights_in(const Points& points, const Triangles& triangles, int triangle, const Vector3& place) {
-    const Vector3 start = points.col(triangles(0, triangle));
-    const Vector3 along = Vector3(points.col(triangles(1, triangle))) - start;
-    const Vector3 to_apex = Vector3(points.col(triangles(2, triangle))) - start;
-    const double length = along.norm();
-    if (!(length > 0.0)) return Vector3::Constant(1.0 / 3.0);
-    const Vector3 x = along / length;
-    const Vector3 above = to_apex - to_apex.dot(x) * x;
-    const double height = above.norm();
-    const double apex = height > 0.0 ? (place - start).dot(above) / (height * height) : 0.0;
-    const double head = ((place - start).dot(x) - apex * to_apex.dot(x)) / length;
-    return {1.0 - apex - head, head, apex};
-}
-
 void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& sides, FilletCut& result) {
     const std::vector<EndSide> ends = ends_of(result.mesh);
     std::set<int> parents;
@@ -96,7 +80,7 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
         const int parent = result.mesh.parent[end.piece];
         for (const int v : {end.from, end.to}) {
             const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(result.mesh.points.col(v - old));
-            const Vector3 weights = weights_in(mesh.points, mesh.triangles, parent, place);
+            const Vector3 weights = barycentric(mesh.points, mesh.triangles, parent, place);
             seen[v].emplace_back(sides.normal(parent, weights), sides.curvature(parent, weights));
         }
     }
@@ -144,15 +128,42 @@ Points weights_in_parents(const FilletInput& input, const SplitMesh& cut) {
         const int v = cut.triangles(c % 3, c / 3);
         const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(cut.points.col(v - old));
         const int parent = cut.parent[static_cast<std::size_t>(c / 3)];
-        weights.col(c) = weights_in(input.vertices, input.triangles, parent, place);
+        weights.col(c) = barycentric(input.vertices, input.triangles, parent, place);
     }
     return weights;
+}
+
+// At each vertex within the fillet; elsewhere none counts.
+VectorX spacings_of(const PreparedFillet& made, const SplitMesh& cut) {
+    const Eigen::Index old = made.input.vertices.cols();
+    VectorX found = VectorX::Constant(old + cut.points.cols(), made.input.spacing);
+    for (Eigen::Index c = 0; c < cut.triangles.size(); ++c) {
+        if (cut.inside[c / 3] == 0) continue;
+        const int v = cut.triangles(c % 3, c / 3);
+        const Vector3 place = v < old ? Vector3(made.input.vertices.col(v)) : Vector3(cut.points.col(v - old));
+        const int parent = cut.parent[c / 3];
+        const Vector3 weights = barycentric(made.mesh.points, made.mesh.triangles, parent, place);
+        found[v] = std::min(found[v], made.input.spacing * made.distance.relative_width(parent, weights));
+    }
+    return found;
+}
+
+void set_sections(const EndSections& sections, FilletCut& cut) {
+    for (std::size_t k = 0; k < sections.vertices.size(); ++k) {
+        const int v = sections.vertices[k];
+        const auto at = std::ranges::lower_bound(cut.boundary, v) - cut.boundary.begin();
+        if (at == std::ssize(cut.boundary) || cut.boundary[at] != v) continue;
+        cut.normals.col(at) = sections.normals[k];
+        cut.curvatures[at] = std::numeric_limits<double>::quiet_NaN();
+        std::erase(cut.corners, v);
+    }
 }
 
 void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
     Points points(3, input.vertices.cols() + cut.points.cols());
     points << input.vertices, cut.points;
-    for (const TurnedCap& turned : turn_caps(points, cut.inside, cut.inside, snap * input.spacing, cut.triangles))
+    for (const TurnedCap& turned :
+         turn_caps(points, cut.inside, cut.inside, snap * finest_spacing(input), cut.triangles))
         cut.parent[turned.cap] = cut.parent[turned.beside];
 }
 
@@ -160,6 +171,7 @@ void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
 
 void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut) {
     add_boundary(made.mesh, made.input, made.sides, cut);
+    cut.spacings = spacings_of(made, cut.mesh);
     for (int& parent : cut.mesh.parent) parent = made.plane[parent];
     turn_caps_inside(made.input, cut.mesh);
     cut.weights = weights_in_parents(given, cut.mesh);
@@ -167,7 +179,7 @@ void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut) 
 
 GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place) {
     const int parent = made.plane[triangle];
-    Vector3 weights = weights_in(given.vertices, given.triangles, parent, place);
+    Vector3 weights = barycentric(given.vertices, given.triangles, parent, place);
     weights = (weights.array() < roundoff).select(0.0, weights);
     return {parent, weights / weights.sum()};
 }
@@ -179,10 +191,14 @@ FilletCut cut_fillet(const FilletInput& given, const ProgressCallback& callback)
     progress.report(0.3, "distance");
     FilletCut result;
     result.mesh = cut_along(made.mesh, made.distance, fillet_line(made));
-    result.eaten = eaten_parts(made.mesh, made.distance, result.mesh, 0.5 * made.input.spacing);
+    result.eaten = eaten_parts(made.mesh, made.distance, result.mesh, 0.5 * finest_spacing(made.input));
     progress.report(0.7, "cut");
-    if (std::all_of(result.eaten.begin(), result.eaten.end(), [](const EatenPart& part) { return part.held; }))
+    if (std::all_of(result.eaten.begin(), result.eaten.end(), [](const EatenPart& part) { return part.held; })) {
+        EndSections sections;
+        if (given.through) sections = cut_ends(made.mesh, made.sides, result.mesh);
         finish_cut(given, made, result);
+        set_sections(sections, result);
+    }
     progress.report(1.0, "done");
     return result;
 }

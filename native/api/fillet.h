@@ -13,12 +13,14 @@ struct FilletInput {
     std::vector<VertexPair> walls;  // edges that a fillet does not reach over
     SeamWidths widths;              // of each vertex; those of the seams are read, and are positive: on the left is the
                                     // larger part, as fillet/seam_sides has it
-    double spacing = 1.0;           // of the new boundary's vertices, a length
+    bool through = false;  // whether ends of seams cut the faces there (fillet/end_cuts), and do not fade out before
+    double spacing = 1.0;           // of new edges where the fillet is widest; elsewhere in proportion to its width
 };
 
 struct FilletCut {
     SplitMesh mesh;
     Points weights;      // barycentric, of the corners of its triangles in their parents: 3 × (3 × triangles)
+    VectorX spacings;    // of new edges at each vertex, old ones first
     Indices boundary;    // vertices where the fillet ends, ascending
     Points normals;      // 3 × of these: unit, of the sides beyond
     VectorX curvatures;  // of these: H in length⁻¹, NaN where not known

@@ -140,7 +140,9 @@ void OldSurface::fit_at_creases(const std::vector<char>& free_slope) {
 }
 
 VectorX OldSurface::lengths(const WantedLengths& wanted, const KeptEdges& kept) const {
-    return edge_lengths(patch, points, {wanted.spacing / unit.diameter, wanted.least_count, wanted.spread}, kept);
+    WantedLengths own{wanted.spacing / unit.diameter, wanted.least_count, wanted.spread};
+    if (wanted.each.size() > 0) own.each = wanted.each(patch.to_input) / unit.diameter;
+    return edge_lengths(patch, points, own, kept);
 }
 
 std::vector<Patch> patches_with_vertices(const CheckedMesh& mesh) {

@@ -62,6 +62,17 @@ void part_doubled(FilletInput& input) {
     for (const auto& [v, way] : ways) input.vertices.col(v) += way;
 }
 
+double width_of(const FilletInput& input, bool largest) {
+    double result = largest ? 0.0 : input.widths.largest();
+    for (const auto& [a, b] : input.seams) {
+        for (const int v : {a, b}) {
+            const auto [less, more] = std::minmax(input.widths.left[v], input.widths.right[v]);
+            result = largest ? std::max(result, more) : std::min(result, less);
+        }
+    }
+    return result;
+}
+
 // So that seams have no triangles without area beside them. `plane`: of each triangle, one in whose plane it is.
 void turn_caps_at_seams(FilletInput& input, Indices& plane) {
     std::vector<char> on_seam(static_cast<std::size_t>(input.vertices.cols()), 0);
@@ -72,7 +83,8 @@ void turn_caps_at_seams(FilletInput& input, Indices& plane) {
         at_seam[t] = on_seam[corners[0]] + on_seam[corners[1]] + on_seam[corners[2]] > 1 ? 1 : 0;
     }
     const std::vector<char> all(plane.size(), 1);
-    for (const TurnedCap& turned : turn_caps(input.vertices, at_seam, all, snap * input.spacing, input.triangles)) {
+    for (const TurnedCap& turned :
+         turn_caps(input.vertices, at_seam, all, snap * finest_spacing(input), input.triangles)) {
         plane[turned.cap] = plane[turned.beside];
         for (auto* widths : {&input.widths.left, &input.widths.right}) {
             double& width = (*widths)[turned.over];
@@ -101,18 +113,11 @@ SeamMesh& directed_mesh(SeamMesh& mesh, const std::vector<VertexPair>& seams) {
     return mesh;
 }
 
-double width_of(const FilletInput& input, bool largest) {
-    double result = largest ? 0.0 : input.widths.largest();
-    for (const auto& [a, b] : input.seams) {
-        for (const int v : {a, b}) {
-            const auto [less, more] = std::minmax(input.widths.left[v], input.widths.right[v]);
-            result = largest ? std::max(result, more) : std::min(result, less);
-        }
-    }
-    return result;
-}
-
 }  // namespace
+
+double finest_spacing(const FilletInput& input) {
+    return input.spacing * width_of(input, false) / width_of(input, true);
+}
 
 PreparedFillet::PreparedFillet(const FilletInput& given)
     : input(with_parted(given)),

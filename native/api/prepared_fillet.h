@@ -27,6 +27,8 @@ struct GivenPlace {
 };
 GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place);
 
+// Where the fillet is narrowest.
+double finest_spacing(const FilletInput& input);
 // Where it is cut.
 LevelLine fillet_line(PreparedFillet& made);
 // Finds what of a cut is not its mesh.

@@ -12,12 +12,15 @@ namespace {
 
 using namespace py::literals;
 
-// Spacing, least count, whether one length holds everywhere, and whether the old triangles are flat.
-using Wanted = std::tuple<double, int, bool, bool>;
+// Spacing, or one of each vertex; least count, whether one length holds everywhere, and whether the old triangles are
+// flat.
+using Wanted = std::tuple<std::variant<double, VectorX>, int, bool, bool>;
 
 WantedLengths to_lengths(const Wanted& wanted) {
     const auto& [spacing, least_count, even, flat] = wanted;
-    return {spacing, least_count, even ? Spread::equal : Spread::outline, flat};
+    const Spread spread = even ? Spread::equal : Spread::outline;
+    if (const auto* each = std::get_if<VectorX>(&spacing)) return {0.0, least_count, spread, *each, flat};
+    return {std::get<double>(spacing), least_count, spread, {}, flat};
 }
 
 // Fixed vertices on creases, and on smooth curves.

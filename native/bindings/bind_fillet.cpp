@@ -17,9 +17,9 @@ using Edges = std::tuple<VertexPairs, VertexPairs>;
 using Widths = std::tuple<VectorX, VectorX>;
 
 FilletInput input_of(const Points& vertices, const Triangles& triangles, const Edges& edges, const Widths& widths,
-                     double spacing) {
+                     double spacing, bool through = false) {
     return {vertices, triangles, std::get<0>(edges), std::get<1>(edges), {std::get<0>(widths), std::get<1>(widths)},
-            spacing};
+            through,  spacing};
 }
 
 py::dict from_cut(const FilletCut& cut) {
@@ -27,8 +27,9 @@ py::dict from_cut(const FilletCut& cut) {
     for (const EatenPart& part : cut.eaten) eaten.append(py::make_tuple(part.vertices, part.widest, part.held));
     return py::dict("points"_a = cut.mesh.points, "triangles"_a = cut.mesh.triangles, "parent"_a = cut.mesh.parent,
                     "inside"_a = cut.mesh.inside, "weights"_a = cut.weights, "seams"_a = cut.mesh.seams,
-                    "line"_a = cut.mesh.line, "boundary"_a = cut.boundary, "normals"_a = cut.normals,
-                    "curvatures"_a = cut.curvatures, "corners"_a = cut.corners, "eaten"_a = eaten);
+                    "line"_a = cut.mesh.line, "spacings"_a = cut.spacings, "boundary"_a = cut.boundary,
+                    "normals"_a = cut.normals, "curvatures"_a = cut.curvatures, "corners"_a = cut.corners,
+                    "eaten"_a = eaten);
 }
 
 py::object from_rows(const std::optional<FilletRows>& rows) {
@@ -75,10 +76,11 @@ void bind_fillet(py::module_& module) {
         },
         &from_rows);
     bind(
-        module, "cut_fillet", {"vertices", "triangles", "edges", "widths", "spacing", "progress"},
+        module, "cut_fillet", {"vertices", "triangles", "edges", "widths", "spacing", "through", "progress"},
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles, const Edges& edges,
-           const Widths& widths,
-           double spacing) { return cut_fillet(input_of(vertices, triangles, edges, widths, spacing), progress); },
+           const Widths& widths, double spacing, bool through) {
+            return cut_fillet(input_of(vertices, triangles, edges, widths, spacing, through), progress);
+        },
         &from_cut);
 }
 

@@ -42,10 +42,10 @@ void bind_meshing(py::module_& module) {
         },
         &from_patch);
     bind(
-        module, "first_mesh", {"vertices", "triangles", "inside", "seams", "spacing"},
+        module, "first_mesh", {"vertices", "triangles", "inside", "seams", "spacings"},
         [](const Points& vertices, const Triangles& triangles, const std::vector<char>& inside,
            const VertexPairs& seams,
-           double spacing) { return first_mesh({vertices, triangles, inside, seams}, spacing); },
+           const VectorX& spacings) { return first_mesh({vertices, triangles, inside, seams}, spacings); },
         [](const FirstMesh& first) {
             return py::make_tuple(first.inside, first.pieces, first.triangles, first.lines);
         });

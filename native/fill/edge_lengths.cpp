@@ -103,6 +103,7 @@ double enough_growth(const Patch& patch, const Points& points, const VectorX& bo
 
 // Those wanted away from all that stays.
 VectorX lengths_inside(const Patch& patch, const Points& points, const WantedLengths& wanted, const VectorX& border) {
+    if (wanted.each.size() > 0) return wanted.each;
     const double mean = mean_border_edge(patch, points);
     const bool has_scale = mean > 0.0 && wanted.spacing > 0.0;
     if (wanted.spread == Spread::outline && (has_scale || wanted.spacing <= 0.0))

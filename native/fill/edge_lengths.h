@@ -15,6 +15,7 @@ struct WantedLengths {
     double spacing = 0.0;  // of an edge in the mean of the outline's; 0: as these are
     int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
     Spread spread = Spread::outline;
+    VectorX each = {};  // with equal spread, of each vertex in place of the spacing
     bool flat = false;  // the old triangles are the surface as they are; small angles that smoothing leaves stay
 };
 

@@ -30,11 +30,11 @@ Triangles those(const Triangles& triangles, const std::vector<char>& marks, Indi
 }
 
 // Adds to `inside` what lies around small loops, where all of it is as small.
-void take_specks(CutPieces& cut, double spacing) {
+void take_specks(CutPieces& cut, const VectorX& spacings) {
     Indices rows;
     const auto count = static_cast<int>(cut.points.cols());
     std::vector<Indices> loops = boundary_loops(those(cut.triangles, cut.inside, rows), count);
-    std::erase_if(loops, [&](const Indices& loop) { return !(extent(cut.points, loop) < spacing); });
+    std::erase_if(loops, [&](const Indices& loop) { return !(extent(cut.points, loop) < spacings[loop[0]]); });
     if (loops.empty()) return;
     const EdgeTable edges = make_edges(cut.triangles, count);
     const auto outside_at = [&](int edge) {
@@ -64,14 +64,15 @@ void take_specks(CutPieces& cut, double spacing) {
         Indices corners;
         for (const int t : found)
             corners.insert(corners.end(), {cut.triangles(0, t), cut.triangles(1, t), cut.triangles(2, t)});
-        if (!(extent(cut.points, corners) < spacing)) continue;
+        if (!(extent(cut.points, corners) < spacings[loop[0]])) continue;
         for (const int t : found) cut.inside[t] = 1;
     }
 }
 
-// The vertex that each becomes where edges shorter than `least` are closed, the shortest first. Vertices that stay are
-// no ends of the same edge.
-Indices merged(const std::vector<Pair>& lines, const Points& points, const std::vector<char>& stays, double least) {
+// The vertex that each becomes where edges shorter than `least`, of each vertex, are closed, the shortest first.
+// Vertices that stay are no ends of the same edge.
+Indices merged(const std::vector<Pair>& lines, const Points& points, const std::vector<char>& stays,
+               const VectorX& least) {
     Indices into(static_cast<std::size_t>(points.cols()));
     std::iota(into.begin(), into.end(), 0);
     const auto top = [&](int v) {
@@ -80,12 +81,13 @@ Indices merged(const std::vector<Pair>& lines, const Points& points, const std::
     };
     const auto length = [&](const Pair& ends) { return (points.col(ends[0]) - points.col(ends[1])).norm(); };
     std::vector<Pair> brief_ones;
-    std::ranges::copy_if(lines, std::back_inserter(brief_ones), [&](const Pair& ends) { return length(ends) < least; });
+    const auto is_brief = [&](const Pair& ends) { return length(ends) < std::min(least[ends[0]], least[ends[1]]); };
+    std::ranges::copy_if(lines, std::back_inserter(brief_ones), is_brief);
     std::ranges::stable_sort(brief_ones, {}, length);
     for (const auto& [one, other] : brief_ones) {
         const int a = top(one);
         const int b = top(other);
-        if (a == b || (stays[a] != 0 && stays[b] != 0) || !(length({a, b}) < least)) continue;
+        if (a == b || (stays[a] != 0 && stays[b] != 0) || !is_brief({a, b})) continue;
         (stays[b] != 0 ? into[a] : into[b]) = stays[b] != 0 ? b : a;
     }
     for (int& v : into) v = top(v);
@@ -105,13 +107,14 @@ bool is_like(const Triangles& closed, const Triangles& triangles, int count) {
            boundary_loops(closed, count).size() == boundary_loops(triangles, count).size();
 }
 
-// Those that are edges of two triangles, both of them higher than `least`.
+// Those that are edges of two triangles, both of them higher than slivers.
 std::vector<Pair> between(const std::vector<Pair>& lines, const Triangles& triangles, const Points& points,
-                          double least) {
+                          const VectorX& spacings) {
     const EdgeTable edges = make_edges(triangles, static_cast<int>(points.cols()));
     const auto is_high = [&](int side) {
         const double length = (points.col(side_tail(triangles, side)) - points.col(side_head(triangles, side))).norm();
-        return area_vector(points, triangles.col(side / 3)).norm() > least * length;
+        return area_vector(points, triangles.col(side / 3)).norm() >
+               sliver * spacings[side_tail(triangles, side)] * length;
     };
     std::vector<Pair> found;
     for (const auto& [a, b] : lines) {
@@ -128,8 +131,8 @@ std::vector<Pair> between(const std::vector<Pair>& lines, const Triangles& trian
 
 }  // namespace
 
-FirstMesh first_mesh(CutPieces cut, double spacing) {
-    take_specks(cut, spacing);
+FirstMesh first_mesh(CutPieces cut, const VectorX& spacings) {
+    take_specks(cut, spacings);
     const auto count = static_cast<int>(cut.points.cols());
     FirstMesh first;
     first.triangles = those(cut.triangles, cut.inside, first.pieces);
@@ -142,11 +145,12 @@ FirstMesh first_mesh(CutPieces cut, double spacing) {
             if (++uses[v] > 2) stays[v] = 1;
     std::vector<Pair> tiny_ones;
     for (const auto& ends : make_edges(first.triangles, count).ends)
-        if ((cut.points.col(ends[0]) - cut.points.col(ends[1])).norm() < tiny * spacing) tiny_ones.push_back(ends);
+        if ((cut.points.col(ends[0]) - cut.points.col(ends[1])).norm() < tiny * spacings[ends[0]])
+            tiny_ones.push_back(ends);
     std::vector<Pair> all = tiny_ones;
     all.insert(all.end(), cut.seams.begin(), cut.seams.end());
     for (const auto* lines : {&all, &tiny_ones}) {
-        const Indices into = merged(*lines, cut.points, stays, brief * spacing);
+        const Indices into = merged(*lines, cut.points, stays, brief * spacings);
         const Triangles moved = first.triangles.unaryExpr([&](int v) { return into[v]; });
         Indices rows;
         for (int t = 0; t < static_cast<int>(moved.cols()); ++t)
@@ -163,7 +167,7 @@ FirstMesh first_mesh(CutPieces cut, double spacing) {
         first.triangles = closed;
         break;
     }
-    first.lines = between(cut.seams, first.triangles, cut.points, sliver * spacing);
+    first.lines = between(cut.seams, first.triangles, cut.points, spacings);
     first.inside = std::move(cut.inside);
     return first;
 }

@@ -22,7 +22,7 @@ struct FirstMesh {
     std::vector<std::array<int, 2>> lines;  // edges of seams that the new mesh begins with
 };
 
-// The boundary's edges stay. `spacing`: of the new edges, a length.
-FirstMesh first_mesh(CutPieces cut, double spacing);
+// The boundary's edges stay. `spacings`: of each vertex, the length of the new edges there.
+FirstMesh first_mesh(CutPieces cut, const VectorX& spacings);
 
 }  // namespace fairing

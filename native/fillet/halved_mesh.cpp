@@ -32,7 +32,8 @@ HalvedMesh::HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, doubl
             if (node == none) {
                 node = static_cast<int>(nodes_.size());
                 const int vertex = mesh.triangles(k, t);
-                nodes_.push_back({mesh.points.col(vertex), value, vertex, none});
+                nodes_.push_back(
+                    {mesh.points.col(vertex), value, distance.relative_width(t, piece.weights[k]), vertex, none});
             }
             nodes_[node].value = std::min(nodes_[node].value, value);
             piece.nodes[k] = node;
@@ -47,7 +48,9 @@ HalvedMesh::HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, doubl
             const Piece& piece = pieces_[p];
             const int side = longest_side(piece);
             const Vector3 way = nodes_[piece.nodes[side]].place - nodes_[piece.nodes[(side + 1) % 3]].place;
-            return way.norm() > resolution && is_cut(piece);
+            return way.norm() > resolution * std::min(nodes_[piece.nodes[side]].size,
+                                                      nodes_[piece.nodes[(side + 1) % 3]].size) &&
+                   is_cut(piece);
         };
         while (long_and_cut()) halve(static_cast<int>(p));
     }
@@ -122,7 +125,7 @@ void HalvedMesh::split(const Key& side) {
     const std::array<int, 2> sides = found->second;
     beside_.erase(found);
     const int node = static_cast<int>(nodes_.size());
-    nodes_.push_back({0.5 * (nodes_[side[0]].place + nodes_[side[1]].place), 1.0, none, none});
+    nodes_.push_back({0.5 * (nodes_[side[0]].place + nodes_[side[1]].place), 1.0, 1.0, none, none});
     bool first = true;
     for (const int p : sides) {
         if (p == none) continue;
@@ -134,6 +137,7 @@ void HalvedMesh::split(const Key& side) {
         const Vector3 weights = 0.5 * (whole.weights[k] + whole.weights[next]);
         const double value = distance_.value(whole.triangle, weights);
         nodes_[node].value = first ? value : std::min(value, nodes_[node].value);
+        nodes_[node].size = distance_.relative_width(whole.triangle, weights);
         nodes_[node].edge = whole.edges[k];
         first = false;
         Piece& kept = pieces_[p];
@@ -157,7 +161,7 @@ void HalvedMesh::split(const Key& side) {
 
 void HalvedMesh::snap(double vertices, double others) {
     for (Node& node : nodes_) {
-        if (std::abs(node.value) <= (node.vertex == none ? others : vertices)) node.value = 0.0;
+        if (std::abs(node.value) <= (node.vertex == none ? others : vertices) * node.size) node.value = 0.0;
     }
 }
 

@@ -13,6 +13,7 @@ public:
     struct Node {
         Vector3 place;
         double value;  // distance from the seam less the width, the least of the triangles around
+        double size;   // the width as a share of the widest
         int vertex;    // of the mesh, or `none`,
         int edge;      // of the mesh, that it is on, or `none`
     };
@@ -23,14 +24,14 @@ public:
         std::array<int, 3> edges;        // of the mesh, on which the side from node k to k + 1 is; or `none`
     };
     // Longest edges first, so that pieces stay as round as they were, until no edge near the line is longer than
-    // `resolution`.
+    // `resolution`: where the fillet is widest, in proportion to its width elsewhere.
     HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, double resolution);
 
     [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
     // The piece on the other side of a side, or `none`.
     [[nodiscard]] int across(int piece, int side) const;
-    // Nodes nearer to the line than these are put on it, as outside.
+    // Nodes nearer to the line than these, in that proportion, are put on it, as outside.
     void snap(double vertices, double others);
 
 private:

@@ -28,7 +28,8 @@ struct LevelLine {
 };
 
 // Found on triangles halved near the line until their edges are at most `resolution` long; each of its points is on the
-// line to roundoff. Vertices nearer to the line than `snap` are on it. Asks whether to stop.
+// line to roundoff. Vertices nearer to the line than `snap` are on it. These and all spacings below are lengths where
+// the fillet is widest, elsewhere in proportion to its width. Asks whether to stop.
 LevelLine level_line(const SeamMesh& mesh, const SeamDistance& distance, double resolution, double snap);
 
 // The same line with points about `spacing` apart where its side does not bend along it; elsewhere those that its shape
@@ -38,11 +39,11 @@ LevelLine resampled(const SeamMesh& mesh, const SeamDistance& distance, const Le
 
 // Where the line comes to a wall from both sides, its two points there become one if they are less than .3 spacings
 // apart.
-void join_at_walls(const SeamMesh& mesh, double spacing, LevelLine& line);
+void join_at_walls(const SeamMesh& mesh, const SeamDistance& distance, double spacing, LevelLine& line);
 
 // Adds points that part each seam into edges about `spacing` long, two at least where both ends are at walls: a new
 // mesh needs a vertex to begin with.
-void part_seams(const SeamMesh& mesh, double spacing, LevelLine& line);
+void part_seams(const SeamMesh& mesh, const SeamDistance& distance, double spacing, LevelLine& line);
 // The same for walls where the fillet ends and its side does not bend along them. `sides` knows their triangles.
 void part_walls(const SeamMesh& mesh, const SeamDistance& distance, const SideNormals& sides, double spacing,
                 LevelLine& line);

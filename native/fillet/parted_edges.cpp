@@ -10,6 +10,7 @@ namespace fairing {
 namespace {
 
 constexpr double sliver = 0.1;         // of the spacing: points on both sides of lower triangles would nearly coincide
+constexpr double equal = 1e-6;         // relative: widths that are one but for roundoff
 constexpr double clear_of_line = 0.3;  // of the spacing: nearer to each other, or to the line, points bring short edges
 
 Vector3 weights_along(int half_edge, double along) {
@@ -26,12 +27,24 @@ LinePoint point_on(const SeamMesh& mesh, int h, double along) {
     return {mesh.place(h / 3, weights), none, mesh.edge[h], upward ? along : 1.0 - along, h / 3, weights};
 }
 
-int parts(const SeamMesh& mesh, int h, double spacing) {
-    return static_cast<int>(std::lround(mesh.length[h] / spacing));
-}
+// Of a half-edge, into edges whose lengths change with the widths along it.
+struct Parts {
+    Parts(const SeamMesh& mesh, const SeamDistance& distance, int h, double spacing) {
+        const double first = distance.relative_width(h / 3, weights_along(h, 0.0));
+        const double last = distance.relative_width(h / 3, weights_along(h, 1.0));
+        growth = std::log(last / first);
+        wanted = mesh.length[h] / spacing * (std::abs(growth) > equal ? growth / (last - first) : 1.0 / first);
+    }
+    // Where part k of so many begins, as a share of the way.
+    [[nodiscard]] double begin(int k, int count) const {
+        const double share = static_cast<double>(k) / count;
+        return std::abs(growth) > equal ? std::expm1(growth * share) / std::expm1(growth) : share;
+    }
+    double growth, wanted;
+};
 
 // The number that each point becomes where those on a wall that are next to each other come together in their mean.
-Indices joined_numbers(const SeamMesh& mesh, double near, LevelLine& line) {
+Indices joined_numbers(const SeamMesh& mesh, const SeamDistance& distance, double near, LevelLine& line) {
     Indices wall(mesh.edge.size(), none);  // of each edge: a half-edge on it
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.twin[h] == none) wall[mesh.edge[h]] = h;
@@ -50,7 +63,8 @@ Indices joined_numbers(const SeamMesh& mesh, double near, LevelLine& line) {
         const int h = wall[before.edge];
         if (before.edge != line.points[order[k]].edge || number[order[k - 1]] != order[k - 1]) continue;
         const double middle = 0.5 * (before.along + line.points[order[k]].along);
-        if (2.0 * (middle - before.along) * mesh.length[h] > near) continue;
+        const double size = distance.relative_width(before.triangle, before.weights);
+        if (2.0 * (middle - before.along) * mesh.length[h] > near * size) continue;
         number[order[k]] = order[k - 1];
         line.points[order[k - 1]] = point_on(mesh, h, mesh.tail(h) < mesh.head(h) ? middle : 1.0 - middle);
     }
@@ -59,8 +73,8 @@ Indices joined_numbers(const SeamMesh& mesh, double near, LevelLine& line) {
 
 }  // namespace
 
-void join_at_walls(const SeamMesh& mesh, double spacing, LevelLine& line) {
-    const Indices number = joined_numbers(mesh, clear_of_line * spacing, line);
+void join_at_walls(const SeamMesh& mesh, const SeamDistance& distance, double spacing, LevelLine& line) {
+    const Indices number = joined_numbers(mesh, distance, clear_of_line * spacing, line);
     for (LineSegment& segment : line.segments) {
         segment.from = number[segment.from];
         segment.to = number[segment.to];
@@ -79,17 +93,19 @@ void join_at_walls(const SeamMesh& mesh, double spacing, LevelLine& line) {
     line.points = std::move(kept);
 }
 
-void part_seams(const SeamMesh& mesh, double spacing, LevelLine& line) {
+void part_seams(const SeamMesh& mesh, const SeamDistance& distance, double spacing, LevelLine& line) {
     std::vector<char> at_wall(mesh.points.cols(), 0);
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.twin[h] == none) at_wall[mesh.tail(h)] = at_wall[mesh.head(h)] = 1;
     }
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || mesh.twin[h] == none || mesh.tail(h) > mesh.head(h)) continue;
-        if (std::min(mesh.apex[h][1], mesh.apex[mesh.twin[h]][1]) < sliver * spacing) continue;
+        const double size = distance.relative_width(h / 3, weights_along(h, 0.5));
+        if (std::min(mesh.apex[h][1], mesh.apex[mesh.twin[h]][1]) < sliver * size * spacing) continue;
+        const Parts parts(mesh, distance, h, spacing);
         const int least = at_wall[mesh.tail(h)] != 0 && at_wall[mesh.head(h)] != 0 ? 2 : 1;
-        const int count = std::max(least, parts(mesh, h, spacing));
-        for (int k = 1; k < count; ++k) line.points.push_back(point_on(mesh, h, static_cast<double>(k) / count));
+        const int count = std::max(least, static_cast<int>(std::lround(parts.wanted)));
+        for (int k = 1; k < count; ++k) line.points.push_back(point_on(mesh, h, parts.begin(k, count)));
     }
 }
 
@@ -101,11 +117,13 @@ void part_walls(const SeamMesh& mesh, const SeamDistance& distance, const SideNo
         if (mesh.twin[h] != none || !distance.reaches(t) || parted.contains(mesh.edge[h])) continue;
         const bool is_straight = radians_between(sides.normal(t, weights_along(h, 0.0)),
                                                  sides.normal(t, weights_along(h, 1.0))) < straight_angle;
-        const int count =
-            is_straight ? parts(mesh, h, spacing) : static_cast<int>(mesh.length[h] / (longest_edge * spacing));
+        const Parts parts(mesh, distance, h, spacing);
+        const auto count = static_cast<int>(is_straight ? std::round(parts.wanted) : parts.wanted / longest_edge);
         for (int k = 1; k < count; ++k) {
-            const double along = static_cast<double>(k) / count;
-            if (!(distance.value(t, weights_along(h, along)) < -clear_of_line * spacing)) continue;
+            const double along = parts.begin(k, count);
+            const Vector3 weights = weights_along(h, along);
+            if (!(distance.value(t, weights) < -clear_of_line * spacing * distance.relative_width(t, weights)))
+                continue;
             line.points.push_back(point_on(mesh, h, along));
             parted.insert(mesh.edge[h]);
         }

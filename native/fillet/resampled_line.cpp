@@ -68,26 +68,28 @@ private:
     }
 
     void add_piece(const Indices& chain, int triangle) {
-        std::vector<double> way{0.0};
+        std::vector<double> way{0.0};  // in spacings
+        double length = 0.0;
         double bulge = 0.0;
         const Vector3 chord = place(chain.back()) - place(chain.front());
         for (std::size_t k = 1; k < chain.size(); ++k) {
-            way.push_back(way.back() + (place(chain[k]) - place(chain[k - 1])).norm());
+            const double step = (place(chain[k]) - place(chain[k - 1])).norm();
+            length += step;
+            way.push_back(way.back() + step / spacing_between(chain[k - 1], chain[k], triangle));
             const Vector3 off = place(chain[k]) - place(chain.front());
             const double size = chord.squaredNorm();
             bulge = std::max(bulge, size > 0.0 ? (off - off.dot(chord) / size * chord).norm() : off.norm());
         }
         const bool closed = chain.front() == chain.back();
-        const double length = way.back();
-        auto count = static_cast<int>(std::ceil(length / (longest_edge * spacing_)));
+        auto count = static_cast<int>(std::ceil(way.back() / longest_edge));
         if (closed || bulge > straight * length || runs_straight(chain.front(), chain.back(), triangle))
-            count = static_cast<int>(std::lround(length / spacing_));
+            count = static_cast<int>(std::lround(way.back()));
         count = std::max(count, 1);
         if (closed) count = std::max(count, fewest_of_loop);
         int from = taken(chain.front());
         std::size_t at = 1;
         for (int k = 1; k < count; ++k) {
-            const double wanted = length * k / count;
+            const double wanted = way.back() * k / count;
             while (at + 1 < way.size() && way[at] < wanted) ++at;
             const double share = (wanted - way[at - 1]) / (way[at] - way[at - 1]);
             made_.points.push_back(between(chain[at - 1], chain[at], share, triangle));
@@ -96,6 +98,12 @@ private:
             from = to;
         }
         made_.segments.push_back({from, taken(chain.back()), triangle});
+    }
+
+    [[nodiscard]] double spacing_between(int a, int b, int triangle) const {
+        return 0.5 * spacing_ *
+               (distance_.relative_width(triangle, weights_in(a, triangle)) +
+                distance_.relative_width(triangle, weights_in(b, triangle)));
     }
 
     [[nodiscard]] bool runs_straight(int a, int b, int triangle) const {

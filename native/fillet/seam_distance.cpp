@@ -15,18 +15,22 @@ Vector2 turned_left(const Vector2& v) { return {-v[1], v[0]}; }
 }  // namespace
 
 SeamDistance::SeamDistance(const SeamMesh& mesh, const SeamWidths& widths, double reach)
-    : mesh_(mesh), reach_(reach), windows_of_(mesh.triangles.cols()), vertex_(mesh.sheet_count, infinite) {
+    : mesh_(mesh),
+      reach_(reach),
+      windows_of_(mesh.triangles.cols()),
+      vertex_(mesh.sheet_count, infinite),
+      seams_at_(mesh.points.cols(), 0) {
     double least = infinite;
-    double largest = 0.0;
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none) continue;
+        ++seams_at_[mesh.tail(h)];
         vertex_[mesh.sheet[h]] = vertex_[mesh.sheet[SeamMesh::next(h)]] = 0.0;
         for (const bool at_tail : {true, false}) {
             least = std::min(least, width_of(h, at_tail, widths));
-            largest = std::max(largest, width_of(h, at_tail, widths));
+            widest_ = std::max(widest_, width_of(h, at_tail, widths));
         }
     }
-    slack_ = largest > least ? largest - least : 0.0;
+    slack_ = widest_ > least ? widest_ - least : 0.0;
     size_ = std::max(reach, *std::max_element(mesh.length.begin(), mesh.length.end()));
     seed_edges(widths);
     seed_corners(widths);
@@ -78,6 +82,11 @@ void SeamDistance::seed_sector(int first_half_edge, const SeamWidths& widths) {
     if (!(end > begin)) return;
     const double before = width_of(from_seam || !to_seam ? first_half_edge : closing, from_seam || !to_seam, widths);
     const double after = width_of(to_seam || !from_seam ? closing : first_half_edge, !to_seam && from_seam, widths);
+    if (from_seam != to_seam && total <= 2.0 * right_angle && seams_at_[mesh_.tail(first_half_edge)] == 1) {
+        seed_extension(from_seam ? closing : first_half_edge, from_seam ? first_half_edge : closing,
+                       2.0 * right_angle - total, before);
+        return;
+    }
     sources_.push_back({-end, -begin, after, before, false, {first_half_edge, true, infinite}});
     const int source = static_cast<int>(sources_.size()) - 1;
     double angle = 0.0;
@@ -88,6 +97,38 @@ void SeamDistance::seed_sector(int first_half_edge, const SeamWidths& widths) {
             add({h, true, Vector2::Zero(), Vector2(1.0, 0.0), -angle, first, after_last, 0.0, source}, 0.0);
         angle += mesh_.opening[h];
         if (h == last) break;
+    }
+}
+
+// Where a seam ends on a wall, ways square to it come from its extension, over that wall as far as it is straight; so
+// the fillet's line runs on to it. `angle`: between both, at most a right one.
+void SeamDistance::seed_extension(int wall, int seam, double angle, double width) {
+    const bool comes = mesh_.seam[seam] != none && mesh_.tail(seam) == mesh_.head(wall);  // the wall, to the seam's end
+    const Vector2 zero(std::cos(angle), comes ? std::sin(angle) : -std::sin(angle));
+    sources_.push_back({0.0, 0.0, width, width, true, {seam, false, comes ? 0.0 : mesh_.length[seam]}});
+    const int source = static_cast<int>(sources_.size()) - 1;
+    const auto way = [&](int h) { return Vector3(mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h))); };
+    double passed = 0.0;
+    for (int h = wall; passed * zero[0] <= reach_;) {
+        const Vector2 origin(comes ? passed + mesh_.length[h] : -passed, 0.0);
+        const double near = passed * zero[0];
+        const double far = (passed + mesh_.length[h]) * zero[0];
+        const double key = passed * std::abs(zero[1]);
+        if (key <= reach_)
+            add({h, false, origin, zero, 0.0, comes ? -far : near, comes ? -near : far, 0.0, source}, key);
+        passed += mesh_.length[h];
+        int next = comes ? h : SeamMesh::next(h);
+        if (comes) {
+            while (mesh_.turned(next) != none) next = mesh_.turned(next);
+            next = SeamMesh::previous(next);
+        } else {
+            while (mesh_.twin[next] != none) next = SeamMesh::next(mesh_.twin[next]);
+        }
+        const Vector3 before = way(h);
+        if (next == wall || before.cross(way(next)).norm() > roundoff * before.norm() * way(next).norm() ||
+            before.dot(way(next)) <= 0.0)
+            break;
+        h = next;
     }
 }
 
@@ -276,6 +317,11 @@ SeamDistance::Nearest SeamDistance::nearest(int triangle, const Vector3& weights
 double SeamDistance::value(int triangle, const Vector3& weights) const {
     const SeamPlace place = at(triangle, weights);
     return place.distance - place.width;
+}
+
+double SeamDistance::relative_width(int triangle, const Vector3& weights) const {
+    const SeamPlace place = at(triangle, weights);
+    return std::isfinite(place.distance) ? place.width / widest_ : 1.0;
 }
 
 double SeamDistance::least_value(int triangle, const Vector3& weights, double radius) const {

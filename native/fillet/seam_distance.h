@@ -39,6 +39,8 @@ public:
     // The nearest seam, by the distance less the width.
     [[nodiscard]] SeamPlace at(int triangle, const Vector3& weights) const;
     [[nodiscard]] SeamFoot foot(int triangle, const Vector3& weights) const;
+    // The width there as a share of the widest, to which lengths of new edges are in proportion; 1 beyond the reach.
+    [[nodiscard]] double relative_width(int triangle, const Vector3& weights) const;
     // Distance less width: negative within the fillet.
     [[nodiscard]] double value(int triangle, const Vector3& weights) const;
     // A lower bound of the value within `radius` of a place in the triangle, in which sight lines do not count.
@@ -72,6 +74,7 @@ private:
     void seed_edges(const SeamWidths& widths);
     void seed_corners(const SeamWidths& widths);
     void seed_sector(int first_half_edge, const SeamWidths& widths);
+    void seed_extension(int wall, int seam, double angle, double width);
     void emit_fan(int half_edge, int source);
     void add(const Window& window, double key);
     void run();
@@ -95,12 +98,14 @@ private:
 
     const SeamMesh& mesh_;
     double reach_;
+    double widest_ = 0.0;
     double slack_ = 0.0;  // ways that are longer by less than that may lead to wider fillets
     double size_ = 1.0;
     std::vector<Source> sources_;
     std::vector<Window> windows_;
     std::vector<Indices> windows_of_;  // of each triangle
     std::vector<double> vertex_;       // distance of each sheet vertex
+    Indices seams_at_;                 // of each vertex: how many there are
     std::vector<Event> queue_;
 };
 

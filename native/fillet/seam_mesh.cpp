@@ -101,4 +101,18 @@ Vector3 SeamMesh::place(int triangle, const Vector3& weights) const {
            points.col(triangles(2, triangle)) * weights[2];
 }
 
+Vector3 barycentric(const Points& points, const Triangles& triangles, int triangle, const Vector3& place) {
+    const Vector3 start = points.col(triangles(0, triangle));
+    const Vector3 along = Vector3(points.col(triangles(1, triangle))) - start;
+    const Vector3 to_apex = Vector3(points.col(triangles(2, triangle))) - start;
+    const double length = along.norm();
+    if (!(length > 0.0)) return Vector3::Constant(1.0 / 3.0);
+    const Vector3 x = along / length;
+    const Vector3 above = to_apex - to_apex.dot(x) * x;
+    const double height = above.norm();
+    const double apex = height > 0.0 ? (place - start).dot(above) / (height * height) : 0.0;
+    const double head = ((place - start).dot(x) - apex * to_apex.dot(x)) / length;
+    return {1.0 - apex - head, head, apex};
+}
+
 }  // namespace fairing

@@ -12,6 +12,9 @@ namespace fairing {
 using Vector2 = Eigen::Vector2d;
 using VertexPair = std::array<int, 2>;
 
+// Weights of a place in the plane of a triangle.
+Vector3 barycentric(const Points& points, const Triangles& triangles, int triangle, const Vector3& place);
+
 inline double cross2(const Vector2& a, const Vector2& b) { return a[0] * b[1] - a[1] * b[0]; }
 
 // Half-edge 3 t + k runs from corner k to corner k + 1 of triangle t. Its frame has the origin at its tail, x along it

@@ -1,6 +1,7 @@
 #include "fillet/seam_room.h"
 
 #include <map>
+#include <set>
 
 #include "geometry/triangle.h"
 
@@ -10,17 +11,20 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();  // no seam, no limit
 constexpr double share = 0.2;                                         // of a side: what modellers begin with
-constexpr double taken = 0.9;   // of the room: what is left of a face is wider than the new mesh's needles
-constexpr double corner = 0.8;  // radians: where seams turn by more another piece begins
+constexpr double most = 0.9;     // of the seams has longer sides than the one that counts: a narrow place is no measure
+constexpr double taken = 0.9;    // of the way to a wall: what is left of a face is wider than the new mesh's needles
+constexpr double grazing = 0.3;  // cosine: sides that a way hardly meets are measured by their own ways
+constexpr double corner = 0.8;   // radians: where seams turn by more another piece begins
 
 struct Way {
     double length;
-    int end;  // the half-edge on a seam at which it comes out, or `none`
+    int end;       // the half-edge on a seam, wall or border at which it comes out, or `none`,
+    double slope;  // and the cosine of the angle to the way square to that one
 };
 
-// From the middle of a half-edge straight on until the surface ends.
-Way way_across(const SeamMesh& mesh, int h) {
-    Vector2 from(0.5 * mesh.length[h], 0.0);
+// From a place on a half-edge, square to it straight on until the face ends.
+Way way_across(const SeamMesh& mesh, int h, double along) {
+    Vector2 from(along * mesh.length[h], 0.0);
     Vector2 way = Vector2::UnitY();
     double length = 0.0;
     for (Eigen::Index crossed = 0; crossed < mesh.triangles.cols(); ++crossed) {
@@ -32,59 +36,75 @@ Way way_across(const SeamMesh& mesh, int h) {
         if (!(speed > 0.0)) break;
         const double step = cross2(tail - from, head - tail) / speed;
         length += step;
-        if (mesh.seam[out] != none) return {length, out};
-        if (mesh.twin[out] == none) break;
+        if (mesh.seam[out] != none || mesh.twin[out] == none) return {length, out, speed / (head - tail).norm()};
         const Vector2 x = (tail - head).normalized();
         from = {(from + step * way - head).dot(x), 0.0};
         way = {way.dot(x), cross2(x, way)};
         h = mesh.twin[out];
     }
-    return {length, none};
+    return {length, none, 0.0};
 }
 
-// Seams that go on into each other without a corner, by the half-edges on them.
-UnionFind pieces_of(const SeamMesh& mesh) {
-    std::map<int, Indices> at;  // half-edges on seams that begin at a vertex
-    for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.seam[h] != none) at[mesh.tail(h)].push_back(h);
+// The sides of faces, from corner to corner: half-edges on seams, walls and borders that go on into each other.
+struct Sides {
+    explicit Sides(const SeamMesh& mesh) : of(mesh.half_edge_count()) {
+        const auto is_hard = [&](int h) { return mesh.seam[h] != none || mesh.twin[h] == none; };
+        const auto way = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
+        std::vector<VertexPair> turns;
+        for (int h = 0; h < mesh.half_edge_count(); ++h) {
+            if (!is_hard(h)) continue;
+            int next = SeamMesh::next(h);
+            while (!is_hard(next)) next = SeamMesh::next(mesh.twin[next]);
+            if (radians_between(way(h), way(next)) > corner)
+                turns.push_back({h, next});
+            else
+                of.join(h, next);
+        }
+        for (const auto& [before, after] : turns) corners.insert(std::minmax(of.root(before), of.root(after)));
     }
-    UnionFind pieces(mesh.half_edge_count());
-    const auto along = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
-    for (const auto& [vertex, out] : at) {
-        if (out.size() != 2 || radians_between(-along(out[0]), along(out[1])) > corner) continue;
-        pieces.join(mesh.twin[out[0]], out[1]);
-        pieces.join(mesh.twin[out[1]], out[0]);
+    // Near the corner in which they meet they are as near to each other as one likes.
+    [[nodiscard]] bool meet(int a, int b) { return corners.contains(std::minmax(of.root(a), of.root(b))); }
+    UnionFind of;
+    std::set<std::pair<int, int>> corners;
+};
+
+double usual_width(std::vector<std::pair<double, double>>& sides) {
+    std::sort(sides.begin(), sides.end());
+    double sum = 0.0;
+    for (const auto& [side, weight] : sides) sum += weight;
+    for (const auto& [side, weight] : sides) {
+        sum -= weight / (1.0 - most);
+        if (sum <= 0.0) return share * side;
     }
-    return pieces;
+    return 0.0;
 }
 
 }  // namespace
 
 SeamRoom seam_room(const SeamMesh& mesh) {
-    UnionFind pieces = pieces_of(mesh);
-    std::map<int, std::vector<double>> ways;
+    Sides of(mesh);
+    std::vector<std::pair<double, double>> sides;  // and for how much of the seams
     std::map<int, double> widest;
     const auto limit = [&](int h, double width) {
-        double& known = widest.try_emplace(pieces.root(h), infinite).first->second;
+        double& known = widest.try_emplace(of.of.root(h), infinite).first->second;
         known = std::min(known, width);
     };
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || !(mesh.length[h] > 0.0)) continue;
-        const Way way = way_across(mesh, h);
-        ways[pieces.root(h)].push_back(way.length);
-        limit(h, taken * (way.end == none ? 1.0 : 0.5) * way.length);
-        if (way.end != none) limit(way.end, 0.5 * taken * way.length);
+        for (const double along : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+            const Way way = way_across(mesh, h, along);
+            if (way.end == none || way.slope < grazing || of.meet(h, way.end)) continue;
+            sides.emplace_back(way.length, mesh.length[h]);
+            if (mesh.seam[way.end] == none) limit(h, taken * way.length);
+            if (mesh.seam[way.end] == none) continue;
+            for (const int side : {h, way.end}) limit(side, way.slope / (1.0 + way.slope) * way.length);
+        }
     }
-    SeamRoom room{0.0, VectorX::Constant(mesh.points.cols(), infinite)};
-    for (auto& [piece, each] : ways) {
-        const auto middle = each.begin() + std::ssize(each) / 2;
-        std::nth_element(each.begin(), middle, each.end());
-        room.usual = room.usual > 0.0 ? std::min(room.usual, share * *middle) : share * *middle;
-    }
+    SeamRoom room{usual_width(sides), VectorX::Constant(mesh.points.cols(), infinite)};
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.seam[h] == none || !widest.contains(pieces.root(h))) continue;
+        if (mesh.seam[h] == none || !widest.contains(of.of.root(h))) continue;
         for (const int v : {mesh.tail(h), mesh.head(h)})
-            room.widest[v] = std::min(room.widest[v], widest.at(pieces.root(h)));
+            room.widest[v] = std::min(room.widest[v], widest.at(of.of.root(h)));
     }
     return room;
 }

@@ -6,14 +6,13 @@
 namespace fairing {
 
 struct SeamRoom {
-    double usual;  // a fifth of the shortest side beside the seams: where nobody says how wide; 0 without seams
+    double usual;  // a fifth of the shortest side beside the seams, but for a tenth of their length; 0 without seams
     VectorX
-        widest;  // of each vertex: up to there fillets stay clear of each other and of walls; infinite off the seams
+        widest;  // of each vertex: so wide fillets from both sides meet, or nearly reach a wall; infinite off the seams
 };
 
-// By ways square to the seams' edges, from their middles straight on over the surface to the next seam, wall or border.
-// A piece of a seam, from corner to corner, has one `widest` on its side; `usual` is that of the middle one of its
-// ways.
+// By ways square to the seams' edges straight on over the surface to the next seam, wall or border. A side of a face,
+// from corner to corner, has one `widest`; sides that meet in a corner do not limit each other.
 SeamRoom seam_room(const SeamMesh& mesh);
 
 }  // namespace fairing

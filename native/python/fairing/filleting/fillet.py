@@ -118,7 +118,7 @@ def fillet(
     *,
     width: npt.ArrayLike | None = None,
     width_2: npt.ArrayLike | None = None,
-    clamp: bool = False,
+    clamp: bool = True,
     walls: npt.ArrayLike | None = None,
     profile: float = 0.0,
     spacing: float = 0.0,
@@ -134,8 +134,9 @@ def fillet(
     The mesh is cut along the line at that distance, which is exact: straight beside straight seams, also where
     triangles are large. Outside nothing changes but the triangles that the line passes; their pieces stay in their
     planes. Within comes a new mesh. Its slopes at the line are those of each side, fitted without crossing a seam.
-    Between two planes the surface is the circular arc that touches both at the line, but for the ends of the seam,
-    where it fades into what is there. No argument is ever changed.
+    Between two planes the surface is the circular arc that touches both at the line. A seam that ends on an edge of a
+    plane face goes on through that face, which it cuts; other ends fade into what is there. No argument is ever
+    changed.
 
     Parameters
     ----------
@@ -154,8 +155,9 @@ def fillet(
         together without seams and walls, ``width_2`` that of the smaller one. Where both are one, or of one size,
         ``width`` lies on the left of the first edge given, and of those that follow each other from there.
     clamp : bool
-        Make fillets no wider than there is room: nine tenths of the way square to each piece of a seam, or of half of
-        it where another seam is there. WIDTH_TOO_LARGE is then a warning that names the vertices, with the least width.
+        Make fillets no wider than there is room: each piece of a seam at most so wide that it meets the next one in the
+        middle, or nearly reaches a wall, and leaves something of each face between seams. WIDTH_TOO_LARGE is then a
+        warning that names the vertices, with the least width; without it such widths are refused.
     walls : (w, 2) int
         Edges that a fillet does not reach over: it ends there, tangent to its own side. Default: the other hard edges.
         Open borders always are walls.
@@ -165,7 +167,8 @@ def fillet(
         over that length the seam, or the chamfer's edges, stay rounded. It is tangent for all but ±1, which are these
         two themselves.
     spacing : float
-        Length of the new edges, of quads across the seam. 0: a quarter of the least width.
+        Length of the new edges where the fillet is widest, elsewhere in proportion to its width; of quads, across the
+        seam. 0: a quarter of the width.
     faces : {"triangles", "quads"}
         "quads": rows along the seams. A column crosses them at each of their vertices and at each edge outside that
         comes to the line, which so goes on to the other side, and where the surface asks for one. ``result.quads``
@@ -200,7 +203,8 @@ def fillet(
     counted = None if neighbours is None else _neighbours(neighbours, len(points))
     refuse_made_here(given, progress)
     seams, ends = seams_and_walls(points, corners, seam, walls)
-    both, clamped = _widths((width, width_2), (points, corners, seams, ends), clamp)
+    room = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
+    both = _widths((width, width_2), seams, room[0], len(points))
     length = _spacing(spacing, both, seams)
     _refuse_large(points, seams, both, length, max_vertices)
     shape = arguments.finite("profile", profile)
@@ -208,17 +212,25 @@ def fillet(
         raise ValueError(f"profile: a number from -1 to 1 is needed, not {profile!r}")
     watch = Watch(progress)
     finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
-    wishes = Wishes(finer, shape, both, ends, given, watch)
+    wishes = Wishes(finer, shape, both, ends, given, watch, wants_rows)
     mesh = Given(points, corners, seams)
-    cut = mesh.cut(wishes, watch.part(0, 0.2))
-    _refuse_eaten([part for part in cut["eaten"] if not part[2]], wishes, seams)
-    refuse_vertices_on_edges(points, corners, cut["parent"])
-    watch.lap("cut")
-    try:
-        made = solved(mesh, cut, wishes)
-    except MeshError as error:
-        raise _named(error, len(points)) from error
-    _refuse_outside(mesh, made, wishes)
+    widest = room[1].copy() if clamp else None
+    for _ in range(_ROUNDS):
+        cut, wishes = _cut(mesh, wishes, widest)
+        refuse_vertices_on_edges(points, corners, cut["parent"])
+        watch.lap("cut")
+        try:
+            made = solved(mesh, cut, wishes)
+        except MeshError as error:
+            raise _named(error, len(points)) from error
+        near = _outside(mesh, made, wishes)
+        if not len(near) or widest is None:
+            break
+        widest[near] = _NARROWER * np.maximum(*wishes.widths)[near]
+    if len(near):
+        what = "the fillet would leave the shape that it rounds"
+        raise _too_wide(what, near, wishes, seams, float(room[1][near].min()))
+    clamped = _clamped(both, wishes.widths, seams)
     made = replace(made, values={**made.values, "warnings": (*clamped, *made.values["warnings"])})
     if not wants_rows:
         return result_of(mesh, made, wishes)
@@ -234,8 +246,8 @@ def fillet_width(
 ) -> float:
     """The width of a fillet by default: a fifth of the shortest side beside the seams.
 
-    A side is the way square to a seam, straight on over the surface to the next seam, wall or border; of each piece of
-    a seam from corner to corner, the middle one. Arguments as for :func:`fairing.fillet`.
+    A side is the way square to a seam, straight on over the surface to the next seam, wall or border. A tenth of the
+    seams, by their length, may have shorter ones. Arguments as for :func:`fairing.fillet`.
     """
     points = arguments.floats("vertices", vertices)
     corners = arguments.triangles_within(triangles, len(points))
@@ -244,27 +256,51 @@ def fillet_width(
     return float(_core.seam_room(points, corners, (seams.tolist(), ends.tolist()))[0])
 
 
-def _widths(
-    given: tuple[Any, Any], mesh: tuple[FloatArray, IntArray, IntArray, IntArray], clamp: bool
-) -> tuple[tuple[FloatArray, FloatArray], tuple[Diagnostic, ...]]:
-    """Of both sides, and what is said where there is less room. mesh: vertices, triangles, seams, walls."""
-    points, corners, seams, ends = mesh
+def _widths(given: tuple[Any, Any], seams: IntArray, usual: float, count: int) -> tuple[FloatArray, FloatArray]:
+    """(n,) of both sides, as they are asked for."""
     first, second = given
-    usual, widest = 0.0, np.full(len(points), np.inf)
-    if first is None or clamp:
-        usual, widest = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
-    one = width_of("width", usual if first is None else first, seams, len(points))
-    other = one if second is None else width_of("width_2", second, seams, len(points))
-    where = np.unique(seams[np.maximum(one, other)[seams] > widest[seams]]).astype(np.int32)
-    if not clamp or not len(where):
-        return (one, other), ()
+    one = width_of("width", usual if first is None else first, seams, count)
+    return one, one if second is None else width_of("width_2", second, seams, count)
+
+
+_ROUNDS = 5  # of narrower widths, each of which may leave another part with nothing
+_LEFT = 0.97  # of the width that takes a part whole: a strip is left
+_NARROWER = 0.9  # of the width where a surface leaves the shape
+
+
+def _cut(mesh: Given, wishes: Wishes, widest: FloatArray | None) -> tuple[dict[str, Any], Wishes]:
+    """The cut mesh, and the wishes with widths that fit: at most `widest` (n,), unless that is None; or MeshError."""
+    for _ in range(_ROUNDS):
+        if widest is not None:
+            one, other = (np.minimum(side, widest) for side in wishes.widths)
+            wishes = replace(wishes, widths=(one, other))
+        cut = mesh.cut(wishes, wishes.watch.part(0, 0.2))
+        eaten = [part for part in cut["eaten"] if not part[2]]
+        if not eaten:
+            return cut, wishes
+        if widest is None:
+            break
+        for vertices, most, _ in eaten:
+            widest[vertices] = np.minimum(widest[vertices], _LEFT * most)
+    vertices = np.unique(np.concatenate([part[0] for part in eaten]))
+    what = "nothing would be left of a part between seams"
+    raise _too_wide(what, vertices, wishes, mesh.seams, min(part[1] for part in eaten))
+
+
+def _clamped(
+    asked: tuple[FloatArray, FloatArray], taken: tuple[FloatArray, FloatArray], seams: IntArray
+) -> tuple[Diagnostic, ...]:
+    """What is said where there is less room."""
+    wanted, most = (np.maximum(*sides) for sides in (asked, taken))
+    where = np.unique(seams[wanted[seams] > most[seams]]).astype(np.int32)
+    if not len(where):
+        return ()
     figures = {
-        "width": float(np.maximum(one, other)[where].max()), "widest": float(widest[where].min()),
+        "width": float(wanted[where].max()), "widest": float(most[where].min()),
         "vertices": float(len(where)), "clamped": 1.0,
     }  # fmt: skip
     text = f"width: there is less room at {len(where)} vertices, down to {figures['widest']:.4g}, which is taken there"
-    warning = Diagnostic("WIDTH_TOO_LARGE", text, where, "vertex", figures)
-    return (np.minimum(one, widest), np.minimum(other, widest)), (warning,)
+    return (Diagnostic("WIDTH_TOO_LARGE", text, where, "vertex", figures),)
 
 
 def _named(error: MeshError, count: int) -> MeshError:
@@ -291,8 +327,8 @@ def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted:
 
 def _spacing(value: Any, widths: tuple[FloatArray, FloatArray], seams: IntArray) -> float:
     if arguments.finite("spacing", value) < 0:
-        raise ValueError(f"spacing: a length, or 0 for a quarter of the least width, is needed, not {value!r}")
-    return float(value) or min(float(side[seams].min()) for side in widths) / _ROWS
+        raise ValueError(f"spacing: a length, or 0 for a quarter of the width, is needed, not {value!r}")
+    return float(value) or max(float(side[seams].max()) for side in widths) / _ROWS
 
 
 def _refuse_large(
@@ -300,21 +336,16 @@ def _refuse_large(
 ) -> None:
     """MeshError where so many vertices are wanted that a slip in the spacing is likelier than a wish."""
     lengths = np.linalg.norm(points[seams[:, 0]] - points[seams[:, 1]], axis=1)
+    widest = max(float(side[seams].max()) for side in widths)
     usual, wanted = (
-        sum(float((lengths * side[seams].mean(axis=1) / edge**2).sum()) for side in widths)
-        for edge in (min(float(side[seams].min()) for side in widths) / _ROWS, spacing)
+        sum(float((lengths / (share**2 * side[seams].mean(axis=1))).sum()) for side in widths)
+        for share in (1 / _ROWS, spacing / widest)
     )
     Limit.of(usual, most).check(wanted, seams.ravel())
 
 
-def _refuse_eaten(parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray) -> None:
-    if parts:
-        vertices = np.unique(np.concatenate([part[0] for part in parts]))
-        raise _too_wide("nothing would be left of a part between seams", vertices, parts, wishes, seams)
-
-
-def _refuse_outside(mesh: Given, made: Made, wishes: Wishes) -> None:
-    """Rounded convex edges stay inside the solid, concave ones outside."""
+def _outside(mesh: Given, made: Made, wishes: Wishes) -> IntArray:
+    """Vertices of seams beside which rounded convex edges leave the solid, or concave ones enter it."""
     count = len(mesh.points)
     before = np.einsum("kc,kcd->kd", made.weights, mesh.points[mesh.triangles[made.old]])
     used = np.unique(made.triangles[made.triangles >= count]) - count
@@ -322,19 +353,18 @@ def _refuse_outside(mesh: Given, made: Made, wishes: Wishes) -> None:
     widest = max(float(side[mesh.seams].max()) for side in wishes.widths)
     after = made.vertices[count:][used]
     wrong = _core.on_wrong_side(mesh.points, mesh.triangles, edges, widest, before[used], after, None)
-    if len(wrong):
-        ends = np.unique(mesh.seams)
-        near = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
-        raise _too_wide("the fillet would leave the shape that it rounds", near, made.cut["eaten"], wishes, mesh.seams)
+    if not len(wrong):
+        return wrong
+    ends = np.unique(mesh.seams)
+    near: IntArray = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
+    return near
 
 
-def _too_wide(
-    what: str, where: IntArray, parts: list[tuple[IntArray, float, bool]], wishes: Wishes, seams: IntArray
-) -> MeshError:
-    """parts: that the fillet takes whole; a width that fits leaves something of each."""
+def _too_wide(what: str, where: IntArray, wishes: Wishes, seams: IntArray, widest: float) -> MeshError:
+    """widest: that fits there, or not less than what is wanted."""
     text = f"width: {what}; a smaller width is needed, or one of its seams less"
     figures = {"width": max(float(side[seams].max()) for side in wishes.widths), "vertices": float(len(where))}
-    if parts:
-        figures["widest"] = min(part[1] for part in parts)
-        text += f"; a fillet of less than {figures['widest']:.4g} fits"
+    if widest < figures["width"]:
+        figures["widest"] = widest
+        text += f"; a fillet of less than {widest:.4g} fits"
     return MeshError(Diagnostic("WIDTH_TOO_LARGE", text, where.astype(np.int32), "vertex", figures))

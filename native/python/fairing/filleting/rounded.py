@@ -28,6 +28,7 @@ class Wishes:
     walls: IntArray
     options: dict[str, Any]
     watch: Watch
+    in_rows: bool = False
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,9 @@ class Given:
     def cut(self, wishes: Wishes, progress: Progress | None) -> dict[str, Any]:
         """Cut along the line that suits triangles."""
         edges = self.seams.tolist(), wishes.walls.tolist()
-        return _core.cut_fillet(self.points, self.triangles, edges, wishes.widths, wishes.spacing, progress)
+        return _core.cut_fillet(
+            self.points, self.triangles, edges, wishes.widths, wishes.spacing, not wishes.in_rows, progress
+        )
 
 
 @dataclass(frozen=True)
@@ -70,12 +73,12 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
     watch, count = wishes.watch, len(given.points)
     placed = np.concatenate([given.points, cut["points"]])
     inside, pieces, triangles, lines = _core.first_mesh(
-        placed, cut["triangles"], cut["inside"], cut["seams"], wishes.spacing
+        placed, cut["triangles"], cut["inside"], cut["seams"], cut["spacings"]
     )
     cut = {**cut, "inside": inside}
     rim = np.isin(cut["boundary"], np.concatenate(boundary_loops(triangles)))
     patch = Patch(placed, triangles, cut["boundary"][rim], np.ascontiguousarray(cut["normals"][rim]))
-    spacing = Spacing(wishes.spacing, even=True, flat=True)
+    spacing = Spacing(wishes.spacing, even=True, flat=True, each=cut["spacings"])
     new, origin, on_seam = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     chosen = dict(wishes.options)
@@ -106,7 +109,7 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
 def result_of(given: Given, made: Made, wishes: Wishes) -> FilletResult:
     """With the pieces outside, and without vertices that are in none of the triangles."""
     count, cut, inside = len(given.points), made.cut, made.inside
-    gone = _is_gone(cut["parent"], inside, len(given.triangles))
+    gone = _is_gone(cut, inside, given.triangles)
     kept = np.flatnonzero(~inside & gone[cut["parent"]])
     parents = np.concatenate([cut["parent"][kept], _under(made.triangles, made.old, count, made.on_seam)])
     triangles = np.concatenate([cut["triangles"][kept], made.triangles])
@@ -167,10 +170,11 @@ def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
     return result
 
 
-def _is_gone(parent: IntArray, inside: Mask, count: int) -> Mask:
+def _is_gone(cut: dict[str, Any], inside: Mask, triangles: IntArray) -> Mask:
     """(m,) which triangles do not stay: cut, within the fillet, or turned into the one beside."""
-    gone: Mask = np.bincount(parent, minlength=count) != 1
-    gone[parent[inside]] = True
+    parent = cut["parent"]
+    gone: Mask = np.bincount(parent, minlength=len(triangles)) != 1
+    gone[parent[inside | (cut["triangles"] != triangles[parent]).any(axis=1)]] = True
     return gone
 
 

@@ -90,9 +90,11 @@ class Spacing:
     even: bool
     flat: bool = False
     """Whether the old triangles are the surface as they are, broken along seams, and small angles may stay."""
+    each: FloatArray | None = None
+    """(n,) of the vertices, in place of the length."""
 
-    def wanted(self, least: int) -> tuple[float, int, bool, bool]:
-        return self.length, least, self.even, self.flat
+    def wanted(self, least: int) -> tuple[float | FloatArray, int, bool, bool]:
+        return self.length if self.each is None else self.each, least, self.even, self.flat
 
 
 @dataclass(frozen=True)
