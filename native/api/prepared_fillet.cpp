@@ -123,7 +123,7 @@ PreparedFillet::PreparedFillet(const FilletInput& given)
     : input(with_parted(given)),
       plane(turned(input)),
       mesh(input.vertices, input.triangles, input.seams, input.walls),
-      distance(directed_mesh(mesh, input.seams), input.widths, width_of(input, true) + input.spacing),
+      distance(directed_mesh(mesh, input.seams), input.widths, width_of(input, true) + input.spacing, input.through),
       sides(mesh, joined(input.seams, input.walls)),
       least_width(width_of(input, false)) {}
 

@@ -9,8 +9,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double straight = 0.02;  // of its length: how far a piece of the line may leave its chord
-constexpr int fewest_of_loop = 6;  // points of a line that is closed within one triangle
+constexpr double straight = 0.02;      // of its length: how far a piece of the line may leave its chord
+constexpr double nearly_whole = 1e-9;  // of an edge: pieces as long as two edges are no longer
+constexpr int fewest_of_loop = 6;      // points of a line that is closed within one triangle
 
 class Resampling {
 public:
@@ -81,7 +82,7 @@ private:
             bulge = std::max(bulge, size > 0.0 ? (off - off.dot(chord) / size * chord).norm() : off.norm());
         }
         const bool closed = chain.front() == chain.back();
-        auto count = static_cast<int>(std::ceil(way.back() / longest_edge));
+        auto count = static_cast<int>(std::ceil(way.back() / longest_edge - nearly_whole));
         if (closed || bulge > straight * length || runs_straight(chain.front(), chain.back(), triangle))
             count = static_cast<int>(std::lround(way.back()));
         count = std::max(count, 1);

@@ -14,9 +14,10 @@ Vector2 turned_left(const Vector2& v) { return {-v[1], v[0]}; }
 
 }  // namespace
 
-SeamDistance::SeamDistance(const SeamMesh& mesh, const SeamWidths& widths, double reach)
+SeamDistance::SeamDistance(const SeamMesh& mesh, const SeamWidths& widths, double reach, bool through)
     : mesh_(mesh),
       reach_(reach),
+      through_(through),
       windows_of_(mesh.triangles.cols()),
       vertex_(mesh.sheet_count, infinite),
       seams_at_(mesh.points.cols(), 0) {
@@ -82,7 +83,7 @@ void SeamDistance::seed_sector(int first_half_edge, const SeamWidths& widths) {
     if (!(end > begin)) return;
     const double before = width_of(from_seam || !to_seam ? first_half_edge : closing, from_seam || !to_seam, widths);
     const double after = width_of(to_seam || !from_seam ? closing : first_half_edge, !to_seam && from_seam, widths);
-    if (from_seam != to_seam && total <= 2.0 * right_angle && seams_at_[mesh_.tail(first_half_edge)] == 1) {
+    if (through_ && from_seam != to_seam && total <= 2.0 * right_angle && seams_at_[mesh_.tail(first_half_edge)] == 1) {
         seed_extension(from_seam ? closing : first_half_edge, from_seam ? first_half_edge : closing,
                        2.0 * right_angle - total, before);
         return;

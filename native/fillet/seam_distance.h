@@ -32,8 +32,9 @@ struct SeamFoot {
 // shortest ways bend around. All distances up to `reach` are exact but for roundoff.
 class SeamDistance {
 public:
-    // `widths`: entries at the seams' vertices are read. Asks whether to stop. Keeps a reference to the mesh.
-    SeamDistance(const SeamMesh& mesh, const SeamWidths& widths, double reach);
+    // `widths`: entries at the seams' vertices are read. `through`: seams that end on walls go on beyond these. Asks
+    // whether to stop. Keeps a reference to the mesh.
+    SeamDistance(const SeamMesh& mesh, const SeamWidths& widths, double reach, bool through = false);
 
     [[nodiscard]] bool reaches(int triangle) const { return !windows_of_[triangle].empty(); }
     // The nearest seam, by the distance less the width.
@@ -98,6 +99,7 @@ private:
 
     const SeamMesh& mesh_;
     double reach_;
+    bool through_;
     double widest_ = 0.0;
     double slack_ = 0.0;  // ways that are longer by less than that may lead to wider fillets
     double size_ = 1.0;

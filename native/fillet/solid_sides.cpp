@@ -10,9 +10,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double tolerated = 0.05;  // of the width: fair surfaces leave their planes by .02 at corners, more where they
-                                    // fade out; those that leave the shape, by a width
-constexpr double felt = 2.0;        // widths: as far from an edge of the other kind a fair surface still follows it
+constexpr double tolerated = 0.125;  // of the width: fair surfaces leave their planes by .02 at corners, .1 where they
+                                     // fade out or end beside walls; those that leave the shape, by a width
+constexpr double felt = 2.0;         // widths: as far from an edge of the other kind a fair surface still follows it
 
 struct BentEdge {
     Vector3 start, way;

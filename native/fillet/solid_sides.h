@@ -11,7 +11,7 @@ struct FilletPlaces {
 };
 
 // Those of the fillet's vertices that lie outside a solid although no concave edge is within two widths, or inside
-// although no convex one is, by more than a twentieth of the width; and those that are further than it from the solid's
+// although no convex one is, by more than an eighth of the width; and those that are further than it from the solid's
 // surface. Triangles are counter-clockwise from outside. `edges`: seams and walls.
 Indices on_wrong_side(const Points& points, const Triangles& triangles, const std::vector<VertexPair>& edges,
                       double width, const FilletPlaces& places);

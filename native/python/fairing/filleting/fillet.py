@@ -118,7 +118,7 @@ def fillet(
     *,
     width: npt.ArrayLike | None = None,
     width_2: npt.ArrayLike | None = None,
-    clamp: bool = True,
+    clamp: bool = False,
     walls: npt.ArrayLike | None = None,
     profile: float = 0.0,
     spacing: float = 0.0,
@@ -264,7 +264,7 @@ def _widths(given: tuple[Any, Any], seams: IntArray, usual: float, count: int) -
 
 
 _ROUNDS = 5  # of narrower widths, each of which may leave another part with nothing
-_LEFT = 0.97  # of the width that takes a part whole: a strip is left
+_LEFT = 0.9  # of the width that takes a part whole: a strip is left
 _NARROWER = 0.9  # of the width where a surface leaves the shape
 
 
