@@ -1,5 +1,7 @@
 #include "fillet/seam_distance.h"
 
+#include <Eigen/Geometry>
+
 #include "base/progress.h"
 
 namespace fairing {
