@@ -14,7 +14,7 @@ struct FilletInput {
     SeamWidths widths;              // of each vertex; those of the seams are read, and are positive: on the left is the
                                     // larger part, as fillet/seam_sides has it
     bool through = false;  // whether ends of seams cut the faces there (fillet/end_cuts), and do not fade out before
-    double spacing = 1.0;           // of new edges where the fillet is widest; elsewhere in proportion to its width
+    double spacing = 1.0;  // of new edges where the fillet is widest; elsewhere in proportion to its width
 };
 
 struct FilletCut {
