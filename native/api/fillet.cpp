@@ -148,14 +148,21 @@ VectorX spacings_of(const PreparedFillet& made, const SplitMesh& cut) {
     return found;
 }
 
-void set_sections(const EndSections& sections, FilletCut& cut) {
+void set_sections(const FilletInput& given, const EndSections& sections, FilletCut& cut) {
+    std::map<int, Vector3> before;
     for (std::size_t k = 0; k < sections.vertices.size(); ++k) {
         const int v = sections.vertices[k];
+        before[v] = sections.before[k];
         const auto at = std::ranges::lower_bound(cut.boundary, v) - cut.boundary.begin();
         if (at == std::ssize(cut.boundary) || cut.boundary[at] != v) continue;
         cut.normals.col(at) = sections.normals[k];
         cut.curvatures[at] = std::numeric_limits<double>::quiet_NaN();
         std::erase(cut.corners, v);
+    }
+    for (Eigen::Index c = 0; c < cut.weights.cols(); ++c) {
+        const auto found = before.find(cut.mesh.triangles(c % 3, c / 3));
+        if (found == before.end() || cut.mesh.inside[c / 3] == 0) continue;
+        cut.weights.col(c) = barycentric(given.vertices, given.triangles, cut.mesh.parent[c / 3], found->second);
     }
 }
 
@@ -197,7 +204,7 @@ FilletCut cut_fillet(const FilletInput& given, const ProgressCallback& callback)
         EndSections sections;
         if (given.through) sections = cut_ends(made.mesh, made.sides, result.mesh);
         finish_cut(given, made, result);
-        set_sections(sections, result);
+        set_sections(given, sections, result);
     }
     progress.report(1.0, "done");
     return result;

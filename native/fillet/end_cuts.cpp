@@ -49,6 +49,7 @@ public:
         for (const EndSection& each : sections) {
             made.vertices.insert(made.vertices.end(), each.vertices.begin(), each.vertices.end());
             made.normals.insert(made.normals.end(), each.vertex_normals.begin(), each.vertex_normals.end());
+            made.before.insert(made.before.end(), each.before.begin(), each.before.end());
         }
         return made;
     }
@@ -119,7 +120,7 @@ private:
         const Points curve = least_variation_curve(from, to, all);
         const Vector3 normal = side_normal(faces.parent(faces.at(chain[0], chain[1])), begin);
         const double sign = from.direction.cross(way).dot(normal) < 0.0 ? -1.0 : 1.0;
-        EndSection section{chain, {}, {}, *plane, none, {}, {}};
+        EndSection section{chain, {}, {}, *plane, none, {}, {}, {}};
         for (Eigen::Index k = 0; k < shares.size(); ++k) {
             const Vector3 place = curve.col(k);
             section.places.push_back(middle + place - place.dot(*plane) / way.dot(*plane) * way);

@@ -10,6 +10,7 @@ namespace fairing {
 struct EndSections {
     Indices vertices;
     std::vector<Vector3> normals;
+    std::vector<Vector3> before;  // where these places were, along the edges
 };
 
 // Where a seam ends on an edge of a plane face, the cross-section in that face's plane, tangent to both sides, takes

@@ -14,7 +14,8 @@ struct EndSection {
     Vector3 plane;                         // unit normal of the face on the chain's right
     int first_new = none;
     Indices vertices;                     // those in the mesh, with those where the face's edges cross the section,
-    std::vector<Vector3> vertex_normals;  // and the normals there; none where the face has no room
+    std::vector<Vector3> vertex_normals;  // the normals there, and where they were along the chain; none where the face
+    std::vector<Vector3> before;          // has no room
 };
 
 // What becomes of a face.

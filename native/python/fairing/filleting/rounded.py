@@ -183,7 +183,9 @@ def line_places(cut: dict[str, Any], begin: int) -> tuple[IntArray, FloatArray]:
     place = np.zeros(len(cut["points"]), dtype=np.int64)
     flat = cut["triangles"].ravel()
     on_line = np.flatnonzero(flat >= begin)
-    place[flat[on_line] - begin] = on_line
+    for within in (False, True):  # at the ends of seams the fillet's own side counts, not the face that it cuts
+        those = on_line[cut["inside"][on_line // 3] == within]
+        place[flat[those] - begin] = those
     return cut["parent"][place // 3], cut["weights"][place]
 
 
