@@ -179,7 +179,7 @@ FilledHole HoleJob::filled(const Progress& progress) const {
         made.report.seconds["total"] = watch.seconds();
         return made;
     };
-    if (!options_.bridge && is_single_face(loops_[0].shape, options_.spacing)) return timed(closed_by_face());
+    if (!options_.bridge && takes_no_vertex(loops_[0].shape, options_.spacing)) return timed(closed_by_face());
     if (through_) {
         if (auto made = along(*through_, progress.range(0.0, 0.5))) return timed(std::move(*made));
     }

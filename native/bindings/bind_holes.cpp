@@ -67,7 +67,7 @@ public:
         py::list result;
         for (const Hole& hole : found_.holes) {
             const BoundaryLoop& loop = hole.loops[0];
-            const bool may = !loop.is_pinched && !is_single_face(loop.shape, spacing);
+            const bool may = !loop.is_pinched && !takes_no_vertex(loop.shape, spacing);
             result.append(py::make_tuple(loop.shape.normals, may));
         }
         return result;

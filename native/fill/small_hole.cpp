@@ -1,6 +1,8 @@
 #include "fill/small_hole.h"
 
+#include "base/columns.h"
 #include "fill/limits.h"
+#include "fill/triangulation.h"
 #include "geometry/triangle.h"
 
 namespace fairing {
@@ -18,10 +20,32 @@ bool is_edge_of(const Triangles& triangles, int a, int b) {
 
 Vector3 area_of(const LoopShape& loop, const std::array<int, 3>& corners) { return area_vector(loop.points, corners); }
 
+bool lies_on_another_edge(const LoopShape& loop, int k, double reach) {
+    const int n = loop.size();
+    for (int e = (k + 1) % n; e != (k + n - 1) % n; e = (e + 1) % n) {
+        const Vector3 edge = loop.edge(e);
+        const Vector3 away = loop.points.col(k) - loop.points.col(e);
+        const double share =
+            std::clamp(away.dot(edge) / std::max(edge.squaredNorm(), std::numeric_limits<double>::min()), 0.0, 1.0);
+        if ((away - share * edge).norm() <= reach) return true;
+    }
+    return false;
+}
+
+// But for its two ends all of it lies on the other side.
+bool is_crack(const LoopShape& loop) {
+    constexpr double narrow =
+        0.1;  // of an edge: a mesh within would be of needles, or of a hundred times as many edges
+    const double reach = narrow * loop.perimeter() / loop.size();
+    int apart = 0;
+    for (int k = 0; k < loop.size() && apart <= 2; ++k) apart += lies_on_another_edge(loop, k, reach) ? 0 : 1;
+    return apart <= 2;
+}
+
 }  // namespace
 
-bool is_single_face(const LoopShape& loop, double spacing) {
-    if (loop.size() > 4) return false;
+bool takes_no_vertex(const LoopShape& loop, double spacing) {
+    if (loop.size() > 4) return is_crack(loop);
     double longest = 0.0;
     for (int k = 0; k < loop.size(); ++k) longest = std::max(longest, loop.edge(k).norm());
     return !(spacing > 0.0) || longest <= split_length * spacing;
@@ -31,6 +55,12 @@ Triangles face_over(const BoundaryLoop& loop, const Triangles& around) {
     using Cut = std::array<std::array<int, 3>, 2>;
     const Indices& at = loop.vertices;
     if (at.size() == 3) return Eigen::Vector3i(at[0], at[1], at[2]);
+    if (at.size() > 4) {
+        Indices places(at.size());
+        std::iota(places.begin(), places.end(), 0);
+        Triangles faces = as_columns(cheapest_triangulation(places, TriangleCost(loop.shape.points)));
+        return faces.unaryExpr([&](int k) { return at[k]; });
+    }
     const Vector3 normal = loop.shape.normals.rowwise().sum();
     const auto facing = [&](const Cut& cut, bool is_there) {
         constexpr double never = 10.0;  // above any difference of two cosines

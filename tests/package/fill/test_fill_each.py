@@ -311,3 +311,24 @@ def test_a_loop_without_a_fair_surface_is_closed_by_the_one_of_least_area() -> N
     assert abs(result.vertices[:, 2]).max() < 1e-9
     assert warning.code == "NO_SOLUTION" and warning.figures["film"] == 1.0 and "16 edges" in warning.message
     assert not fairing.fill(*given, normals=normals, otherwise="stop").converged
+
+
+def test_a_crack_is_closed_without_new_vertices() -> None:
+    """A sheet torn along six of its edges, by a thousandth of one: the two sides meet again."""
+    x, y = (index.ravel() for index in np.mgrid[:13, :9])
+    points = np.column_stack([x, y, 0.02 * x * x]).astype(float)
+    corner = np.flatnonzero((x < 12) & (y < 8))
+    triangles = np.concatenate(
+        [np.column_stack([corner, corner + 9, corner + 10]), np.column_stack([corner, corner + 10, corner + 1])]
+    )
+    torn = 4 + 9 * np.arange(4, 9)
+    copies = len(points) + np.arange(5)
+    beyond = points[triangles].mean(axis=1)[:, 1] > 4
+    number = np.arange(len(points))
+    number[torn] = copies
+    triangles[beyond] = number[triangles[beyond]]
+    points = np.concatenate([points, points[torn] + [0, 1e-3, 0]])
+    result = fairing.fill(points, triangles)
+    (hole,) = (hole for hole in result.holes if hole.surface is not None)
+    assert len(hole.loops[0]) == 12 and not len(result.vertices) and len(result.triangles) == 10
+    assert not len(fairing.self_intersections(*whole(points, triangles, result)))
