@@ -34,8 +34,7 @@ bool lies_on_another_edge(const LoopShape& loop, int k, double reach) {
 
 // But for its two ends all of it lies on the other side.
 bool is_crack(const LoopShape& loop) {
-    constexpr double narrow =
-        0.1;  // of an edge: a mesh within would be of needles, or of a hundred times as many edges
+    constexpr double narrow = 0.1;  // of an edge: a mesh within would be of needles
     const double reach = narrow * loop.perimeter() / loop.size();
     int apart = 0;
     for (int k = 0; k < loop.size() && apart <= 2; ++k) apart += lies_on_another_edge(loop, k, reach) ? 0 : 1;

@@ -6,13 +6,13 @@
 
 namespace fairing {
 
-// Whether faces close a loop without a new vertex: it has three edges, or four, none of them longer than those wanted (a
-// new vertex would lift the surface of a flat place by as much as the fitted normals are off, over half an edge), or it
-// is a crack, which runs back where it came from. `spacing`: 0 for the loop's own edges.
+// Whether faces close a loop without a new vertex: it has three edges, or four, none of them longer than those wanted
+// (a new vertex would lift the surface of a flat place by as much as the fitted normals are off, over half an edge), or
+// it is a crack, which runs back where it came from. `spacing`: 0 for the loop's own edges.
 bool takes_no_vertex(const LoopShape& loop, double spacing);
 
-// Triangles over such a loop. Of two diagonals the one whose triangles face as the surroundings do, unless it is an edge
-// of `around` already; over a crack those of least area.
+// Triangles over such a loop. Of two diagonals the one whose triangles face as the surroundings do, unless it is an
+// edge of `around` already; over a crack those of least area.
 Triangles face_over(const BoundaryLoop& loop, const Triangles& around);
 
 // Degrees at each vertex of the loop between its normal and that of the face over it, area by area.
