@@ -57,6 +57,7 @@ Triangles within_rings(const Triangles& triangles, Marks reached) {
 // The others, turned round where most of them are wound against the surface along its boundary.
 Triangles wound_alike(const Triangles& surface, Triangles others, Eigen::Index count) {
     std::vector<std::array<int, 2>> sides;
+    sides.reserve(surface.size());
     for (int side = 0; side < surface.size(); ++side)
         sides.push_back({side_tail(surface, side), side_head(surface, side)});
     std::sort(sides.begin(), sides.end());

@@ -123,9 +123,9 @@ private:
         EndSection section{chain, {}, {}, *plane, none, {}, {}, {}};
         for (Eigen::Index k = 0; k < shares.size(); ++k) {
             const Vector3 place = curve.col(k);
-            section.places.push_back(middle + place - place.dot(*plane) / way.dot(*plane) * way);
+            section.places.emplace_back(middle + place - place.dot(*plane) / way.dot(*plane) * way);
             const Vector3 tangent = curve.col(2 * shares.size() + k) - curve.col(shares.size() + k);
-            section.normals.push_back(sign * tangent.cross(way).normalized());
+            section.normals.emplace_back(sign * tangent.cross(way).normalized());
         }
         sections.push_back(std::move(section));
     }

@@ -163,7 +163,7 @@ void EndFaces::write(const std::vector<EndSection*>& sections, const FaceChange&
             const Vector3& after = section.normals[std::min(k + 1, path.size() - 1)];
             section.vertices.push_back(vertex);
             const int last = section.chain[std::min(k + 1, path.size() - 1)];
-            section.before.push_back((1.0 - share) * place(section.chain[k]) + share * place(last));
+            section.before.emplace_back((1.0 - share) * place(section.chain[k]) + share * place(last));
             section.vertex_normals.push_back(((1.0 - share) * section.normals[k] + share * after).normalized());
         }
         move_fillet(section.chain, path);

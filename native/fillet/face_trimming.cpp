@@ -90,14 +90,14 @@ private:
         const EndFaces::Corners corners = faces_.corners_given(t);
         const Indices border = faces_.border(t);
         std::size_t k = 0;
-        for (std::size_t n = 0; n < border.size(); ++n) {
-            vertices_.insert(border[n]);
-            if (border[n] == corners[(k + 1) % 3]) ++k;
-            if (border[n] == corners[k % 3]) continue;
+        for (const int v : border) {
+            vertices_.insert(v);
+            if (v == corners[(k + 1) % 3]) ++k;
+            if (v == corners[k % 3]) continue;
             const VertexPair edge = sorted_pair(corners[k], corners[(k + 1) % 3]);
-            const double along = (at(border[n]) - at(edge[0])).norm() / (at(edge[1]) - at(edge[0])).norm();
+            const double along = (at(v) - at(edge[0])).norm() / (at(edge[1]) - at(edge[0])).norm();
             if (edges_.contains(edge)) continue;
-            on_edge_[edge].emplace_back(along, border[n]);
+            on_edge_[edge].emplace_back(along, v);
         }
         for (int c = 0; c < 3; ++c) edges_.insert(sorted_pair(corners[c], corners[(c + 1) % 3]));
     }
@@ -151,7 +151,7 @@ private:
             if (touches || off[0] * off[1] > 0.0 || off[2] * off[3] > 0.0) continue;
             const double share = off[0] / (off[0] - off[1]);
             const Vector2 place = from + share * (to - from);
-            made_.added.push_back(origin_ + place[0] * x_ + place[1] * y_);
+            made_.added.emplace_back(origin_ + place[0] * x_ + place[1] * y_);
             path.push_back({static_cast<double>(k) + share, next_});
             at_[next_] = place;
             found.emplace_back((place - a).norm() / length, next_++);

@@ -200,6 +200,7 @@ private:
         const SeamArc& arc = bands_.bands[first.band].arc;
         columns_.lift(middle, arc, first.at_last ? arc.length() : 0.0);
         std::vector<Indices> spokes;
+        spokes.reserve(sectors.size());
         for (const Sector& sector : sectors) spokes.push_back(spoke(sector.from, middle));
         for (std::size_t k = 0; k < sectors.size(); ++k) {
             const Indices& from = spokes[k];

@@ -218,6 +218,7 @@ std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first
         if (is_clear(strip, crossings.back(), each) && is_clear(strip, each, end)) crossings.push_back(each);
     }
     std::vector<Column> made;
+    made.reserve(crossings.size() + 1);
     for (const Crossing& each : crossings) made.push_back(column(strip, each));
     made.push_back(strip.closed ? Column{end.at, end.way, made.front().ids} : column(strip, end));
     if (!given[0].empty()) made.front().ids = given[0];

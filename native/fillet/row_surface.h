@@ -14,7 +14,7 @@ using Quad = std::array<int, 4>;
 using Carried = std::function<Vector3(const NearestPlace&)>;
 
 // Thrown where no rows of quads fit.
-struct NoRows {};
+struct NoRows : std::exception {};
 
 struct RowVertex {
     NearestPlace under;  // on the triangles,
