@@ -95,6 +95,7 @@ def good() -> dict[str, bytes]:
                 ("STCNOFF", " 0 0 1 .1 .2 .3 1 .5 .25", ""),
             ]
         },
+        "behind_others.off": b"appearance {\n+texturing\n}\n" + plain.encode(),
         "larger_end_first.off": _binary_off(">", (0,)),
         "pmp.off": _binary_off("<", ()),
         "comments.off": plain.replace("OFF\n", "OFF # here\n# counts\n").encode(),

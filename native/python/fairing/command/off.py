@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,25 +17,19 @@ _KINDS = (("N", "normals", (3,)), ("C", "colors", (4, 3)), ("ST", "uv", (2,)))  
 Rows = list[list[str]]
 
 
-@dataclass
-class Header:
-    """What can't be written again."""
-
-    gone: list[str]
-
-
-def read(source: Path) -> tuple[Parts, Header]:
-    """The mesh; colours of bytes stay bytes, data at faces is their colour or its number in a table."""
+def read(source: Path) -> tuple[Parts, list[str]]:
+    """The mesh, and what can't be written again. Data at faces is their colour, or its number in a table."""
     raw = source.read_bytes()
     if (binary := re.match(rb"(?:ST|[CN4])*OFF[ \t]+BINARY[ \t]*\r?\n", raw)) is not None:
         if raw[:3] != b"OFF":
             raise ValueError("binary files of this kind are read with places alone")
         places, rows = _binary(raw[binary.end() :])
-        return by_vertices(places, Polygons.of(rows), ({}, {}), {}), Header([])
-    text = re.sub(r"#[^\r\n]*", "", raw.decode("ascii", "replace"))
-    lines = [words for line in text.splitlines() if (words := line.split())] or [[""]]
-    word = lines[0].pop(0) if _WORD.fullmatch(lines[0][0].upper()) else "OFF"
-    lines = lines if lines[0] else lines[1:]
+        return by_vertices(places, Polygons.of(rows), ({}, {}), {}), []
+    text = re.sub(r"#[^\r\n]*", "", raw.decode("ascii", "replace")).splitlines()
+    lines = [words for line in text if (words := line.split())] or [[""]]
+    begin = next((k for k, row in enumerate(lines) if _WORD.fullmatch(row[0].upper())), None)  # behind an appearance
+    word = "OFF" if begin is None else lines[begin].pop(0)
+    lines = [row for row in lines[begin or 0 :] if row]
     count, size = (int(each) for each in lines[0][:2])
     if min(count, size) < 1 or len(lines) <= count + size:
         raise ValueError("it has no faces" if size < 1 else f"it ends before {count} vertices and {size} faces")
@@ -48,7 +41,7 @@ def read(source: Path) -> tuple[Parts, Header]:
     is_even = len({len(row) for row in rest}) == 1
     of_faces: Data = {"colors": _numbers(rest)} if is_even and len(rest[0]) else {}
     parts = by_vertices(table, Polygons(corners.astype(np.int32), sizes), (of_vertices, of_faces), {})
-    return parts, Header([] if is_even else ["colors of some faces"])
+    return parts, [] if is_even else ["colors of some faces"]
 
 
 def _vertices(rows: Rows, word: str) -> tuple[npt.NDArray[np.float64], Data]:
@@ -91,7 +84,7 @@ def _binary(raw: bytes) -> tuple[npt.NDArray[np.float64], list[list[int]]]:
     raise ValueError("its binary numbers are no vertices and faces")
 
 
-def write(target: Path, parts: Parts, header: Header | None) -> list[str]:
+def write(target: Path, parts: Parts, lost: list[str] | None) -> list[str]:
     """Write a mesh; tell what it can't have."""
     shapes = {name: np.shape(values)[1:] for name, values in parts.vertex_data.items()}
     known = [(letter, name) for letter, name, widths in _KINDS if shapes.get(name) in [(each,) for each in widths]]
@@ -104,7 +97,7 @@ def write(target: Path, parts: Parts, header: Header | None) -> list[str]:
     lines = [f"{word}OFF", counts, *_lines(table), *(face + tail for face, tail in zip(faces, tails, strict=True))]
     target.write_text("\n".join([*lines, ""]), encoding="ascii")
     gone = {*parts.vertex_data} - {name for _, name in known} | {*parts.face_data} - {"colors"}
-    return sorted(gone.union(header.gone if header else ()))
+    return sorted(gone.union(lost or ()))
 
 
 def _lines(columns: list[npt.NDArray[Any]]) -> list[str]:
