@@ -3,6 +3,7 @@
 #include "base/columns.h"
 #include "fill/limits.h"
 #include "fill/triangulation.h"
+#include "geometry/segments.h"
 #include "geometry/triangle.h"
 
 namespace fairing {
@@ -23,11 +24,8 @@ Vector3 area_of(const LoopShape& loop, const std::array<int, 3>& corners) { retu
 bool lies_on_another_edge(const LoopShape& loop, int k, double reach) {
     const int n = loop.size();
     for (int e = (k + 1) % n; e != (k + n - 1) % n; e = (e + 1) % n) {
-        const Vector3 edge = loop.edge(e);
-        const Vector3 away = loop.points.col(k) - loop.points.col(e);
-        const double share =
-            std::clamp(away.dot(edge) / std::max(edge.squaredNorm(), std::numeric_limits<double>::min()), 0.0, 1.0);
-        if ((away - share * edge).norm() <= reach) return true;
+        if (distance_to_segment(loop.points.col(k), loop.points.col(e), loop.points.col((e + 1) % n)) <= reach)
+            return true;
     }
     return false;
 }

@@ -13,12 +13,6 @@ constexpr double touching = 1e-9;  // of the extent
 constexpr double on_edge = 1e-5;
 constexpr double tiny = std::numeric_limits<double>::min();
 
-double distance_to_segment(const Vector3& point, const Vector3& begin, const Vector3& end) {
-    const Vector3 along = end - begin;
-    const double share = (point - begin).dot(along) / std::max(along.squaredNorm(), tiny);
-    return (begin + std::clamp(share, 0.0, 1.0) * along - point).norm();
-}
-
 // Of inner points nearest to each other, and of ends from the other segment.
 double distance_between(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
     constexpr double parallel = 1e-12;  // of parallel ones an end is among the nearest
@@ -89,6 +83,12 @@ void sort_once(std::vector<Row>& rows) {
 std::array<int, 2> sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 }  // namespace
+
+double distance_to_segment(const Vector3& point, const Vector3& begin, const Vector3& end) {
+    const Vector3 along = end - begin;
+    const double share = (point - begin).dot(along) / std::max(along.squaredNorm(), tiny);
+    return (begin + std::clamp(share, 0.0, 1.0) * along - point).norm();
+}
 
 VertexPairs edges_around(const Indices& loop) {
     VertexPairs edges;

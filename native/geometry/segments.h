@@ -12,6 +12,8 @@ VertexPairs edges_around(const Indices& loop);
 // The ends of two edges each that meet, not at a vertex that both have: nearer than 1e-9 of the extent of all.
 std::vector<std::array<int, 4>> crossing_edges(const VertexPairs& edges, const View<Points>& points);
 
+double distance_to_segment(const Vector3& point, const Vector3& begin, const Vector3& end);  // or to an end
+
 struct Touches {
     std::vector<std::array<int, 3>> on_edges;  // the ends of an edge, and a vertex that lies on it between them
     VertexPairs pairs;                         // vertices that lie on each other, the smaller index first

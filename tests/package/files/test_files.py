@@ -17,7 +17,7 @@ from fairing.objects.parts import Parts, Polygons
 from test_mesh_objects import COLUMNS, holed, radius, split, tube
 
 pytest.importorskip("plyfile")
-pytest.importorskip("trimesh")
+trimesh = pytest.importorskip("trimesh")
 LOST = {"points_lines.obj": ["l", "p", "vp"], "binary_attribute.stl": ["stl"]}
 GOOD, BROKEN = odd_files.good(), odd_files.broken()
 
@@ -78,7 +78,6 @@ def test_numbers_that_need_more_than_two_bytes_are_written(tmp_path: Path) -> No
 @pytest.mark.parametrize("kind", [".glb", ".stl"])
 def test_normals_are_left_to_nobody(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without SciPy trimesh takes minutes for those of a large mesh."""
-    trimesh = pytest.importorskip("trimesh")
     mesh = trimesh.Trimesh(*holed(), process=False)
     mesh.vertex_normals = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1)[:, None]
     mesh.export(tmp_path / f"tube{kind}")
@@ -245,7 +244,6 @@ def test_a_seam_goes_on_over_a_fillet() -> None:
 
 def test_objects_of_a_scene_stay(tmp_path: Path) -> None:
     """Two objects share a mesh of two primitives; the hole between these is closed once, and both objects show it."""
-    trimesh = pytest.importorskip("trimesh")
     points, triangles = holed()
     scene = trimesh.Scene()
     upper = points[triangles].mean(axis=1)[:, 2] > 0.1

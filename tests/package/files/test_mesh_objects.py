@@ -54,8 +54,10 @@ def test_new_quads_are_faces_of_four_corners() -> None:
     halves = trimesh.Trimesh(
         points, split(quads[~hole]), process=False, face_attributes={"on": np.ones(2 * (~hole).sum())}
     )
+    halves.vertex_attributes["normals"] = points  # a name that is not ours to take
     mesh, _ = fairing.fill_holes(halves, longest=20, faces="quads")
     assert len(mesh.faces) == len(mesh.face_attributes["on"]) == 2 * len(quads)
+    assert len(mesh.vertex_attributes["normals"]) == len(mesh.vertices)
 
 
 def radius(points: Any) -> np.ndarray:

@@ -14,13 +14,12 @@ from fairing.objects.parts import Data, Parts, Polygons
 
 _WORD = re.compile(r"(?:ST|[CN4])*OFF")
 _KINDS = (("N", "normals", (3,)), ("C", "colors", (4, 3)), ("ST", "uv", (2,)))  # in this order behind the place
-Rows = list[list[str]]
 
 
 def read(source: Path) -> tuple[Parts, list[str]]:
     """The mesh, and what can't be written again. Data at faces is their colour, or its number in a table."""
     raw = source.read_bytes()
-    if (binary := re.match(rb"(?:ST|[CN4])*OFF[ \t]+BINARY[ \t]*\r?\n", raw)) is not None:
+    if (binary := re.match(rf"{_WORD.pattern}[ \t]+BINARY[ \t]*\r?\n".encode(), raw)) is not None:
         if raw[:3] != b"OFF":
             raise ValueError("binary files of this kind are read with places alone")
         places, rows = _binary(raw[binary.end() :])
@@ -44,7 +43,7 @@ def read(source: Path) -> tuple[Parts, list[str]]:
     return parts, [] if is_even else ["colors of some faces"]
 
 
-def _vertices(rows: Rows, word: str) -> tuple[npt.NDArray[np.float64], Data]:
+def _vertices(rows: list[list[str]], word: str) -> tuple[npt.NDArray[np.float64], Data]:
     width = min(map(len, rows))
     rows = [row[:width] for row in rows]
     places = np.array([row[: 3 + ("4" in word)] for row in rows], np.float64)
@@ -61,7 +60,7 @@ def _vertices(rows: Rows, word: str) -> tuple[npt.NDArray[np.float64], Data]:
     return places[:, :3] / places[:, 3:] if "4" in word else places, data
 
 
-def _numbers(rows: Rows, may_be_bytes: bool = True) -> npt.NDArray[Any]:
+def _numbers(rows: list[list[str]], may_be_bytes: bool = True) -> npt.NDArray[Any]:
     """Whole numbers up to 255 as bytes, others as real ones."""
     table = np.array(rows, np.float64)
     whole = may_be_bytes and not any("." in each for row in rows for each in row)
@@ -93,8 +92,7 @@ def write(target: Path, parts: Parts, lost: list[str] | None) -> list[str]:
     tails = [""] * len(parts.faces.sizes) if colours is None else [f" {row}" for row in _lines([colours])]
     faces = [f"{len(row)} {' '.join(map(str, row.tolist()))}" for row in parts.faces.rows()]
     word = "".join(letter for letter, _ in sorted(known, key=lambda each: "STCN".index(each[0])))
-    counts = f"{len(parts.points)} {len(faces)} 0"
-    lines = [f"{word}OFF", counts, *_lines(table), *(face + tail for face, tail in zip(faces, tails, strict=True))]
+    lines = [f"{word}OFF", f"{len(parts.points)} {len(faces)} 0", *_lines(table), *map(str.__add__, faces, tails)]
     target.write_text("\n".join([*lines, ""]), encoding="ascii")
     gone = {*parts.vertex_data} - {name for _, name in known} | {*parts.face_data} - {"colors"}
     return sorted(gone.union(lost or ()))

@@ -38,7 +38,8 @@ def _trimesh(mesh: Any) -> Opened:
     kind = getattr(mesh.visual, "kind", None)
     name = "uv" if kind == "texture" else "colors"
     visual = getattr(mesh.visual, "uv" if kind == "texture" else f"{kind}_colors", None)
-    if "vertex_normals" in mesh._cache:  # of a file; without, trimesh would compute them
+    has_normals = "vertex_normals" in mesh._cache  # of a file; without, trimesh would compute them
+    if has_normals:
         stores[0]["normals"] = np.asarray(mesh.vertex_normals)
     if visual is not None:
         stores[kind == "face"][name] = np.asarray(visual)
@@ -49,7 +50,8 @@ def _trimesh(mesh: Any) -> Opened:
         own = None if visual is None else data[kind == "face"].pop(name)
         result = type(mesh)(
             vertices=made.points, faces=made.faces.rows(), process=False, metadata=dict(mesh.metadata),
-            vertex_normals=data[0].pop("normals", None), vertex_attributes=data[0], face_attributes=data[1],
+            vertex_normals=data[0].pop("normals") if has_normals else None,
+            vertex_attributes=data[0], face_attributes=data[1],
         )  # fmt: skip
         if own is not None:
             texture = {"uv": own, "material": getattr(mesh.visual, "material", None)}
