@@ -4,7 +4,6 @@ from typing import Any
 
 import bpy
 import numpy as np
-import pytest
 
 import meshes
 from extension import module
@@ -30,13 +29,6 @@ def test_another_shape_key_is_noticed() -> None:
     obj.data.shape_keys.key_blocks["Basis"].lock_shape = False
     obj.active_shape_key_index = 1
     assert not job.is_current(bpy.context, tasks)
-
-
-def test_scripts_run_at_once_whatever_the_size(monkeypatch: pytest.MonkeyPatch) -> None:
-    obj, faces = meshes.domed_grid()
-    monkeypatch.setattr(module("run.background"), "LARGE", 0)
-    assert meshes.fair(obj, faces) == {"FINISHED"}
-    assert not bpy.context.window_manager.fairing_progress.running
 
 
 def test_factor_is_answered_from_memory_with_the_same_bits() -> None:

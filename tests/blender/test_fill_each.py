@@ -207,20 +207,6 @@ def test_a_new_mesh_needs_no_free_vertices() -> None:
     assert counts[0] < counts[1] < counts[2]
 
 
-def test_an_island_in_a_hole_is_joined_with_it() -> None:
-    def change(bm: Any) -> None:
-        around = [face for face in bm.faces if face.calc_center_median().z > 0.93]
-        middle = [face for face in around if face.calc_center_median().z > 0.99]
-        bmesh.ops.delete(bm, geom=[face for face in around if face not in middle], context="FACES")
-
-    obj = ball(change)
-    assert len(open_borders(obj)) == 10
-    assert fill(obj, islands=True) == {"FINISHED"}
-    meshes.leave()
-    assert open_borders(obj) == []
-    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 2e-3
-
-
 def half_ball(hole: Callable[[Any], bool]) -> bpy.types.Object:
     """The half x ≥ 0 of a unit sphere with a Mirror modifier, without the faces whose centre `hole` accepts."""
     obj = meshes.remove(meshes.sphere(48), lambda centre: centre.x < 0.0 or hole(centre.normalized()))

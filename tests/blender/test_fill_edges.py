@@ -96,20 +96,6 @@ def test_a_drawn_edge_is_taken_with_its_own_vertices() -> None:
     assert mesh.validate(verbose=True) is False
 
 
-def test_other_keys_carry_the_edge_along() -> None:
-    """A key that lifts everything by one unit lifts the new vertices as much; the edge is in it, too."""
-    obj = box_edge(marked=True)
-    obj.shape_key_add(name="Basis")
-    key = obj.shape_key_add(name="Up")
-    for point in key.data:
-        point.co.z += 1.0 + 0.3 * point.co.y
-    fill(obj)
-    base, up = (np.array([p.co[:] for p in obj.data.shape_keys.key_blocks[k].data]) for k in (0, 1))
-    lifted = up - base
-    assert np.abs(lifted[:, :2]).max() < 1e-6
-    assert np.abs(lifted[:, 2] - 1.0 - 0.3 * base[:, 1]).max() < 1e-2
-
-
 # Fair Fill with Quads: rows go on through the hole, one step of undo takes them back, a refusal changes nothing.
 def pipe(columns: int = 32, rows: int = 20) -> bpy.types.Object:
     """An open cylinder of quads around the z-axis, without those of a window 8 wide and 6 high."""
@@ -132,46 +118,6 @@ def select_border(obj: bpy.types.Object, chosen: Callable[[Any], bool]) -> None:
         vertex.select = vertex.is_boundary and chosen(vertex.co)
     bm.select_flush_mode()
     bmesh.update_edit_mesh(obj.data)
-
-
-def test_an_edge_loop_runs_through() -> None:
-    """Select Loop on one edge of the fill reaches both ends of the pipe, and its ring goes all around."""
-    obj = pipe()
-    select_border(obj, lambda place: abs(place.z) < 1.2)
-    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
-    bm = bmesh.from_edit_mesh(obj.data)
-    new = [face for face in bm.faces if face.select]
-    assert [len(face.verts) for face in new] == [4] * 48
-    assert max(abs(vertex.co.xy.length - 1) for face in new for vertex in face.verts) < 5e-3
-    inside = [edge for face in new for edge in face.edges if all(other.select for other in edge.link_faces)]
-    upright = [e for e in inside if len({round(v.co.z, 2) for v in e.verts}) == 2]
-    for edge in (upright[0], upright[-1]):
-        assert _loop_length(edge) == 20
-        assert _ring_length(edge) == 32
-
-
-def _loop_length(edge: Any) -> int:
-    """Edges straight on in both directions, over vertices of four edges."""
-    count = 1
-    for vertex in edge.verts:
-        here, at = edge, vertex
-        while len(at.link_edges) == 4:
-            beside = {other for face in here.link_faces for other in face.edges}
-            (here,) = (other for other in at.link_edges if other not in beside)
-            at = here.other_vert(at)
-            count += 1
-    return count
-
-
-def _ring_length(edge: Any) -> int:
-    """Edges opposite to each other, face by face, until the first one comes again."""
-    count, here, face = 1, edge, edge.link_faces[0]
-    while True:
-        here = next(other for other in face.edges if not set(other.verts) & set(here.verts))
-        if here == edge:
-            return count
-        face = next(other for other in here.link_faces if other != face)
-        count += 1
 
 
 def test_a_region_is_meshed_anew_in_rows() -> None:

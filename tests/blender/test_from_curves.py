@@ -108,40 +108,11 @@ def test_edges_marked_sharp_are_creases() -> None:
     assert np.abs(z - 1.0 + np.abs(x)).max() < 1e-5
 
 
-@pytest.mark.parametrize("wrong", ["no edge", "open end", "crossing"])
-def test_what_can_not_be_done_is_refused_and_leaves_the_mesh(wrong: str) -> None:
-    lines = circles()
-    if wrong == "open end":
-        lines.append([(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)])
-    elif wrong == "crossing":
-        lines += [np.array([[x, 0.0, z] for x, z in ((-3, -3), (3, -3), (3, 3), (-3, 3), (-3, -3))])]
-        lines += [np.array([[0.0, y, z] for y, z in ((-4, 3), (4, 3), (4, 5), (-4, 3))])]
-    obj = wired(lines)
-    with pytest.raises(RuntimeError, match="No edge"):  # once through edit mode
-        run(obj, lambda edge: False)
-    before = {name: value for name, value in meshes.contents(obj).items() if "select" not in name}
-    said = {"no edge": "No edge without a face", "open end": "A curve of edges ends", "crossing": "Edges cross"}
-    with pytest.raises(RuntimeError, match=said[wrong]):
-        run(obj, lambda edge: wrong != "no edge")
-    after = {name: value for name, value in meshes.contents(obj).items() if "select" not in name}
-    assert after == before
-
-
 def test_an_open_end_is_shown() -> None:
     obj = wired([*circles(), [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]])
     with pytest.raises(RuntimeError, match="A curve of edges ends"):
         run(obj)
     assert [vertex.co.x for vertex in obj.data.vertices if vertex.select] == [2.0]
-
-
-def test_rough_curves_get_a_thin_plate_and_a_word(capfd: pytest.CaptureFixture[str]) -> None:
-    obj = wired(circles())
-    rough = meshes.positions(obj)
-    rough += np.random.default_rng(1).normal(0.0, 0.03, rough.shape)
-    meshes.move(obj, rough)
-    assert run(obj) == {"FINISHED"}
-    assert "a thin plate was taken" in capfd.readouterr().out
-    assert np.sqrt(np.mean((radii(obj) - 1.0) ** 2)) < 0.1
 
 
 def test_fair_fill_says_what_is_for_wires() -> None:

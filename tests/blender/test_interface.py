@@ -40,15 +40,6 @@ def test_operators_and_scripts_have_the_same_options(operator: str, home: str, o
     assert of.named({}) == of()
 
 
-def test_poll_says_why() -> None:
-    meshes.grid()
-    assert not bpy.ops.mesh.fair_region.poll()
-    with pytest.raises(RuntimeError, match="edit mode"):
-        bpy.ops.mesh.fair_region()
-    bpy.ops.object.mode_set(mode="EDIT")
-    assert bpy.ops.mesh.fair_region.poll()
-
-
 @pytest.mark.parametrize(
     "name", ["fair_live_region", "fair_select", "fair_live_forget", "fair_compare", "fair_inspect"]
 )
@@ -140,54 +131,6 @@ def test_command_refuses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
 
 
 # Where Fair Fill is offered, what its redo panel has, and what scripts and commands ask of it and of new meshes.
-def redo_panel(**chosen: Any) -> list[str]:
-    """Return the options that are in sight."""
-    layout = Layout()
-    of = module("options.other_options").FillOptions
-    shown = SimpleNamespace(layout=layout, chosen=of, **{**asdict(of()), **chosen})
-    module("fill.operator").MESH_OT_fair_fill.draw(shown, bpy.context)
-    return layout.reported
-
-
-def test_the_shape_is_hidden_where_positions_alone_are_met() -> None:
-    assert "shape" in redo_panel()
-    assert "shape" not in redo_panel(continuity="G0")
-
-
-def test_a_bridge_has_no_islands_nor_hard_edges_to_ask_for() -> None:
-    assert {"islands", "run_on"} <= {*redo_panel()}
-    assert not {"islands", "run_on"} & {*redo_panel(bridge=True)}
-
-
-def offered(draw: str, context: Any = None) -> list[str]:
-    """Return what an entry adds to its menu."""
-    menu = SimpleNamespace(layout=Layout())
-    getattr(module("show.menus"), draw)(menu, bpy.context if context is None else context)
-    reported: list[str] = menu.layout.reported
-    return reported
-
-
-def test_it_is_in_the_menus_where_one_looks_for_it() -> None:
-    menus = module("show.menus")
-    for name, draw in menus.ENTRIES:
-        assert draw in getattr(bpy.types, name).draw._draw_funcs, name
-    assert offered("draw_face_menu") == ["mesh.fair_region", "mesh.fair_fill"]
-    assert offered("draw_edge_menu") == ["Fair Bridge", "mesh.fair_fill", "mesh.fair_from_curves", "mesh.fair_fillet"]
-    assert offered("draw_vertex_menu") == ["mesh.fair_fill"]
-    assert offered("draw_clean_up_menu") == ["Fair Fill Holes", "mesh.fair_denoise"]
-    for mode, what in (
-        ("VERT", ["mesh.fair_fill"]),
-        ("EDGE", ["mesh.fair_fill", "mesh.fair_fillet"]),
-        ("FACE", ["mesh.fair_region"]),
-    ):
-        tools = SimpleNamespace(mesh_select_mode=tuple(mode == each for each in ("VERT", "EDGE", "FACE")))
-        assert offered("draw_context_menu", SimpleNamespace(tool_settings=tools)) == what
-
-
-def test_object_mode_offers_it_for_meshes_only() -> None:
-    assert offered("draw_object_menu", SimpleNamespace(active_object=None)) == []
-    meshes.grid()
-    assert offered("draw_object_menu") == ["Fair Vertex Group", "Fair Face Set"]
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "OBJECT"])

@@ -120,20 +120,6 @@ def test_marks_and_borders_of_materials_stay() -> None:
         assert polygon.material_index == int(polygon.center.x > 0.0)
 
 
-@pytest.mark.parametrize(
-    ("properties", "text"),
-    [({"detail": 0.5}, "Keep Detail"), ({"falloff": 0.1}, "Falloff"), ({"smooth_boundary": True}, "Smooth Boundary")],
-)
-def test_options_that_need_the_old_vertices_have_no_effect_and_are_named(properties: Any, text: str) -> None:
-    obj, chosen = dented()
-    assert fair_new(obj, chosen, **properties) == {"FINISHED"}
-    with_it = meshes.contents(obj)
-    assert [check.value for check in meshes.report().checks if check.name == "Without effect"] == [text]
-    obj, chosen = dented()
-    fair_new(obj, chosen)
-    assert meshes.contents(obj) == with_it
-
-
 def test_another_key_than_the_basis_changes_alone() -> None:
     """New vertices of the Basis lie where the old surface was."""
     obj, chosen = dented()

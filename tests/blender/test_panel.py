@@ -165,18 +165,6 @@ def in_redo_panel(opened: bool, operator: str = "fair", **chosen: Any) -> list[s
     return [text for text in layout.reported if module("options.table").named(of, text)]
 
 
-EVERYDAY = [
-    "factor",
-    "shape",
-    "bulge",
-    "continuity",
-    "boundary_normals",
-    "remesh",
-    "inner_fairness",
-    "detail",
-    "falloff",
-    "smooth_boundary",
-]
 STATES: list[dict[str, Any]] = [
     {name: value}
     for name, values in {
@@ -189,16 +177,6 @@ STATES: list[dict[str, Any]] = [
     }.items()
     for value in values
 ]
-
-
-def test_redo_panel_shows_what_is_set_often() -> None:
-    assert in_redo_panel(opened=False) == EVERYDAY
-
-
-@pytest.mark.parametrize("first", STATES)
-@pytest.mark.parametrize("second", STATES)
-def test_redo_panel_never_shows_more_than_twelve(first: Any, second: Any) -> None:
-    assert len(in_redo_panel(opened=False, **{**first, **second})) <= 12
 
 
 def test_redo_panel_has_every_option() -> None:
@@ -236,40 +214,6 @@ def test_other_redo_panels_are_of_the_same_kind(operator: str) -> None:
     everything = in_redo_panel(True, operator)
     assert 4 <= len(shown) <= 9
     assert {*everything} == {*asdict(options_of(operator)())}
-
-
-def test_every_kind_of_button_is_drawn_without_an_object() -> None:
-    fair = options_of("fair")
-    layout, manager = Layout(), bpy.context.window_manager
-    shown = SimpleNamespace(chosen=fair, **asdict(fair()))
-    module("options.redo_panel").draw_options(layout, shown, None, manager)
-    assert "factor" in layout.reported
-
-
-def test_the_last_run_is_a_word_a_sentence_and_a_button() -> None:
-    shown = meshes.report()
-    shown.verdict, shown.reason, shown.written, shown.objects = "LOOK", "It is so", True, "Grid"
-    shown.remedies, shown.warnings, shown.free_vertices = "WRITE,HOLD_BORDER,ALL_KEYS", "One\nTwo", 5
-    assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Look here", "It is so", "All Keys"]
-    details = drawn("VIEW3D_PT_fairing_details").splitlines()
-    assert details[:6] == ["Grid", "Show Worst Spots", "Hold Open Border", "Apply Anyway", "One", "Two"]
-    shown.verdict, shown.reason, shown.remedies = "GOOD", "", ""
-    assert drawn("VIEW3D_PT_fairing_report").splitlines() == ["Good", "One"]
-    assert drawn("VIEW3D_PT_fairing_details").splitlines()[:2] == ["Grid", "Two"]
-    module("verdict.properties").clear(shown)
-
-
-@pytest.mark.parametrize("name", ["Remove Feature", "Repair Scan", "Limb or Tube", "Class A", "Fillet", "Soften"])
-def test_presets_run(name: str) -> None:
-    obj, faces = meshes.domed_grid()
-    assert meshes.fair(obj, faces, **module("options.presets").PRESETS["mesh.fair_region"][1][name]) == {"FINISHED"}
-
-
-def test_presets_are_offered_beside_the_button() -> None:
-    layout = Layout()
-    home = module("options.preset_operators")
-    home.MESH_MT_fair_fill_runs.draw(SimpleNamespace(layout=layout, operator="mesh.fair_fill"), bpy.context)
-    assert layout.reported == ["Fill Holes", "Small Holes Only", "Flat Lid", "Bridge", "Class A"]
 
 
 def test_what_the_last_run_had_is_shown_and_reset() -> None:

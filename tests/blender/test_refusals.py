@@ -100,52 +100,6 @@ def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 # Nothing breaks the operator: the rows of tests/package/test_robustness.py that apply in Blender, in its order.
-def solved(obj: bpy.types.Object, faces: Any, free: Any = None, **properties: Any) -> str:
-    """Run what is solved, see that nothing but the free vertices moved and all is finite; return the warnings."""
-    before = meshes.in_edit_mode_once(obj, faces)
-    assert meshes.fair(obj, faces, **properties) == {"FINISHED"}
-    moved = meshes.moved(before, meshes.contents(obj))
-    assert not (moved & ~(meshes.free_vertices(obj, faces) if free is None else free)).any()
-    assert moved.any()
-    assert np.isfinite(meshes.positions(obj)[moved]).all()
-    return str(meshes.report().warnings)
-
-
-def test_a_closed_component_beside_others_is_left_alone() -> None:
-    clean, faces = meshes.domed_grid()
-    meshes.fair(clean, faces)
-    obj, sphere = meshes.domed_grid()[0], meshes.sphere(16)
-    for each in bpy.context.view_layer.objects:
-        each.select_set(each in (obj, sphere))
-    bpy.context.view_layer.objects.active = obj
-    bpy.ops.object.join()
-    count = len(clean.data.vertices)
-    everything = np.ones(len(obj.data.polygons), dtype=bool)
-    everything[: len(faces)] = faces
-    free = np.zeros(len(obj.data.vertices), dtype=bool)
-    free[:count] = meshes.free_vertices(clean, faces)
-    assert "A closed part of the selection has nothing to hold it" in solved(obj, everything, free)
-    np.testing.assert_allclose(meshes.positions(obj)[:count], meshes.positions(clean), atol=1e-6)
-
-
-def test_infinity_elsewhere() -> None:
-    clean, obj = meshes.domed_grid()[0], meshes.domed_grid()[0]
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.5)
-    points = meshes.positions(obj)
-    points[0] = np.inf, np.nan, 0.0
-    meshes.move(obj, points)
-    meshes.fair(clean, faces, boundary_normals="AVERAGE")  # of the faces at the outline, which are all finite
-    solved(obj, faces, boundary_normals="AVERAGE")
-    np.testing.assert_allclose(meshes.positions(obj)[1:], meshes.positions(clean)[1:], atol=1e-6)
-    solved(obj, faces)
-
-
-def test_offset_is_reported() -> None:
-    """At a million float32 lie 1/16 apart, which is a quarter of an edge here."""
-    obj, faces = meshes.domed_grid()
-    points = meshes.positions(obj)
-    meshes.move(obj, points + 2.0**20)
-    assert "move the origin nearer" in solved(obj, faces)
 
 
 # What is said to the user: nothing in silence, nothing twice, and one of a kind in the singular.
@@ -159,30 +113,6 @@ def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     finally:
         meshes.leave()
     return [text for _, text in stand.reported]
-
-
-@pytest.mark.parametrize("mode", [(True, False, False), (False, True, False), (False, False, True)])
-def test_no_face_selected(mode: tuple[bool, bool, bool]) -> None:
-    obj, faces = meshes.domed_grid()
-    meshes.select(obj, np.zeros_like(faces))
-    if not mode[2]:  # a single edge, its vertices with it
-        obj.data.edges[5].select = True
-        for vertex in obj.data.edges[5].vertices:
-            obj.data.vertices[vertex].select = True
-    bpy.context.tool_settings.mesh_select_mode = mode
-    (text,) = reported(obj)
-    assert text.startswith("No face is selected: select the faces")
-    assert inspect(obj, np.zeros_like(faces)).refusal == text
-
-
-def test_no_free_vertex() -> None:
-    obj, faces = meshes.domed_grid()
-    one = np.zeros_like(faces)
-    one[9] = True
-    meshes.select(obj, one)
-    (text,) = reported(obj)
-    assert text.startswith("No vertex is free to move")
-    assert inspect(obj, one).refusal == text
 
 
 def test_an_object_without_free_vertices_is_named() -> None:

@@ -297,20 +297,3 @@ def test_bad_outline_vertices_are_marked_and_selected() -> None:
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.context.view_layer.update()
     assert marks.shown(bpy.context) == []  # of another selection
-
-
-def test_with_x_mirror_one_side_stands_for_both() -> None:
-    obj = bumpy(24)
-    obj.data.use_mirror_x = True
-    right = meshes.faces_where(obj, lambda c: 0.2 < c.x < 0.7 and abs(c.y) < 0.5)
-    left = meshes.faces_where(obj, lambda c: -0.7 < c.x < -0.2 and abs(c.y) < 0.5)
-    points = meshes.positions(obj)
-    points[meshes.free_vertices(obj, right), 2] += 0.1
-    meshes.move(obj, points)
-    meshes.fair(obj, right)
-    after = meshes.positions(obj)
-    assert (after[meshes.free_vertices(obj, left)] != points[meshes.free_vertices(obj, left)]).any()
-    places = {tuple(p) for p in after.tolist()}
-    faired = after[meshes.free_vertices(obj, right | left)]
-    assert all((-x, y, z) in places for x, y, z in faired.tolist())
-    assert "not symmetric" not in meshes.report().warnings

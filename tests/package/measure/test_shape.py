@@ -15,8 +15,6 @@ from holes import FloatArray, IntArray
 
 AROUND, ROWS = 16, 40
 NOTHING = np.empty((0, 3), dtype=np.int64)
-QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-TWO = np.array([[0, 1, 2], [0, 2, 3]])
 
 
 def tube(radius: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, IntArray]:
