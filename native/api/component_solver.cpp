@@ -189,9 +189,8 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
     const Stopwatch watch;
-    Solution solution = solve_paper(
-        {problem, options_.paper, fairness(), reference_, make_row_weights(patch_, reference_, fairness(), options_)},
-        progress);
+    Solution solution =
+        solve_paper({problem, options_.paper, make_row_weights(patch_, reference_, fairness(), options_)}, progress);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
     solution.ways = {{"paper", watch.seconds()}};
     solution.flaw = flaw_of(problem, solution);

@@ -63,16 +63,6 @@ void bind_measure(py::module_& module) {
         module, "touching_edges", {"edges", "vertices"},
         [](const VertexPairs& edges, const Points& vertices) { return touching_edges(edges, vertices); },
         [](const Touches& found) { return py::make_tuple(found.on_edges, found.pairs); });
-    bind(
-        module, "hierarchy", {"vertices", "triangles", "fixed", "levels"},
-        [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed, int levels) {
-            return mesh_hierarchy({vertices, triangles, fixed, {}}, levels);
-        },
-        [](const std::vector<MeshLevel>& levels) {
-            py::list list;
-            for (const MeshLevel& level : levels) list.append(py::make_tuple(level.vertices, level.triangles));
-            return list;
-        });
 }
 
 }  // namespace fairing::bindings

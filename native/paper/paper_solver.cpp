@@ -2,76 +2,84 @@
 
 #include "base/stopwatch.h"
 #include "iteration/continuation.h"
+#include "multigrid/coarsening.h"
 #include "paper/factorised_iteration.h"
 #include "paper/level_update.h"
-#include "paper/prolongation.h"
 #include "paper/start.h"
+#include "problem/surface_state.h"
 
 namespace fairing {
 
 namespace {
 
+constexpr int smallest_base = 40;  // free vertices of the coarsest level: Fig. 1 with fewer starts from no surface
+
+// Free vertices by connectivity and λ alone: the interior given leaves no trace. All fixed ones stay on every level.
+std::vector<CoarseLevel> coarser_levels(const Problem& problem, const RowWeights& weights) {
+    if (!problem.options.nested) return {};
+    const Patch& patch = problem.patch;
+    const Points whole_loops = Points::Zero(3, patch.vertex_count());
+    const int base = std::max(smallest_base, patch.vertex_count() - patch.free_count);
+    return coarsen(patch, symmetrised(weights), {whole_loops, whole_loops}, base);
+}
+
 class PaperSolver {
 public:
     PaperSolver(const PaperProblem& pp, const Progress& progress)
-        : pp_(pp), problem_(pp.problem), patch_(pp.problem.patch), options_(pp.problem.options), progress_(progress) {}
+        : pp_(pp), problem_(pp.problem), options_(pp.problem.options), progress_(progress) {}
 
     Solution run() {
         Stopwatch watch;
-        build_levels();
+        coarser_ = coarser_levels(problem_, pp_.weights);
         solution_.seconds["hierarchy"] = watch.lap();
-        points_.setZero(3, patch_.vertex_count());
-        points_.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
-        const ProlongationSetting setting{patch_,   problem_.fixed_normals, pp_.reference, pp_.inner_fairness, options_,
-                                          pp_.paper};
-        Prolongation prolongation(hierarchy_, setting);
-        for (int k = 0; k < hierarchy_.level_count(); ++k) {
+        for (auto k = static_cast<int>(coarser_.size()); k >= 0; --k) {
             const auto [begin, end] = share(k);
-            if (k > 0) prolongation.refine(k, points_, progress_.range(begin, begin + 0.1 * (end - begin)));
+            points_ = k < static_cast<int>(coarser_.size()) ? refined(k) : on_boundary(k);
             solution_.seconds["prolongation"] += watch.lap();
-            fair(k, progress_.range(begin + 0.1 * (end - begin), end));
+            fair(k, progress_.range(begin, end));
             watch.lap();
         }
         return std::move(solution_);
     }
 
 private:
+    // 0: the patch itself.
     [[nodiscard]] const Patch& patch_of(int level) const {
-        return hierarchy_.is_finest(level) ? patch_ : hierarchy_.patches[level];
+        return level == 0 ? problem_.patch : coarser_[static_cast<std::size_t>(level) - 1].patch;
     }
 
-    // Uniform λ know nothing of M0: the interior given then leaves no trace in the result.
-    void build_levels() {
-        const bool by_reference = pp_.inner_fairness != InnerFairness::uniform;
-        const bool single =
-            level_sizes(patch_.free_count, patch_.vertex_count() - patch_.free_count, pp_.paper.levels).size() < 2;
-        const Points positions = by_reference || single ? pp_.reference : neutral_surface(problem_, progress_.here());
-        hierarchy_ = build_hierarchy(patch_, positions, pp_.paper.levels);
+    [[nodiscard]] Points on_boundary(int level) const {
+        Points points = Points::Zero(3, patch_of(level).vertex_count());
+        points.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
+        return points;
+    }
+
+    // The coarser surface, lifted (multigrid/transfer).
+    [[nodiscard]] Points refined(int level) const {
+        const BentPoints coarse{points_, max_normals(patch_of(level + 1), points_, problem_.fixed_normals), {}};
+        Points normals = Points::Zero(3, patch_of(level).vertex_count());
+        normals.rightCols(problem_.fixed_normals.cols()) = problem_.fixed_normals;
+        BentPoints fine{on_boundary(level), std::move(normals), {}};
+        coarser_[static_cast<std::size_t>(level)].transfer.prolong_surface(coarse, patch_of(level).free_count, fine);
+        return std::move(fine.points);
     }
 
     // Part of the progress that belongs to a level: half of what is left for the coarser ones.
     [[nodiscard]] std::pair<double, double> share(int level) const {
-        const int finer = hierarchy_.level_count() - 1 - level;
-        const double begin = level == 0 ? 0.0 : std::pow(0.5, finer + 1);
-        return {begin, std::pow(0.5, finer)};
+        const bool coarsest = level == static_cast<int>(coarser_.size());
+        return {coarsest ? 0.0 : std::pow(0.5, level + 1), std::pow(0.5, level)};
     }
 
-    [[nodiscard]] Indices numbers_of(int level) const {
-        if (!hierarchy_.is_finest(level)) return patch_of(level).to_input;
-        Indices all(patch_.vertex_count());
-        std::iota(all.begin(), all.end(), 0);
-        return all;
-    }
-
-    [[nodiscard]] LevelProblem level_problem(int level, const Points& reference) const {
-        const bool finest = hierarchy_.is_finest(level);
+    [[nodiscard]] LevelProblem level_problem(int level) const {
+        const Patch& patch = patch_of(level);
         const bool completed = pp_.paper.virtual_points == VirtualPoints::everywhere ||
-                               (pp_.paper.virtual_points == VirtualPoints::coarse && !finest);
-        return {patch_of(level),
+                               (pp_.paper.virtual_points == VirtualPoints::coarse && level > 0);
+        return {patch,
                 problem_.fixed_normals,
                 options_,
                 pp_.paper,
-                finest ? pp_.weights : row_weights(patch_of(level), reference, pp_.inner_fairness),
+                level == 0 ? pp_.weights
+                           : row_weights(patch, coarser_[static_cast<std::size_t>(level) - 1].weights, "weights"),
                 completed};
     }
 
@@ -81,33 +89,25 @@ private:
         constexpr double coarse_damping = 0.55;  // of the caller's
         const SolverOptions& options = options_;
         const PaperOptions& paper = pp_.paper;
-        if (hierarchy_.is_finest(level))
-            return {paper.epsilon, options.tolerance, options.max_iterations, paper.damping};
+        if (level == 0) return {paper.epsilon, options.tolerance, options.max_iterations, paper.damping};
         return {0.0, std::max(options.tolerance, start_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
                 paper.acceleration == Acceleration::plain ? coarse_damping * paper.damping : paper.damping};
     }
 
     void fair(int level, const Progress& progress) {
         Stopwatch watch;
-        const Patch& patch = patch_of(level);
-        const Indices numbers = numbers_of(level);
-        const Points reference = pp_.reference(Eigen::all, numbers);
-        const LevelProblem lp = level_problem(level, reference);
-        Points start = points_(Eigen::all, numbers);
+        const LevelProblem lp = level_problem(level);
         // A coarser level that did not converge says nothing about this one.
         if (!coarser_converged_) {
-            const Stiffness stiffness = start_stiffness(patch, pp_.inner_fairness, reference);
-            start = start_of_level(lp, stiffness, problem_.fixed_points, progress.range(0.0, 0.1));
-            start = raise_load(lp, std::move(start), progress.here());
+            points_ = start_of_level(lp, problem_.fixed_points, progress.range(0.0, 0.1));
+            points_ = raise_load(lp, std::move(points_), progress.here());
             solution_.seconds["start"] += watch.lap();
         }
-        IterationOutcome outcome = fair_level(lp, start, limits_of(level), progress.range(0.1, 1.0));
-        if (hierarchy_.is_finest(level) && options_.load != problem_.options.load) confess(lp, outcome);
-        solution_.seconds[hierarchy_.is_finest(level) ? "iteration" : "coarse levels"] += watch.lap();
-        for (std::size_t v = 0; v < numbers.size(); ++v) {
-            points_.col(numbers[v]) = outcome.points.col(static_cast<Eigen::Index>(v));
-        }
+        IterationOutcome outcome = fair_level(lp, points_, limits_of(level), progress.range(0.1, 1.0));
+        if (level == 0 && options_.load != problem_.options.load) confess(lp, outcome);
+        solution_.seconds[level == 0 ? "iteration" : "coarse levels"] += watch.lap();
         coarser_converged_ = outcome.termination == Termination::converged;
+        points_ = outcome.points;
         record(level, outcome);
     }
 
@@ -115,7 +115,7 @@ private:
     // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
     Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
         if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
-        const IterationLimits limits{0.0, start_tolerance, 100, limits_of(0).damping};
+        const IterationLimits limits{0.0, start_tolerance, 100, limits_of(static_cast<int>(coarser_.size())).damping};
         const double whole = problem_.options.load;
         double reached = 0.0;
         for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {
@@ -142,8 +142,8 @@ private:
 
     void record(int level, const IterationOutcome& outcome) {
         solution_.levels.push_back(patch_of(level).vertex_count());
-        if (level == 0) solution_.initial_residual = outcome.initial_residual;
-        if (!hierarchy_.is_finest(level)) return;
+        if (solution_.levels.size() == 1) solution_.initial_residual = outcome.initial_residual;
+        if (level > 0) return;
         solution_.points = outcome.points;
         solution_.termination = outcome.termination;
         solution_.iterations = outcome.iterations;
@@ -152,12 +152,11 @@ private:
 
     const PaperProblem& pp_;
     const Problem& problem_;
-    const Patch& patch_;
     SolverOptions options_;  // with as much of the load as there is a solution for
     const Progress& progress_;
     bool coarser_converged_ = false;
-    Hierarchy hierarchy_;
-    Points points_;
+    std::vector<CoarseLevel> coarser_;  // fine to coarse
+    Points points_;                     // of the level at hand
     Solution solution_;
 };
 

@@ -13,12 +13,10 @@ namespace fairing {
 struct PaperProblem {
     const Problem& problem;
     PaperOptions paper;
-    InnerFairness inner_fairness;  // on the coarse levels; custom weights have no meaning there and count as uniform
-    Points reference;              // M0: 3 × local vertices
-    RowWeights weights;            // λ on the connectivity given
+    RowWeights weights;  // λ; coarse levels have what the vertices they lack handed on
 };
 
-// Solves the outer equation from the boundary data; the interior given shapes the hierarchy and λ alone.
+// Solves the outer equation from the boundary data; the interior given shapes λ alone.
 // Deterministic. Throws SolverError when the start breaks down, Cancelled.
 Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress);
 

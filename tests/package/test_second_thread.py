@@ -48,7 +48,6 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "flipped_triangles": (POINTS, FACES, None),
     "girth": (POINTS, FACES, None),
     "hard_edges": (POINTS, FACES, NO_EDGES),
-    "hierarchy": (POINTS, FACES, None, 0),
     "hole_loops": (POINTS, FACES, None),
     "interpolate": (POINTS, FACES, FIXED, FLAT),
     "is_spoilt": (POINTS, TOP, RIM),

@@ -332,7 +332,6 @@ ROWS |= {
     "girth": Row(tube, girth),
     "grown_outline": Row(ball, grown),
     "hard_edges": Row(box, lambda s: [("vertices", None, fairing.hard_edges(s.points, s.faces))]),
-    "hierarchy": Row(ball, lambda s: [("vertices", None, fairing.hierarchy(s.points, s.inside, fixed=s.rim)[-1][0])]),
     "hole_loops": Row(ball, loops_of),
     "interpolate": Row(
         ball, lambda s: [("points", every(s), fairing.maps.interpolate(s.points, s.faces, s.rim, s.points[s.rim]))]

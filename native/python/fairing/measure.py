@@ -152,24 +152,3 @@ def hard_edges(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, marked: npt
     points, faces = arguments.mesh(vertices, triangles)
     pairs = arguments.vertices_of("marked", marked, len(points), 2)
     return _core.hard_edges(points, arguments.finite_triangles(points, faces), pairs)
-
-
-def hierarchy(
-    vertices: npt.ArrayLike,
-    triangles: npt.ArrayLike,
-    *,
-    fixed: npt.ArrayLike | None = None,
-    levels: int = 0,
-) -> list[tuple[IntArray, IntArray]]:
-    """Progressive mesh of §7.4 in levels, coarse to fine: a list of (vertex indices, triangles).
-
-    Half-edge collapses take the shortest edges first and avoid distorted triangles; the topology is kept, and
-    so are all vertices that are fixed or on the border. Sizes grow exponentially: ``levels`` of them, or as
-    many as make about a factor of four each for 0. Where no collapse is acceptable any more, a level stays
-    larger than that, or is missing.
-
-    Both arrays hold indices of ``vertices``: those in use, ascending, and (m, 3) triangles of them. The last
-    level is the mesh itself. Errors as in :func:`fairing.fair`.
-    """
-    points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
-    return _core.hierarchy(points, faces, held, arguments.whole("levels", levels, 0))

@@ -66,7 +66,7 @@ def engine_options(method: str, levels: int, given: PaperOptions | None) -> _cor
     for name, value in vars(given or _LEFT_OUT).items():
         if value is not None:  # of epsilon: the engine's 0 says the same
             setattr(result, name, value)
-    result.levels = arguments.whole("levels", levels, 0, None if method == "paper" else 1)
+    result.levels = arguments.whole("levels", levels, 0, 1)
     return result
 
 
@@ -232,7 +232,7 @@ class Solving:
     """One of "global" | "paper": The fast solver, or the factorised multigrid iteration of §7, step for step."""
 
     levels: int = 0
-    """int. "paper": levels of the hierarchy, 0: chosen, 1: none. "global": 0 or 1 likewise."""
+    """int. 0: from coarse to fine where that is faster; 1: on the mesh alone."""
 
     tolerance: float = _checked(1e-6, arguments.positive)
     """float. "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one
