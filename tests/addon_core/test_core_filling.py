@@ -13,7 +13,6 @@ from addon.fill.filling import fill
 from addon.fill.holes import Borders, chosen_borders
 from addon.fill.islands import islands_inside
 from addon.fill.pieces import Piece
-from addon.fill.report import make_fill_report
 from addon.fill.verdict import judge, measured
 from addon.mirror.reflected import Whole
 from addon.options.other_options import FillOptions
@@ -69,56 +68,10 @@ def test_borders_without_a_shape_are_left(value: float | None, text: str) -> Non
     assert len(left.vertices) == 8
 
 
-def test_a_face_that_hangs_by_a_corner_makes_its_hole_no_other() -> None:
-    """The hole's boundary passes that corner twice; new triangles at its two passes are kept apart."""
-    whole = holed((4, 4), half=2)
-    hanging = [vertex(2, 4), vertex(3, 5), vertex(3, 4)]
-    quads = [*whole.corner_vertices.reshape(-1, 4).tolist(), hanging]
-    mesh = polygon_mesh(on_sphere(grid_points(SIZE)), quads, np.zeros(len(quads), dtype=bool))
-    loops, left = border_loops(mesh, only(mesh, vertex(6, 6)))
-    (loop,) = loops
-    assert (left, int((loop == vertex(2, 4)).sum())) == ([], 2)
-    (piece,) = fill(mesh, np.eye(4), loops, FillOptions()).pieces
-    rim = np.arange(len(piece.outline))
-    edges = directed(piece.triangles)
-    assert {(int(a), int(b)) for a, b in zip(rim, piece.following, strict=True)} <= edges
-    assert set(piece.triangles.ravel().tolist()) == {*range(len(piece.points))}
-    assert np.abs(np.linalg.norm(piece.positions, axis=1) - 1.0).max() < 1e-2
-    assert piece.verdict.grade != UNUSABLE
-
-
-def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
-    """A blade through one surface, and another hole that is no loop of border edges."""
-    mesh = holed((2, 2), (6, 6))
-    apex = len(mesh.positions)
-    normal = mesh.positions[vertex(2, 2)]
-    blade = np.array([0.8 * normal, 1.3 * normal + 0.01, 1.3 * normal - [0.01, 0.0, 0.0]])
-    quads = [*mesh.corner_vertices.reshape(-1, 4).tolist(), [apex, apex + 1, apex + 2]]
-    pierced = polygon_mesh(np.concatenate([mesh.positions, blade]), quads, np.zeros(len(quads), dtype=bool))
-    loops, _ = border_loops(pierced, only(pierced, vertex(1, 1), vertex(5, 5)))
-    inner = np.array([vertex(3, 3), vertex(3, 4), vertex(4, 4), vertex(4, 3)])
-    done = fill(pierced, np.eye(4), [*loops, inner], FillOptions())
-    (piece,), reasons = done.pieces, [each.reason for each in done.left]
-    assert set(piece.outline.tolist()) == set(loops[1].tolist())
-    assert "no loop of border edges" in reasons[0]
-    assert "pass" in reasons[1]
-    assert set(done.left_vertices.tolist()) == {*loops[0].tolist(), *inner.tolist()}
-    report = make_fill_report([("Ball", done)], FillOptions(), 1.0)
-    assert (report.verdict.grade, report.written) == (LOOK, True)
-    assert "2 of 3 holes stay open" in report.verdict.reason
-    np.testing.assert_array_equal(report.verdict.spots, done.left_vertices)
-    every = fill(pierced, np.eye(4), loops, FillOptions(allow_folds=True))
-    assert (len(every.pieces), every.left) == (2, ())
-
-
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:
     matrix = np.eye(4) if matrix is None else matrix
     loops, _ = border_loops(mesh, only(mesh, *seeds))
     return fill(mesh, matrix, loops, FillOptions(**options)).pieces  # type: ignore[arg-type]
-
-
-def directed(triangles: Ints) -> set[tuple[int, int]]:
-    return {(int(a), int(b)) for a, b in zip(triangles.ravel(), np.roll(triangles, -1, axis=1).ravel(), strict=True)}
 
 
 def two_tubes(*, turned_over: bool = False) -> MeshArrays:

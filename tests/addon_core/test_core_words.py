@@ -2,7 +2,6 @@
 
 import ast
 import json
-import re
 from collections.abc import Iterator
 from pathlib import Path
 from string import Formatter
@@ -209,8 +208,3 @@ def test_a_patch_knows_the_faces_of_its_triangles(even: bool) -> None:
     assert np.array_equal(np.unique(patch.faces), np.flatnonzero(mesh.in_patch))
     for triangle, face in zip(patch.vertices[patch.triangles], patch.faces, strict=True):
         assert set(triangle) < set(corners[face])
-
-
-def test_no_sentence_speaks_of_the_engine() -> None:
-    texts = " ".join(form for key, sentence in ENGLISH.items() if code_of(key).isupper() for form in forms(sentence))
-    assert not re.search(r"triang|compon|fixed_normals|fixed,|load\b", texts)

@@ -138,26 +138,6 @@ def test_scripts_and_the_command_line_list_what_is_left(tmp_path: Any, capsys: p
     assert "without length" in left["reason"]
 
 
-def test_longer_borders_stay_open(tmp_path: Any) -> None:
-    """As edges and as a length, for the operator, scripts and the command line."""
-    wide: Callable[[Any], None] = lambda bm: bmesh.ops.delete(  # noqa: E731
-        bm, geom=[f for f in bm.faces if f.calc_center_median().z > 0.95], context="FACES"
-    )
-    edges = max(map(len, open_borders(ball(wide))))
-    for limit in ({"longest": edges - 1}, {"longest_length": 1.5}):
-        obj = ball(wide)
-        assert fill(obj, **limit) == {"FINISHED"}
-        meshes.leave()
-        assert [len(loop) for loop in open_borders(obj)] == [edges]
-        obj = ball(wide)
-        assert len(module().fill_mesh(obj.data, **limit)) == 8
-        obj = ball(wide)
-        flags = [text for name, value in limit.items() for text in (f"--{name.replace('_', '-')}", str(value))]
-        given = ["--object", obj.name, "--fill", *flags, "--output", str(tmp_path / "filled.blend")]
-        assert module("run.cli").execute(given) == 0
-        assert [len(loop) for loop in open_borders(obj)] == [edges]
-
-
 def test_a_missing_quad_and_a_missing_triangle_are_one_face_each() -> None:
     """Flat ones in a plane: nothing rises."""
     obj = meshes.grid(8)
@@ -187,24 +167,6 @@ def test_holes_of_several_objects_stop_each_other_no_more() -> None:
     assert (open_borders(good), len(open_borders(bad))) == ([], 1)
     assert selected(bad) == {*open_borders(bad)[0]}
     assert report.reason.startswith(f"{bad.name}: 1 of 8 holes stays open")
-
-
-def test_a_new_mesh_needs_no_free_vertices() -> None:
-    """The top of an undivided box: its old edge across goes, and all else stays."""
-    points = [(x, y, z) for z in (-1.0, 1.0) for x, y in ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))]
-    sides = [(k, (k + 1) % 4, 4 + (k + 1) % 4, 4 + k) for k in range(4)]
-    obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
-    chosen = meshes.faces_where(obj, lambda c: c.z > 0.9)
-    before = meshes.positions(obj)
-    counts = []
-    for spacing in (1.0, 0.1, 0.05):
-        obj = meshes.add(points, [(3, 2, 1, 0), *sides, (4, 5, 6), (4, 6, 7)], "Box")
-        status = meshes.fair(obj, chosen, remesh=True, spacing=spacing, allow_folds=True)
-        assert status == {"FINISHED"}
-        assert open_borders(obj) == []
-        np.testing.assert_array_equal(meshes.positions(obj)[:8], before)
-        counts.append(len(obj.data.polygons))
-    assert counts[0] < counts[1] < counts[2]
 
 
 def half_ball(hole: Callable[[Any], bool]) -> bpy.types.Object:

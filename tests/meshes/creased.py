@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -238,32 +237,6 @@ def in_bent_sheet(n: int, seed: int = 0, radius: float = 0.3, bend: float = 0.5)
 def _around(patch: Creased, centre: FloatArray, radius: float) -> Hole:
     inside = np.linalg.norm(patch.vertices - centre, axis=1) < radius
     return cut_out(patch.vertices, patch.triangles, inside, patch.distances)
-
-
-def in_profile(profile: list[tuple[float, float]], n: int, seed: int = 0, radius: float = 0.42) -> Hole:
-    """A polyline of (x, z) extruded along y, jittered, with random diagonals; the hole lies over its inner corners."""
-    corners = np.array(profile)
-    lengths = np.linalg.norm(np.diff(corners, axis=0), axis=1)
-    along = [k + np.arange(m) / m for k, m in enumerate(np.maximum(2, np.round(lengths * n)).astype(int))]
-    u = np.append(np.concatenate(along), len(lengths))
-    rng = np.random.default_rng([seed, 9])
-    at, y = (a.ravel() for a in np.meshgrid(u, np.arange(n + 1) / n, indexing="ij"))
-    inner = (at > 0) & (at < len(lengths)) & (y > 0) & (y < 1)
-    y = y + 0.25 / n * rng.uniform(-1, 1, len(y)) * inner
-    free = inner & (at != np.round(at))
-    side = np.minimum(at.astype(int), len(lengths) - 1)
-    at = at + 0.25 / (n * lengths[side]) * rng.uniform(-1, 1, len(at)) * free
-    xz = corners[side] + (at - side)[:, None] * (corners[side + 1] - corners[side])
-    vertices = np.column_stack([xz[:, 0], y, xz[:, 1]])
-    triangles = halves(numbered(len(u), n + 1), rng)
-    middle = corners[1:-1].mean(axis=0)
-    inside = np.linalg.norm(vertices - [middle[0], 0.5, middle[1]], axis=1) < radius
-    return cut_out(vertices, triangles, inside, tuple(_line(p, q) for p, q in pairwise(corners)))
-
-
-def _line(p: FloatArray, q: FloatArray) -> Callable[[FloatArray], FloatArray]:
-    across = np.array([p[1] - q[1], q[0] - p[0]]) / np.linalg.norm(q - p)
-    return lambda points: np.abs((points[:, [0, 2]] - p) @ across)
 
 
 def in_bevel(

@@ -202,11 +202,3 @@ def creased(patch: Patch, degrees: float = 70.0) -> "Input":
     axis = np.array([0.0, 0.0, 1.0])
     normals = np.cos(turn)[:, None] * normals + np.sin(turn)[:, None] * np.cross(axis, normals)
     return of_patch(patch).changed(normals=normals)
-
-
-def needle(patch: Patch, ratio: float) -> "Input":
-    """A free vertex moved along an edge to 1 / ratio of its length from the other end, M0 included."""
-    start = patch.vertices.copy()
-    mid = patch.triangles[np.isin(patch.triangles, patch.free).all(axis=1)][0]
-    start[mid[0]] = start[mid[1]] + (start[mid[0]] - start[mid[1]]) / ratio
-    return of_patch(patch).changed(vertices=start, reference=start)

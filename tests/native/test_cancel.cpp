@@ -101,51 +101,6 @@ TEST_CASE("threads: a nested solve is cancelled at every checkpoint") {
     }
 }
 
-TEST_CASE("threads: a solve of least variation is cancelled at every checkpoint") {
-    FairOptions options;
-    options.solver.equation = Equation::least_variation;
-    check_fair(4, with_threads(2, options), 10);
-}
-
-TEST_CASE("threads: a solve that keeps detail is cancelled at every checkpoint") {
-    FairOptions options;
-    options.detail = {1.0, 0.5};
-    check_fair(7, with_threads(2, options), 10);
-}
-
-TEST_CASE("threads: the paper's method is cancelled at every checkpoint") {
-    FairOptions options;
-    options.method = Method::paper;
-    check_fair(5, with_threads(2, options), 10);
-}
-
-TEST_CASE("threads: a fill is cancelled at every checkpoint") {
-    constexpr int count = 8;
-    OpenLoops hole{Points(3, count), {Indices(count)}, {Points(3, count)}};
-    for (int k = 0; k < count; ++k) {
-        const double angle = 2.0 * std::numbers::pi * k / count;
-        hole.loops[0][k] = k;
-        hole.vertices.col(k) << std::cos(angle), std::sin(angle), 0.0;
-        hole.normals[0].col(k) << 0.6 * std::cos(angle), 0.6 * std::sin(angle), 0.8;
-    }
-    const NewSurface wanted = fill_loops(hole, false, {}, {});
-    const Threads team(2);
-    // Some 7,000 places: all of them take half a minute, and ten times as long under a sanitizer.
-    const auto fill = [&](const ProgressCallback& stop) { fill_loops(hole, false, {}, stop); };
-    const int places = cancel_everywhere(fill, 37);
-    CHECK(places > 10);
-    CHECK(same_bits(fill_loops(hole, false, {}, {}).vertices, wanted.vertices));
-}
-
-TEST_CASE("threads: a new mesh is cancelled at every checkpoint") {
-    const Cap cap(6);
-    const NewMesh wanted = remesh(cap.input, {}, {}, 2, {});
-    const int places = cancel_everywhere([&](const ProgressCallback& stop) { remesh(cap.input, {}, {}, 2, stop); });
-    CHECK(places > 10);
-    CHECK(cap.is_untouched());
-    CHECK(same_bits(remesh(cap.input, {}, {}, 2, {}).vertices, wanted.vertices));
-}
-
 TEST_CASE("threads: a Solver that was cancelled at any checkpoint goes on as if it had not been asked") {
     const Cap cap(5);
     Points moved = cap.mesh.points;

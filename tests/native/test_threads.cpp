@@ -119,19 +119,3 @@ TEST_CASE("threads: the exception of a piece comes through and the next loop run
         CHECK(sum == 49 * 25);
     }
 }
-
-TEST_CASE("threads: a solve on levels has the same bits with and without work beside it") {
-    const test::Single single = test::single_patch(test::grid(60, 0.2, test::sphere));
-    const Patch& patch = single.patch();
-    const Points fixed = single.points.rightCols(patch.vertex_count() - patch.free_count);
-    const Problem problem{patch, fixed, fixed, uniform_weights(patch), {}};
-    Points points[2];
-    for (const int threads : {1, 3}) {
-        const Threads team(threads);
-        const auto solution = solve_nested(problem, Traits(problem), Progress());
-        REQUIRE(solution);
-        CHECK(solution->termination == Termination::converged);
-        points[threads / 2] = solution->points;
-    }
-    CHECK((points[0].array() == points[1].array()).all());
-}

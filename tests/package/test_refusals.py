@@ -275,19 +275,6 @@ def test_groups_and_keywords_give_the_same_bits() -> None:
         assert fairing.fair(vertices, triangles, boundary, without).vertices.tobytes() != grouped.vertices.tobytes()
 
 
-def test_defaults_are_those_that_callers_rely_on() -> None:
-    expected = {
-        "equation": "harmonic", "otherwise": "least_variation", "load": 0.0, "bulge": 0.0, "continuity": "G1",
-        "outline": "given", "neighbours": None, "reference": None, "detail": 0.0, "detail_size": 0.0, "feather": 0.0,
-        "weights": None, "creases": None, "smooth_curves": None, "open_border": "held", "pin_radius": 0.1,
-        "method": "global", "levels": 0, "tolerance": 1e-6, "max_iterations": 200, "normals": "fitted",
-        "start": "outline", "paper": None, "inner_fairness": None,
-    }  # fmt: skip
-    found = {name: value for group in vars(fairing.Options()).values() for name, value in vars(group).items()}
-    assert found == expected
-    assert fairing.Options().chosen == {}
-
-
 def test_options_are_frozen_and_change_by_name() -> None:
     options = fairing.Options()
     with pytest.raises(dataclasses.FrozenInstanceError):

@@ -3,14 +3,14 @@
 import itertools
 import sys
 import threading
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from typing import Any
 
 import bmesh
 import bpy
 
 import scenes
-from driver import OUT, Story, in_view, tell
+from driver import Story, in_view, tell
 from panel import module, run_operator, set_options, solve_to, wait_until
 
 _radii = itertools.count(5.5, 0.125)
@@ -80,57 +80,6 @@ def _begin_search() -> Story:
 
 def _is_searching() -> bool:
     return len(_threads()) == 1
-
-
-def _act(name: str, act: Callable[[], object]) -> Generator[float, None, None]:
-    """Do it during a run; nothing of the run is left, in less time than is noticed as an end of Blender."""
-    act()
-    _Held.on = False
-    tell(f"{name}: Blender went on")
-    assert not _threads()
-    yield 1.0
-
-
-def _finish_run() -> Story:
-    """Have a run written that *Before / After* and *Fair Again* are about."""
-    scenes.ear()
-    set_options()
-    yield 1.0
-    report = bpy.context.window_manager.fairing_report
-    report.free_vertices = 0  # of a chapter before: what is compared may be its run, and this one's key still waits
-    run_operator()
-
-    def is_compared() -> bool:
-        with in_view():
-            return bool(report.free_vertices and bpy.ops.mesh.fair_compare.poll() and bpy.ops.mesh.fair_again.poll())
-
-    yield from wait_until(is_compared, 20.0)
-
-
-def another_file_ends_a_run() -> Story:
-    """The same file once more: names and meshes are those that the run has read."""
-    same = str(OUT / "same.blend")
-    for begin in (_finish_run, _begin_run, _begin_search):
-        yield from begin()
-        with in_view():
-            bpy.ops.wm.save_as_mainfile(filepath=same)
-        before = scenes.positions()
-
-        def open_it() -> None:
-            bpy.ops.wm.open_mainfile(filepath=same, load_ui=False)
-
-        yield from _act(f"another file, {begin.__name__}", open_it)
-        yield 1.0
-        assert bpy.context.window_manager.windows, "no window is left"
-        assert not _is_running()
-        with in_view():
-            assert bpy.context.mode == "EDIT_MESH", bpy.context.mode
-            assert (scenes.positions() == before).all(), "a run of the last file has written into this one"
-            assert not bpy.ops.mesh.fair_compare.poll()
-            assert not bpy.ops.mesh.fair_again.poll()
-            assert bpy.ops.mesh.fair_region.poll()
-            assert not bpy.context.window_manager.fairing_report.free_vertices
-        bpy.context.window_manager.fairing_live.on = False
 
 
 def _quit(begin: Callable[[], Story], last: Callable[[], object] = lambda: None) -> Story:

@@ -4,7 +4,7 @@ import bpy
 
 import scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from panel import open_tab, report, run_operator, set_options, solve_to, wait_until
+from panel import open_tab, report, run_operator, set_options, wait_until
 
 
 def in_background() -> Story:
@@ -46,21 +46,6 @@ def cancel_a_long_run() -> Story:
     yield 2.0
     assert scenes.contents() == before, "the cancelled run left a trace"
     assert not progress.running
-
-
-def cancel_a_hopeless_run() -> Story:
-    """Few vertices that take long: Blender waits a moment, then goes on in the background."""
-    scenes.hopeless()
-    set_options(shape="HARMONIC")
-    solve_to(1e-14)  # Automatic has a surface at once
-    open_tab()
-    yield 1.0
-    before = scenes.contents()
-    yield from in_background()
-    yield 0.1
-    yield from stopped_by_escape()
-    yield 1.0
-    assert scenes.contents() == before, "the cancelled run left a trace"
 
 
 def finish_a_long_run() -> Story:

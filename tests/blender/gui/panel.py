@@ -32,19 +32,6 @@ def open_tab() -> None:
     area.tag_redraw()
 
 
-def open_panels() -> None:
-    """Open the panels that are closed at first: their class without the flag, registered anew.
-
-    Where headers and buttons lie changes with every label; no place in pixels is clicked.
-    """
-    for panel in module("show.ui").PANELS:
-        options = getattr(panel, "bl_options", set())
-        if "DEFAULT_CLOSED" in options:
-            bpy.utils.unregister_class(panel)
-            panel.bl_options = options - {"DEFAULT_CLOSED"}
-            bpy.utils.register_class(panel)
-
-
 def report() -> Any:
     return bpy.context.window_manager.fairing_report
 

@@ -1,16 +1,13 @@
 """Changes in the redo panel, in a real window: Blender goes on, and the answer follows."""
 
 import bpy
-import numpy as np
 
 import scenes
-from driver import Story, leave_popup, middle, move_mouse, press, screenshot, view
+from driver import Story, middle, move_mouse, press, view
 from panel import (
-    change_with,
     open_redo_panel,
     open_tab,
     redo_panel,
-    redo_with,
     report,
     run_operator,
     set_options,
@@ -18,55 +15,6 @@ from panel import (
 )
 
 FACTOR = 73  # pixels from the panel's top to the field Factor
-
-
-def changes_in_the_redo_panel_do_not_wait() -> Story:
-    """Two changes one after the other, then one: what is shown does not wait, and undo takes all of it back."""
-    progress = bpy.context.window_manager.fairing_progress
-    for subdivisions in (6, 7):
-        scenes.large(subdivisions)
-        set_options()
-        open_tab()
-        yield 1.0
-        report().free_vertices = 0
-        run_operator()
-
-        def reported() -> bool:
-            return bool(report().free_vertices)
-
-        yield from wait_until(reported, 120.0)
-        yield 1.0
-        first = scenes.positions()
-        yield from open_redo_panel()
-
-        def settled() -> bool:
-            return not progress.following
-
-        yield from change_with(inner_fairness="CONFORMAL")
-        yield from change_with(inner_fairness="UNIFORM", shape="LEAST_VARIATION")
-        yield 0.1
-        assert progress.following, "the search was too short to be seen"
-        assert np.abs(scenes.positions() - first).max() < 1e-6, "the result before the change is not shown"
-        screenshot(f"redo_following_{subdivisions}")
-        yield from wait_until(settled, 120.0)
-        yield 0.5
-        assert report().verdict == "GOOD", (report().verdict, report().reason)
-        assert np.abs(scenes.positions() - first).max() > 1e-4
-        answer = scenes.positions()
-        yield from redo_with(shape="HARMONIC", bulge=0.5)  # of which there is no surface
-        assert "The surface before was kept" in report().reason, report().reason
-        assert (scenes.positions() == answer).all()
-        screenshot(f"redo_refused_{subdivisions}")
-        yield from leave_popup()
-        yield from redo_with(shape="MINIMAL_ENERGY", bulge=0.0)
-        assert report().written and "kept" not in report().reason, report().reason
-        last = scenes.positions()
-        press("Z", *middle(), ctrl=True)
-        yield 1.0
-        assert (scenes.positions() == scenes.original()).all(), "undo did not take the run back"
-        press("Z", *middle(), ctrl=True, shift=True)
-        yield 1.0
-        assert (scenes.positions() == last).all(), "redo did not bring the answer back"
 
 
 def a_field_of_the_redo_panel_is_pulled() -> Story:

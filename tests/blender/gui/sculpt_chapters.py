@@ -1,6 +1,4 @@
-"""Outside edit mode: what is masked or a face set in sculpt mode, with strokes and undo; and holes that are filled."""
-
-from itertools import pairwise
+"""Outside edit mode: a face set that is clicked and a stroke of the brush, and undo."""
 
 import bpy
 import numpy as np
@@ -28,57 +26,9 @@ def _begin_sculpting() -> None:
         bpy.ops.ed.undo_push(message="start")
 
 
-def _sculpt() -> None:
-    """Turn the mask round: a step of sculpt mode's own. Brushes are assets, which not every Blender brings."""
-    with in_view():
-        bpy.ops.paint.mask_flood_fill("EXEC_DEFAULT", True, mode="INVERT")
-
-
 def _now() -> np.ndarray:
     """Positions and mask (n, 4) of the object, whichever mode it is in."""
     return np.column_stack([spoilt_scenes.object_positions(), spoilt_scenes.mask()])
-
-
-def masked_in_sculpt_mode() -> Story:
-    """The mask turned round and back, Fair Masked, the mask turned round; then back step by step, and forth again."""
-    tell(f"masked: {spoilt_scenes.masked()} faces")
-    _begin_sculpting()
-    open_tab()
-    yield 1.0
-    screenshot("sculpt_before")
-    states = [_now()]
-    for _ in range(2):
-        _sculpt()
-        yield 0.7
-        states.append(_now())
-    report().free_vertices = 0
-    run_with("fair_masked", source="MASK")
-    yield from wait_until(_reported, 30.0)
-    yield 1.0
-    assert bpy.context.mode == "SCULPT"
-    assert report().written, report().reason
-    states.append(_now())
-    screenshot("sculpt_after")
-    _sculpt()
-    yield 0.7
-    states.append(_now())
-    for first, second in pairwise(states):
-        assert np.abs(first - second).max() > 1e-4, "a step did nothing"
-    yield from _back_and_forth(states)
-
-
-def _back_and_forth(states: list[np.ndarray]) -> Story:
-    """Undo until the start, and redo until the end: each state must come, in its order."""
-    for redo, wanted in ((False, states[-2::-1]), (True, states[1:])):
-        for k, state in enumerate(wanted):
-            for _ in range(3):  # a step of another kind may lie in between
-                yield from _undo(redo)
-                if np.array_equal(_now(), state):
-                    break
-            else:
-                raise AssertionError(f"{'redo' if redo else 'undo'} {k} led elsewhere")
-            assert bpy.context.mode == "SCULPT", bpy.context.mode
-    screenshot("sculpt_redone")
 
 
 def face_set_by_a_click() -> Story:

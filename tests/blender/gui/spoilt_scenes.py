@@ -1,9 +1,8 @@
-"""What the story's later chapters play on: outlines in a bad state, half a sphere, masks, face sets, a hole."""
+"""What the story's later chapters play on: outlines in a bad state, half a sphere, face sets."""
 
 from collections.abc import Callable
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 
@@ -90,17 +89,6 @@ def _squashed_ball() -> Any:
     return upper
 
 
-def masked() -> int:
-    """A sphere in object mode, its squashed upper half masked; return the number of faces."""
-    upper = _squashed_ball()
-    mesh = bpy.context.object.data
-    values = np.zeros(len(mesh.vertices), dtype=np.float32)
-    for face in np.flatnonzero(upper):
-        values[list(mesh.polygons[face].vertices)] = 1.0
-    mesh.attributes.new(".sculpt_mask", "FLOAT", "POINT").data.foreach_set("value", values)
-    return int(np.count_nonzero(upper))
-
-
 def face_sets() -> int:
     """A sphere in object mode, its squashed upper half one face set, the rest another; return the first one's size."""
     upper = _squashed_ball()
@@ -120,20 +108,3 @@ def dented() -> None:
 
     move(pushed)
     bpy.context.object.data.shade_smooth()
-
-
-def hole() -> int:
-    """A sphere with a hole in front, in vertex mode with one vertex of the outline selected."""
-    _ball()
-    obj = bpy.context.object
-    obj.data.shade_smooth()
-    bpy.ops.object.mode_set(mode="EDIT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    towards = np.array([0.5, -0.7, 0.5]) / np.linalg.norm([0.5, -0.7, 0.5])
-    gone = [face for face in bm.faces if np.dot(face.calc_center_median().normalized(), towards) > 0.85]
-    bmesh.ops.delete(bm, geom=gone, context="FACES")
-    bmesh.update_edit_mesh(obj.data)
-    rim = [vertex.index for vertex in bm.verts if vertex.is_boundary]
-    scenes.select_vertices(np.arange(len(bm.verts)) == rim[0])
-    bpy.ops.ed.undo_push(message="scene")
-    return 1

@@ -11,14 +11,14 @@ import numpy as np
 
 import scenes
 from driver import Story, in_view, middle, play, press, screenshot, tell
-from ends_chapters import another_file_ends_a_run, quits_after_a_cancel, quits_during_a_run, quits_during_a_search
+from ends_chapters import quits_after_a_cancel, quits_during_a_run, quits_during_a_search
 from fillet_chapters import fillet_is_dragged
 from live_chapters import live_follows_a_drag, live_follows_a_pin
-from long_run_chapters import cancel_a_hopeless_run, cancel_a_long_run, finish_a_long_run
+from long_run_chapters import cancel_a_long_run, finish_a_long_run
 from panel import extension, module, open_redo_panel, open_tab, redo_with, report, run_operator, wait_until
-from redo_chapters import a_field_of_the_redo_panel_is_pulled, changes_in_the_redo_panel_do_not_wait
+from redo_chapters import a_field_of_the_redo_panel_is_pulled
 from screen_chapters import SCREENS
-from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click, masked_in_sculpt_mode
+from sculpt_chapters import brush_in_sculpt_mode, face_set_by_a_click
 from verdict_chapters import marks_before_a_run, not_usable
 
 
@@ -102,20 +102,16 @@ CHAPTERS = (
     reported_before_running,
     fair_it,
     adjust_in_redo_panel,
-    cancel_a_hopeless_run,
     cancel_a_long_run,
     finish_a_long_run,
-    changes_in_the_redo_panel_do_not_wait,
     a_field_of_the_redo_panel_is_pulled,
     marks_before_a_run,
     not_usable,
     fillet_is_dragged,
-    masked_in_sculpt_mode,
     face_set_by_a_click,
     brush_in_sculpt_mode,
     live_follows_a_drag,
     live_follows_a_pin,
-    another_file_ends_a_run,
     *SCREENS,
 )
 # Each ends Blender, so that it has one of its own; they are played only where they are named.

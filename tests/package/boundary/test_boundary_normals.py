@@ -294,19 +294,6 @@ def test_one_flat_row_beside_a_box_edge_is_enough(n: int, rows: int) -> None:
     assert np.abs(filled.vertices[:, 2] - 1).max() < 1e-6
 
 
-@pytest.mark.parametrize("continuity", ["G1", "G2"])
-@pytest.mark.parametrize("rings", [1, 1.5, 2, 3])
-def test_a_crease_beside_the_boundary_does_not_bend_the_join(rings: float, continuity: str) -> None:
-    """Fits across it give .01 to .12."""
-    panel = solids.panel(rings)
-    found = fairing.surrounding_normals(panel.vertices, panel.outside, panel.rim)
-    result = fairing.fair(
-        panel.vertices, panel.inside, fixed=panel.rim, fixed_normals=found.normals, outside=panel.outside,
-        continuity=continuity,
-    )  # fmt: skip
-    assert panel.error(result.vertices) < 1e-3
-
-
 @pytest.mark.parametrize("half", [0.5, 1.0, 2.0])
 @pytest.mark.parametrize("depth", [0.2, 0.4, 0.8])
 def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:

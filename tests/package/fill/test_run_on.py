@@ -1,6 +1,7 @@
 """Hard edges and bands that end at a hole run on through it."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -79,9 +80,13 @@ def test_the_mesh_fits_and_keeps_the_spacing() -> None:
 
 def test_a_marked_edge_runs_on_however_flat() -> None:
     """Across an edge of 20°, which is no hard edge unless it is marked; the curve tells."""
-    low = float(np.tan(np.radians(20.0)))
-    hole = creased.in_profile([(-1.0, 0.0), (0.0, 0.0), (1.0, -low)], 14)
-    x = hole.vertices[:, 0]
+    steep = creased.in_box_edge(14)
+    x, y, z = steep.vertices.T
+    low = np.tan(np.radians(20.0))
+    flat = np.column_stack([x - z, y, low * z])
+    sides_of = (lambda p: np.abs(p[:, 2]), lambda p: np.abs(p[:, 2] + low * p[:, 0]) / np.hypot(1.0, low))
+    hole = replace(steep, vertices=flat, sides=sides_of)
+    x = flat[:, 0]
     sides = np.concatenate([hole.triangles[:, [0, 1]], hole.triangles[:, [1, 2]]])
     marked = np.unique(np.sort(sides[(np.abs(x[sides]) < 1e-9).all(axis=1)], axis=1), axis=0)
     assert filled(hole).curves == ()

@@ -296,45 +296,6 @@ def test_a_fillet_stops_at_walls_and_is_tangent_to_its_own_side_there() -> None:
     assert fairing.boundary_loops(faces) == []
 
 
-def stud(sides: int) -> tuple[FloatArray, IntArray, IntArray]:
-    """A cylinder of radius .5 on a round plate of radius 2: vertices, triangles, and the seam between them."""
-    radii = [2.0, 2.0, 1.5, 1.0, 0.75, 0.5, 0.5, 0.5, 0.5]
-    heights = [-0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 0.8, 1.2]
-    turn = 2 * np.pi * np.arange(sides) / sides
-    rings = [
-        np.column_stack([r * np.cos(turn), r * np.sin(turn), np.full(sides, z)])
-        for r, z in zip(radii, heights, strict=True)
-    ]
-    vertices = np.concatenate([*rings, [[0, 0, -0.5], [0, 0, 1.2]]])
-    around = np.arange(sides)
-    after = (around + 1) % sides
-    faces = []
-    for start in range(0, (len(rings) - 1) * sides, sides):
-        a, b = start + around, start + after
-        faces += [np.column_stack([a, b, b + sides]), np.column_stack([a, b + sides, a + sides])]
-    last = (len(rings) - 1) * sides
-    ends = np.full(sides, len(vertices) - 2)
-    faces += [np.column_stack([ends, after, around]), np.column_stack([ends + 1, last + around, last + after])]
-    seam = 5 * sides + np.column_stack([around, after])
-    return vertices, np.concatenate(faces), seam
-
-
-def test_around_a_stud_it_is_near_the_rolling_ball() -> None:
-    """Fairer than the ball's torus, which it leaves by some hundredths of its radius; round to the last digit shown."""
-    vertices, triangles, seam = stud(96)
-    result = fairing.fillet(vertices, triangles, seam, width=0.25)
-    assert (result.converged, result.warnings) == (True, ())
-    radius = np.hypot(result.vertices[:, 0], result.vertices[:, 1])
-    off = np.hypot(radius - 0.75, result.vertices[:, 2] - 0.25) - 0.25
-    assert 0.002 < abs(off).max() / 0.25 < 0.06
-    inner = np.setdiff1d(np.arange(len(result.vertices)), np.unique(result.line) - len(vertices))
-    turn = np.arctan2(result.vertices[inner, 1], result.vertices[inner, 0])
-    order = np.argsort(result.vertices[inner, 2])
-    fit = np.polyfit(result.vertices[inner, 2][order], radius[inner][order], 9)
-    assert abs(np.polyval(fit, result.vertices[inner, 2]) - radius[inner]).max() < 0.02 * 0.25
-    assert np.ptp(turn) > 6
-
-
 def foot(sides: int) -> tuple[FloatArray, IntArray, IntArray]:
     """A boss on an undivided box, and its lower edge."""
     vertices, triangles, walls = solids.box_with_boss(sides)
