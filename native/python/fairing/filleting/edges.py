@@ -155,8 +155,7 @@ def fair_edges(
     """
     points = arguments.floats("vertices", vertices)
     pairs = (
-        arguments.indices_within(name, arguments.integers(name, value, 2), len(points))
-        for name, value in (("edges", edges), ("onward", onward))
+        arguments.vertices_of(name, value, len(points), 2) for name, value in (("edges", edges), ("onward", onward))
     )
     inner, outer = (_links(each) for each in pairs)
     before = points if reference is None else arguments.floats("reference", reference, len(points))

@@ -10,15 +10,13 @@ import numpy.typing as npt
 
 from fairing import _core
 from fairing.filleting.rounded import Given, Made, Wishes, in_rows, nearest, result_of, solved
-from fairing.measure import hard_edges
+from fairing.measure import edges_with_uses, hard_edges
 from fairing.meshing.patch import Limit, Progress, Watch, refuse_made_here
 from fairing.meshing.quads import FACES, quads_of
 from fairing.options import arguments
 from fairing.options.checks import of_own_boundary
 from fairing.options.groups import Options
 from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, MeshError
-
-LARGE = 2**31  # above all vertices
 
 
 def check_finite(points: FloatArray, faces: IntArray) -> None:
@@ -40,19 +38,13 @@ def seams_and_walls(points: FloatArray, faces: IntArray, seam: Any, walls: Any) 
         raise MeshError(Diagnostic("NO_SEAM", text, np.empty(0, np.int32), "vertex", {}))
     _check_sides(seams, faces)
     ends = hard if walls is None else arguments.edges_of("walls", walls, faces)
-    return seams, ends[~np.isin(keys_of(ends), keys_of(seams))]
-
-
-def keys_of(edges: IntArray) -> npt.NDArray[np.int64]:
-    ends = np.sort(edges.astype(np.int64).reshape(-1, 2), axis=1)
-    keys: npt.NDArray[np.int64] = ends[:, 0] * LARGE + ends[:, 1]
-    return keys
+    return seams, ends[arguments.places_of(ends, seams) < 0]
 
 
 def refuse_vertices_on_edges(points: FloatArray, faces: IntArray, parent: IntArray) -> None:
     """MeshError where border vertices of triangles that a cut changes lie on the border's edges."""
-    edges, uses = np.unique(np.sort(faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0, return_counts=True)
-    border = edges[uses == 1]
+    edges, uses = edges_with_uses(faces)
+    border = edges[uses == 1].astype(np.int32)
     on_edges = _core.touching_edges(border, points)[0] if len(border) else border
     changed = faces[np.bincount(parent, minlength=len(faces)) > 1]
     found = on_edges[np.isin(on_edges, changed).any(axis=1)]
@@ -65,15 +57,12 @@ def refuse_vertices_on_edges(points: FloatArray, faces: IntArray, parent: IntArr
 
 def _check_sides(seams: IntArray, faces: IntArray) -> None:
     """MeshError where a seam has not one triangle on either side."""
-    tails = np.concatenate([faces[:, k] for k in range(3)]).astype(np.int64)
-    heads = np.concatenate([faces[:, (k + 1) % 3] for k in range(3)]).astype(np.int64)
-    wanted = keys_of(seams)
-    sides = np.minimum(tails, heads) * LARGE + np.maximum(tails, heads)
-    known, place = np.unique(wanted, return_inverse=True)
-    at = np.searchsorted(known, sides)
-    hit = known[np.minimum(at, len(known) - 1)] == sides
-    both = np.bincount(at[hit], minlength=len(known))[place]
-    upward = np.bincount(at[hit & (tails < heads)], minlength=len(known))[place]
+    tails, heads = np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]).T
+    at = arguments.places_of(np.column_stack([tails, heads]), seams)
+    both, upward = (
+        np.bincount(at[those], minlength=len(seams))[arguments.places_of(seams, seams)]
+        for those in (at >= 0, (at >= 0) & (tails < heads))
+    )
     cases = (
         (both > 2, "NONMANIFOLD_EDGE", "have three triangles and more: take the seam apart, or leave these edges out"),
         (both < 2, "SEAM_ON_BORDER", "lie on an open border, with nothing to round on the other side: leave them out"),
@@ -92,8 +81,6 @@ def _check_sides(seams: IntArray, faces: IntArray) -> None:
 
 def width_of(name: str, value: Any, seams: IntArray, count: int) -> FloatArray:
     """(n,) positive at the seams."""
-    if value is None:
-        return np.zeros(count)
     if np.ndim(value) == 0:
         return np.full(count, arguments.positive(name, value))
     array = np.asarray(value, dtype=np.float64)
@@ -200,7 +187,7 @@ def fillet(
     corners = arguments.triangles_within(triangles, len(points))
     check_finite(points, corners)
     wants_rows = arguments.choice("faces", faces, FACES) == "quads"
-    counted = None if neighbours is None else _neighbours(neighbours, len(points))
+    counted = None if neighbours is None else arguments.vertices_of("neighbours", neighbours, len(points), 2)
     refuse_made_here(given, progress)
     seams, ends = seams_and_walls(points, corners, seam, walls)
     room = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
@@ -308,10 +295,6 @@ def _named(error: MeshError, count: int) -> MeshError:
     said = error.diagnostic
     own = said.elements[said.elements < count] if said.kind == "vertex" else said.elements[:0]
     return MeshError(replace(said, elements=own, kind="vertex"))
-
-
-def _neighbours(value: npt.ArrayLike, count: int) -> IntArray:
-    return arguments.indices_within("neighbours", arguments.integers("neighbours", value, 2), count)
 
 
 def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:

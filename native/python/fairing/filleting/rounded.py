@@ -161,7 +161,7 @@ def _drawn(fair: Patch, before: FloatArray, seams: IntArray, wishes: Wishes) -> 
 
 def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
     """(k,) the nearest of the ends (s, 3), in blocks of places."""
-    block = max(1, 2_000_000 // len(ends))
+    block = max(1, 2_000_000 // max(1, len(ends)))
     found = [
         ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
         for part in np.array_split(places, range(block, len(places), block))

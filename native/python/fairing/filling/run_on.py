@@ -105,8 +105,7 @@ class Edges:
         points, around = mesh
         edges, wires, marked = given
         drawn, marks = (
-            arguments.indices_within(name, arguments.integers(name, [] if value is None else value, 2), len(points))
-            for name, value in (("wires", wires), ("marked", marked))
+            arguments.vertices_of(name, value, len(points), 2) for name, value in (("wires", wires), ("marked", marked))
         )
         if arguments.choice("edges", edges, EDGES) == "ignored" or bridge:
             return cls(arguments.NO_EDGES, set(), arguments.NO_EDGES, False)

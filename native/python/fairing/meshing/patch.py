@@ -183,9 +183,3 @@ def spacing_of(value: Any, inner: str | None) -> Spacing:
         raise ValueError(f"spacing: a length, or 0 for that of the boundary's edges, is needed, not {value!r}")
     chosen = ("even" if value else "outline") if inner is None else inner
     return Spacing(float(value), arguments.choice("inner", chosen, INNER) == "even")
-
-
-def carried(values: FloatArray, triangles: IntArray, origin: Origin) -> FloatArray:
-    """(k,) values at vertices (n,), interpolated at places on triangles."""
-    carried: FloatArray = read_only((values[triangles[origin[0]]] * origin[1]).sum(axis=1))
-    return carried

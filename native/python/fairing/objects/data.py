@@ -78,17 +78,6 @@ def _normals(points: FloatArray, triangles: IntArray) -> FloatArray:
     return unit
 
 
-def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
-    """(k,) which of the ends (s, 3) is nearest to each place, in blocks of places."""
-    block = max(1, 2_000_000 // max(1, len(ends)))
-    found = [
-        ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
-        for part in np.array_split(places, range(block, len(places), block))
-    ]
-    result: IntArray = np.concatenate(found)
-    return result
-
-
 def is_normal(name: str, values: Array) -> bool:
     return name.lower() in _NORMALS and values.dtype.kind == "f" and values.shape[1:] == (3,)
 

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.options import arguments
 from fairing.options.checks import where_met
-from fairing.results import FloatArray, IntArray
+from fairing.results import FloatArray, IntArray, read_only
 from fairing.solving.surroundings import Boundary, Surroundings
 
 
@@ -126,16 +126,10 @@ def boundary_normals(
     around = Surroundings.of(points, faces, where, outside)
     if rule == "outside":
         found = surrounding_normals(points, around.outside, where, creases=creases)
-        return BoundaryNormals(**vars(found), from_inside=_none(len(where)))
+        return BoundaryNormals(**vars(found), from_inside=read_only(np.zeros(len(where), dtype=bool)))
     edges = arguments.vertices_of("creases", creases, len(points), 2)
     inside = arguments.finite_triangles(points, around.inside)
     return BoundaryNormals(**_core.boundary_normals(points, inside, around.outside, where, edges, rule == "inside"))
-
-
-def _none(count: int) -> npt.NDArray[np.bool_]:
-    marks = np.zeros(count, dtype=bool)
-    marks.flags.writeable = False
-    return marks
 
 
 def with_curvatures(boundary: Boundary, around: Surroundings, given: Any, kinds: Any = None) -> Boundary:
