@@ -180,7 +180,7 @@ def test_ends_that_lead_nowhere_are_named_and_the_hole_is_filled() -> None:
     (warning,) = [reported for reported in result.warnings if reported.code == "EDGES_LEFT_ALONE"]
     assert warning.figures == {"ends": 1.0, "lonely": 1.0}
     assert np.abs(hole.vertices[warning.elements, 0]).max() < 1e-9
-    assert str(warning).endswith("no other one goes on from there")
+    assert str(warning).endswith(f"at vertex {warning.elements[0]}: no other one goes on from there")
     assert result.curves == ()
     assert result.converged
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,6 +31,9 @@ class CutOutline:
     """For each loop (k, 3): one side's, at curves a mean between their ends'."""
 
 
+Places = Callable[[IntArray], FloatArray]
+
+
 def gap(tree: Tree, place: int) -> int:
     """Between which two leaves a place of the loop lies."""
     return int(np.searchsorted(tree.leaves, place)) % len(tree.leaves)
@@ -47,18 +50,17 @@ def crosses(trees: Sequence[Tree]) -> set[int]:
     return found
 
 
-def cut(
-    loop: IntArray, normals: FloatArray, sides: FloatArray, trees: Sequence[Tree], points: FloatArray
-) -> CutOutline:
+def cut(loop: IntArray, normals: FloatArray, sides: FloatArray, trees: Sequence[Tree], places_of: Places) -> CutOutline:
     """The loops that trees leave of one; none of them cross.
 
-    normals: (k, 3) at its vertices; sides: (k, 3) of the triangle outside at the edge to the next one.
+    normals: (k, 3) at its vertices; sides: (k, 3) of the triangle outside at the edge to the next one; places_of gives
+    (k, 3) for vertices.
     """
     pieces = [_Piece(loop, normals, np.arange(len(loop)))]
     for tree in trees:
         whole = next(piece for piece in pieces if set(tree.leaves) <= set(piece.places.tolist()))
         pieces.remove(whole)
-        pieces += _parted(whole, tree, sides, points)
+        pieces += _parted(whole, tree, sides, places_of)
     return CutOutline(tuple(piece.loop for piece in pieces), tuple(piece.normals for piece in pieces))
 
 
@@ -76,7 +78,7 @@ class _Piece:
         return _Piece(self.loop[there], self.normals[there].copy(), self.places[there])
 
 
-def _parted(whole: _Piece, tree: Tree, sides: FloatArray, points: FloatArray) -> list[_Piece]:
+def _parted(whole: _Piece, tree: Tree, sides: FloatArray, places_of: Places) -> list[_Piece]:
     order = sorted(tree.leaves, key=lambda leaf: int(np.flatnonzero(whole.places == leaf)[0]))
     turn = tree.leaves.index(order[0])
     paths = tree.paths[turn:] + tree.paths[:turn]
@@ -85,7 +87,7 @@ def _parted(whole: _Piece, tree: Tree, sides: FloatArray, points: FloatArray) ->
         part = whole.between(leaf, after)
         part.normals[0], part.normals[-1] = sides[leaf], sides[after - 1]
         back = path[::-1]
-        along = _along(points[back], part.normals[-1], part.normals[0])[1:-1]
+        along = _along(places_of(back), part.normals[-1], part.normals[0])[1:-1]
         result.append(
             replace(
                 part,

@@ -199,8 +199,16 @@ class Making:
         self.marked: list[bool] = []
 
     @property
-    def points(self) -> FloatArray:
-        return np.concatenate([self._vertices, *self._added])
+    def added(self) -> FloatArray:
+        """(c, 3) the new vertices."""
+        return np.concatenate([np.empty((0, 3)), *self._added])
+
+    def at(self, numbers: IntArray) -> FloatArray:
+        """(k, 3) where vertices are, given and new ones."""
+        is_new = numbers >= len(self._vertices)
+        places: FloatArray = self._vertices[np.where(is_new, 0, numbers)]
+        places[is_new] = self.added[numbers[is_new] - len(self._vertices)]
+        return places
 
     def _new(self, places: FloatArray) -> IntArray:
         first = len(self._vertices) + sum(map(len, self._added))

@@ -68,26 +68,6 @@ class Curves:
         kept = np.concatenate([arguments.NO_EDGES, *edges]).astype(np.int32)
         return self.added, list(self.cut.loops), list(self.cut.normals), self.vertices, kept
 
-    def named(self, names: IntArray, count: int) -> Curves:
-        """In the numbers of a mesh of ``count`` vertices, of which these are ``names``."""
-
-        def name(numbers: IntArray) -> IntArray:
-            here = len(names)
-            known = names[np.minimum(numbers, here - 1)]
-            named: IntArray = np.where(numbers < here, known, numbers - here + count).astype(np.int32)
-            return named
-
-        return replace(
-            self,
-            cut=loops.CutOutline(tuple(map(name, self.cut.loops)), self.cut.normals),
-            curves=tuple(map(name, self.curves)),
-            rims=name(self.rims),
-            rows=name(self.rows),
-            bands=tuple(tuple(map(name, band)) for band in self.bands),
-            warnings=tuple(replace(each, elements=name(each.elements)) for each in self.warnings),
-            loop=name(self.loop),
-        )
-
 
 @dataclass(frozen=True, eq=False)
 class Edges:
@@ -128,29 +108,14 @@ class Edges:
         for k in np.flatnonzero(near).tolist():
             if not slopes[k][1]:
                 continue
-            near_by, triangles = holes.around(k)
-            names = np.union1d(near_by, self.wires).astype(np.int32)
-            triangles = np.searchsorted(names, near_by).astype(np.int32)[triangles]
-            local = self._within(names)
-            mesh = points[names], triangles
+            names, triangles = holes.around(k)
+            near_by = np.isin(self.hard, np.append(names, self.wires)).all(axis=1)
+            local = replace(self, hard=self.hard[near_by])
             try:
-                curves = local.run_on(np.searchsorted(names, loops[k]).astype(np.int32), slopes[k][0], mesh, spacing)
+                found[k] = local.run_on(loops[k], slopes[k][0], (points, names[triangles]), spacing)
             except MeshError as error:
-                found[k] = replace(error.diagnostic, elements=names[error.elements])
-            else:
-                found[k] = None if curves is None else curves.named(names, len(points))
+                found[k] = error.diagnostic
         return found
-
-    def _within(self, names: IntArray) -> Edges:
-        """In numbers of some vertices, ascending, those alone that are between them."""
-
-        def local(edges: IntArray) -> IntArray:
-            places = np.searchsorted(names, edges).clip(max=len(names) - 1)
-            known: IntArray = places[(names[places] == edges).all(axis=1)].astype(np.int32)
-            return known
-
-        marks = local(np.array(sorted(self.marked), dtype=np.int32).reshape(-1, 2))
-        return Edges(local(self.hard), set(map(tuple, marks.tolist())), local(self.wires))
 
     def run_on(
         self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray], spacing: tuple[float, bool]
@@ -160,12 +125,12 @@ class Edges:
         mean = float(np.linalg.norm(np.roll(points[loop], -1, axis=0) - points[loop], axis=1).mean())
         length, even = spacing
         wanted = Wanted((length or mean) if even else 0.0, (length or mean) / mean)
-        through, cut = _Finder(loop, normals, mesh, self, wanted).through(points)
+        through, cut = _Finder(loop, normals, mesh, self, wanted).through()
         if cut is None and not through.warnings:
             return None
         making = through.making
         return Curves(
-            making.points[len(points) :],
+            making.added,
             cut if cut is not None else loops.CutOutline((), ()),
             tuple(making.curves),
             through.rim,
@@ -200,18 +165,17 @@ class _Through:
         """The loop's vertices on hard edges along it."""
         return self.loop[sorted({place % len(self.loop) for run in self.along for place in run})]
 
-    def cut(self, triangles: IntArray) -> loops.CutOutline | None:
+    def cut(self, points: FloatArray, triangles: IntArray) -> loops.CutOutline | None:
         """The loop in parts; None where nothing runs through it or along it."""
         if not self.trees and not self.along:
             return None
-        points = self.making.points
         sides = loops.outside_normals(self.loop, points, triangles)
         missing = ~sides.any(axis=1)
         sides[missing] = self.normals[missing]
         normals = self.normals.copy()
         for run in self.along:
             _take_other_side(run, sides, normals)
-        return loops.cut(self.loop, normals, sides, self.trees, points)
+        return loops.cut(self.loop, normals, sides, self.trees, self.making.at)
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,8 +188,8 @@ class _Finder:
     edges: Edges
     wanted: Wanted
 
-    def through(self, points: FloatArray) -> tuple[_Through, loops.CutOutline | None]:
-        """What runs through, and the loop cut along it. points: all vertices so far.
+    def through(self) -> tuple[_Through, loops.CutOutline | None]:
+        """What runs through, and the loop cut along it.
 
         Where curves meet the outline or each other, bands are left out, and then all but drawn edges.
         """
@@ -235,7 +199,7 @@ class _Finder:
         free = [end for end in there.ends if end.vertex not in drawn.reached]
         marked = {end.vertex for end in there.ends if end.marked}
         for ends, with_bands in ((free, self.edges.run_through), (free, False), ([], False)):
-            making = Making(points, self.wanted)
+            making = Making(vertices, self.wanted)
             making.drawn(drawn, marked)
             trees, warnings = self._edges(ends, drawn.trees, making)
             if with_bands:
@@ -245,8 +209,8 @@ class _Finder:
             leaves = {leaf for tree in trees for leaf in tree.leaves}
             along = there.along + [end.run for end in ends if end.at in leaves and len(end.run)]
             through = _Through(self.loop, self.normals, making, trees, along, warnings)
-            cut = None if crosses(trees) else through.cut(triangles)
-            if (cut is None and not trees) or (cut is not None and not _is_tangled(cut, making.points)):
+            cut = None if crosses(trees) else through.cut(vertices, triangles)
+            if (cut is None and not trees) or (cut is not None and not _is_tangled(cut, making)):
                 return through, cut
         raise loops.refusal("meet its outline or each other", drawn.vertices, "move them apart")
 
@@ -276,10 +240,11 @@ class _Finder:
         return [each for each in warnings if not inside >= set(each.elements.tolist())]
 
 
-def _is_tangled(cut: loops.CutOutline, points: FloatArray) -> bool:
+def _is_tangled(cut: loops.CutOutline, making: Making) -> bool:
     """Whether a part crosses or touches itself, or bounds nothing."""
     for loop in cut.loops:
-        around = np.column_stack([loop, np.roll(loop, -1)]).astype(np.int32)
+        names, place = np.unique(loop, return_inverse=True)
+        around, points = np.column_stack([place, np.roll(place, -1)]).astype(np.int32), making.at(names)
         if (
             len(loop) < 3
             or len(_core.crossing_edges(around, points))
