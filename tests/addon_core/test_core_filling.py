@@ -13,6 +13,7 @@ from addon.fill.filling import fill
 from addon.fill.holes import Borders, chosen_borders
 from addon.fill.islands import islands_inside
 from addon.fill.pieces import Piece
+from addon.fill.report import make_fill_report
 from addon.fill.verdict import judge, measured
 from addon.mirror.reflected import Whole
 from addon.options.other_options import FillOptions
@@ -66,6 +67,30 @@ def test_borders_without_a_shape_are_left(value: float | None, text: str) -> Non
     assert not loops
     assert text in left.reason
     assert len(left.vertices) == 8
+
+
+def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
+    """A blade through one surface, and another hole that is no loop of border edges."""
+    mesh = holed((2, 2), (6, 6))
+    apex = len(mesh.positions)
+    normal = mesh.positions[vertex(2, 2)]
+    blade = np.array([0.8 * normal, 1.3 * normal + 0.01, 1.3 * normal - [0.01, 0.0, 0.0]])
+    quads = [*mesh.corner_vertices.reshape(-1, 4).tolist(), [apex, apex + 1, apex + 2]]
+    pierced = polygon_mesh(np.concatenate([mesh.positions, blade]), quads, np.zeros(len(quads), dtype=bool))
+    loops, _ = border_loops(pierced, only(pierced, vertex(1, 1), vertex(5, 5)))
+    inner = np.array([vertex(3, 3), vertex(3, 4), vertex(4, 4), vertex(4, 3)])
+    done = fill(pierced, np.eye(4), [*loops, inner], FillOptions())
+    (piece,), reasons = done.pieces, [each.reason for each in done.left]
+    assert set(piece.outline.tolist()) == set(loops[1].tolist())
+    assert "no loop of border edges" in reasons[0]
+    assert "pass" in reasons[1]
+    assert set(done.left_vertices.tolist()) == {*loops[0].tolist(), *inner.tolist()}
+    report = make_fill_report([("Ball", done)], FillOptions(), 1.0)
+    assert (report.verdict.grade, report.written) == (LOOK, True)
+    assert "2 of 3 holes stay open" in report.verdict.reason
+    np.testing.assert_array_equal(report.verdict.spots, done.left_vertices)
+    every = fill(pierced, np.eye(4), loops, FillOptions(allow_folds=True))
+    assert (len(every.pieces), every.left) == (2, ())
 
 
 def filled(mesh: MeshArrays, *seeds: int, matrix: Floats | None = None, **options: object) -> list[Piece]:

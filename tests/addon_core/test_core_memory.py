@@ -207,11 +207,25 @@ def test_other_points_and_points_in_one_place_are_not() -> None:
 HALF = np.array([[0.5, 0.5]])
 
 
+def matrix(angle: float, scale: float, place: float) -> np.ndarray:  # type: ignore[type-arg]
+    """Return a turn about z as Blender keeps it, column after column."""
+    c, s = np.cos(angle), np.sin(angle)
+    axes = scale * np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+    return np.vstack([np.hstack([axes, np.zeros((3, 1))]), [[place, 0.0, 0.0, 1.0]]]).ravel()
+
+
 def test_a_mean_of_turns_is_a_turn_whichever_sign_they_have() -> None:
     quarter = np.array([np.cos(np.pi / 4), 0.0, 0.0, np.sin(np.pi / 4)])
     turns = np.stack([np.array([1.0, 0.0, 0.0, 0.0]), -quarter])
     mean = blended("QUATERNION", HALF @ columns("QUATERNION", turns))
     np.testing.assert_allclose(mean[0], [np.cos(np.pi / 8), 0.0, 0.0, np.sin(np.pi / 8)], atol=1e-12)
+
+
+def test_a_mean_of_matrices_does_not_shrink() -> None:
+    both = np.stack([matrix(0.0, 2.0, 0.0), matrix(1.0, 4.0, 6.0)])
+    mean = blended("FLOAT4X4", HALF @ columns("FLOAT4X4", both))[0].reshape(4, 4)
+    np.testing.assert_allclose(np.linalg.norm(mean[:3, :3], axis=1), 3.0, rtol=1e-12)
+    np.testing.assert_allclose(mean[3], [3.0, 0.0, 0.0, 1.0], atol=1e-12)
 
 
 def test_no_vertex_is_in_more_groups_than_one_around_and_the_sum_stays() -> None:

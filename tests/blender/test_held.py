@@ -97,4 +97,12 @@ def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
     assert off_box(points) < 1e-5
 
 
-# Selections whose boundary is a hard edge: one click leaves the top of a box flat, and the report names the rule.
+@pytest.mark.parametrize("faired", [False, True])
+def test_an_open_border_moves_where_that_is_asked_for(faired: bool) -> None:
+    """A rough plate, selected up to its right side."""
+    obj = meshes.grid(12)
+    right = np.isclose(meshes.positions(obj)[:, 0], 1.0)
+    faces = meshes.faces_where(obj, lambda c: c.x > 0.3)
+    before = bumpy(obj, meshes.positions(obj)[:, 0] > 0.4)
+    meshes.fair(obj, faces, fair_open_borders=faired, allow_folds=True)
+    assert (meshes.positions(obj)[right] != before[right]).any() == faired

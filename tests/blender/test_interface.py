@@ -41,7 +41,7 @@ def test_operators_and_scripts_have_the_same_options(operator: str, home: str, o
 
 
 @pytest.mark.parametrize(
-    "name", ["fair_live_region", "fair_select", "fair_live_forget", "fair_compare", "fair_inspect"]
+    "name", ["fair_region", "fair_live_region", "fair_select", "fair_live_forget", "fair_compare", "fair_inspect"]
 )
 def test_every_button_says_that_it_needs_edit_mode(name: str) -> None:
     meshes.grid()
@@ -130,7 +130,7 @@ def test_command_refuses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert not output.exists()
 
 
-# Where Fair Fill is offered, what its redo panel has, and what scripts and commands ask of it and of new meshes.
+# The pie, and what scripts ask of a part of an outline.
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "OBJECT"])

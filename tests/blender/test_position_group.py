@@ -43,13 +43,11 @@ def test_the_slope_is_found_along_the_group_and_met_elsewhere() -> None:
     assert (meshes.report().verdict, meshes.report().reason) == ("GOOD", "")
 
 
+@pytest.mark.parametrize("continuity", ["G0", "G2"])
 @pytest.mark.parametrize("weight", [0.0, 1.0])
-def test_a_group_without_boundary_vertices_says_so(weight: float) -> None:
+def test_a_group_without_boundary_vertices_says_so(weight: float, continuity: str) -> None:
     obj, faces = meshes.domed_grid()
     free = meshes.free_vertices(obj, faces)
     put(obj, np.ones_like(free) if weight == 0.0 else free, weight)
-    notes = inspect(obj, faces, continuity="G0", continuity_group="Loose").notes
+    notes = inspect(obj, faces, continuity=continuity, continuity_group="Loose").notes
     assert any("tangent all along" in note for note in notes)
-
-
-# *Curvature Group*: parts of the selection's boundary along which the curvature outside is continued, too.

@@ -99,9 +99,6 @@ def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None
     assert "7.0 GB" in inspect(obj, faces).refusal
 
 
-# Nothing breaks the operator: the rows of tests/package/test_robustness.py that apply in Blender, in its order.
-
-
 # What is said to the user: nothing in silence, nothing twice, and one of a kind in the singular.
 def reported(*objects: bpy.types.Object, **properties: Any) -> list[str]:
     """Return the infos and warnings of a run, from and to object mode."""

@@ -1,4 +1,4 @@
-"""Closed forms through the operator, detail and feather, and kinds of mesh that keep the rest."""
+"""Custom normals and pinned edges through the operator, and kinds of mesh that keep the rest."""
 
 import bpy
 import numpy as np
@@ -63,9 +63,6 @@ def _mark(obj: bpy.types.Object, vertices: meshes.Mask, kind: str) -> None:
     else:
         name = "use_edge_sharp" if kind == "SHARP" else "use_seam"
         obj.data.edges.foreach_set(name, marked.tolist())
-
-
-# Keep Detail and Feather as users meet them: on a rough sphere with a dent in it.
 
 
 # Modifiers, multiresolution, open borders, mixed faces: the base mesh is faired, the rest stays.

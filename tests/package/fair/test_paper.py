@@ -65,12 +65,6 @@ def test_surfaces_with_harmonic_curvature_are_reproduced(family: str, goal: floa
     assert patch.error(result.vertices) < goal
 
 
-# §7.5: the boundary and other equations
-
-
-# §7.3: inner fairness
-
-
 # §7: construction and options
 
 
