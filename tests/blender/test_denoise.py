@@ -43,19 +43,6 @@ def every(obj: bpy.types.Object) -> Any:
     return np.ones(len(obj.data.polygons), dtype=bool)
 
 
-def spread(points: Any) -> float:
-    return float(np.linalg.norm(points, axis=1).std())
-
-
-def test_a_rough_ball_becomes_smooth_and_keeps_its_radius() -> None:
-    obj = rough_ball()
-    before = meshes.positions(obj)
-    assert run(obj, every(obj), size=1.0) == {"FINISHED"}
-    after = meshes.positions(obj)
-    assert spread(after) < 0.3 * spread(before)
-    assert np.linalg.norm(after, axis=1).mean() == pytest.approx(np.linalg.norm(before, axis=1).mean(), abs=1e-4)
-
-
 def test_an_open_border_and_sharp_edges_keep_their_bits() -> None:
     obj = rough_ball(cut=True)
     meridian = [edge for edge in obj.data.edges if all(abs(obj.data.vertices[v].co.x) < 0.03 for v in edge.vertices)]

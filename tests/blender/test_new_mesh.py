@@ -62,19 +62,6 @@ def inner_vertices(obj: bpy.types.Object) -> Any:
     return np.array(sorted({v for polygon in new_polygons(obj) for v in polygon.vertices} - outside))
 
 
-def test_the_sphere_comes_back_with_other_faces() -> None:
-    obj, chosen = dented()
-    spoil(obj, chosen)
-    kept = int(np.count_nonzero(~chosen))
-    assert fair_new(obj, chosen) == {"FINISHED"}
-    assert border_edges(obj) == 0
-    assert np.abs(np.linalg.norm(meshes.positions(obj), axis=1) - 1.0).max() < 1e-3
-    assert len(obj.data.polygons) - kept == len(new_polygons(obj))
-    assert all(len(polygon.vertices) == 3 for polygon in new_polygons(obj))
-    used = {v for edge in obj.data.edges for v in edge.vertices}
-    assert used == {v for polygon in obj.data.polygons for v in polygon.vertices} == set(range(len(obj.data.vertices)))
-
-
 def halved(obj: bpy.types.Object) -> None:
     """Two islands of UVs, left and right of x = 0, each with the places of the other's mirror image far away."""
     mesh = obj.data

@@ -65,16 +65,6 @@ def cylinder(sides: int, rows: int, height: float) -> Solid:
     return _revolved([_ring(sides, 1.0, height * k / rows) for k in range(rows + 1)], 0.0, height)
 
 
-def domed(sides: int, rows: int, height: float) -> Solid:
-    """A cylinder of radius 1, z from 0 to 1, under a cap of a sphere of that height, or a flat lid, in so many rows."""
-    radius = (1 + height**2) / (2 * height) if height else np.inf
-    walls = [_ring(sides, 1.0, k / 4) for k in range(5)]
-    out = 1 - np.arange(1, rows) / rows
-    above = np.sqrt(radius**2 - out**2) - (radius - height) if height else 0 * out
-    caps = [_ring(sides, r, 1 + z) for r, z in zip(out, above, strict=True)]
-    return _revolved(walls + caps, 0.0, 1 + height)
-
-
 def box_with_boss(sides: int) -> tuple[FloatArray, IntArray, IntArray]:
     """An undivided box, a round boss on its top: vertices, the triangles of the top and the boss, and the others."""
     corners = np.array([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]])

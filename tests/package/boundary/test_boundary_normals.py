@@ -110,24 +110,6 @@ def test_a_cap_that_is_spoilt_up_to_the_boundary_comes_back_round(degrees: int, 
     assert np.abs(np.linalg.norm(result.vertices[own], axis=1) - 1).max() < 1e-3
 
 
-@pytest.mark.parametrize(("sides", "rows"), [(24, 6), (48, 12)])
-@pytest.mark.parametrize("height", [0.0, 0.2, 0.3])
-def test_lids_and_domes_over_a_hard_rim_come_back(sides: int, rows: int, height: float) -> None:
-    """The dome is a part of a sphere: a dent in its middle goes."""
-    vertices, triangles = solids.domed(sides, rows, height)
-    inside = (vertices[triangles][:, :, 2] > 1 - 1e-9).all(axis=1)
-    dented = vertices.copy()
-    dented[(np.linalg.norm(vertices[:, :2], axis=1) < 0.4) & (vertices[:, 2] >= 1), 2] -= 0.1
-    result, found, free = faired(dented, triangles[inside], triangles[~inside])
-    assert found.from_inside.all()
-    if height:
-        radius = (1 + height**2) / (2 * height)
-        off = np.linalg.norm(result.vertices[free] - [0, 0, 1 + height - radius], axis=1) - radius
-    else:
-        off = result.vertices[free, 2] - 1
-    assert np.abs(off).max() < 5e-6
-
-
 @pytest.mark.parametrize("continuity", ["G1", "G2"])
 @pytest.mark.parametrize("rings", [0, 0.5, 1, 2])
 def test_an_outline_that_is_partly_hard_mixes_both(rings: float, continuity: str) -> None:
