@@ -16,22 +16,21 @@ import fairing
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Mask
 from ..fair.engine import Progress
-from ..host.context import edited_objects
 from ..host.dragging import pixel_size, say
-from ..host.polling import require_edit_mode, require_idle
-from ..mesh import mesh_io, remeshed, selecting
+from ..host.handlers import hear_events
+from ..mesh import remeshed, selecting
 from ..mirror.symmetry import NOT_SYMMETRIC, edges_with_image
 from ..options.options import FairOptions
 from ..options.other_options import FilletOptions
 from ..options.properties import FilletProperties
-from ..options.redo_panel import draw_options
 from ..run import compare, last_run
-from ..run.asked import AskedInEditMode, Say
-from ..run.background import TICK, has_events
-from ..run.job import Refused, each_of, write_each
-from ..run.redo import Redone
+from ..run.asked import AskedInEditMode, Say, done
+from ..run.background import MOMENT, TICK, Watched, has_events
+from ..run.job import Refused, Task, each_of, read_for_new_faces, write_each
+from ..run.operator import InEditMode
+from ..run.runner import Run
 from ..translations import translated
-from ..verdict.properties import store_refusal, store_word
+from ..verdict.properties import store_word
 from ..verdict.verdict import UNUSABLE, NotUsable, worst
 from ..words.words import said
 from .rounding import NO_SEAM, Rounded, round_arrays, seams_of
@@ -39,94 +38,69 @@ from .typed import Typed
 
 PROFILE_STEP = 0.1  # of the wheel
 PRECISE = 0.1  # of the mouse's way while Shift is held
-PATIENCE = 2.0  # seconds for a preview: what is hard to find is sought once, when it is accepted
+PATIENCE = 2.0  # seconds for a preview: a search that takes longer gives way to the next one
 SLOW = said("takes_longer")
 
 
 class _Handle:
     """Where the last fillet can be pulled wider."""
 
-    flank: tuple[Floats, Floats] | None = None  # as Task.flank
+    flank: tuple[Floats, Floats] | None = None  # as _flank gives it
 
 
 handle = _Handle()
 previews: list[Callable[[list[Rounded]], None]] = []  # called with what a run by the mouse would write; [] at its end
 
 
-@dataclass(frozen=True)
-class Task:
-    """One object's seams, as they were read."""
-
-    object_name: str
-    mesh: MeshArrays
-    seams: Mask
-    matrix: Floats  # (4, 4) to world space
-    key: str  # the shape key that was read, as mesh_io.writable_key names it
-
-    @property
-    def middle(self) -> Floats:
-        """The middle of the seams, (3,) in world space."""
-        ends = self.mesh.positions[np.unique(self.mesh.edges[self.seams])].mean(axis=0)
-        place: Floats = self.matrix[:3, :3] @ ends + self.matrix[:3, 3]
-        return place
-
-    @property
-    def length(self) -> float:
-        """Of all seams, in world space."""
-        ends = self.mesh.positions[self.mesh.edges[self.seams]] @ self.matrix[:3, :3].T
-        return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
-
-    @property
-    def flank(self) -> tuple[Floats, Floats]:
-        """The middle (3,) of the seam's middle edge in world space, and the unit direction away from it in one face."""
-        points = self.mesh.transformed(self.matrix).positions
-        edges = self.mesh.edges[self.seams]
-        edge = edges[np.linalg.norm(points[edges].mean(axis=1) - self.middle, axis=1).argmin()]
-        place, along = points[edge].mean(axis=0), points[edge[1]] - points[edge[0]]
-        triangle = self.mesh.triangles[np.isin(self.mesh.triangles, edge).sum(axis=1) == 2][0]
-        third = points[triangle[~np.isin(triangle, edge)][0]] - place
-        away = third - along * (third @ along) / (along @ along)
-        return place, away / np.linalg.norm(away)
-
-
 def read(context: bpy.types.Context, group: str) -> list[Task]:
     """Read every object in edit mode that has selected seams; raises Refused. group: see FilletOptions.width_group."""
-    tasks = []
-    for obj in edited_objects(context):
-        edges = selecting.selected_edges(obj.data)
-        if not edges.any():
-            continue
-        try:
-            mesh_io.check_new_faces(obj)
-            key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_edit_mesh(obj, FairOptions(vertex_group=group), widens=False)
-            matrix = np.array(obj.matrix_world, dtype=np.float64)
-            by_edges = not context.tool_settings.mesh_select_mode[2]
-            seams = edges_with_image(mesh, seams_of(mesh.transformed(matrix), edges, by_edges))
-        except ValueError as cause:
-            raise Refused(obj.name, cause) from cause
-        if seams.any():
-            tasks.append(Task(obj.name, mesh, seams, matrix, key))
-    return tasks
+    by_edges = not context.tool_settings.mesh_select_mode[2]
+
+    def seams(_obj: bpy.types.Object, mesh: MeshArrays, matrix: Floats, edges: Mask) -> Mask | None:
+        found = edges_with_image(mesh, seams_of(mesh.transformed(matrix), edges, by_edges))
+        return found if found.any() else None
+
+    return read_for_new_faces(context, selecting.selected_edges, seams, FairOptions(vertex_group=group))
+
+
+def _middle(task: Task) -> Floats:
+    """Return the middle of the seams, (3,) in world space."""
+    ends = task.mesh.positions[np.unique(task.mesh.edges[task.about])].mean(axis=0)
+    place: Floats = task.matrix[:3, :3] @ ends + task.matrix[:3, 3]
+    return place
+
+
+def _length(task: Task) -> float:
+    """Return that of all seams, in world space."""
+    ends = task.mesh.positions[task.mesh.edges[task.about]] @ task.matrix[:3, :3].T
+    return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
+
+
+def _flank(task: Task) -> tuple[Floats, Floats]:
+    """Return the middle (3,) of the middle seam in world space, and the unit direction away from it in one face."""
+    points = task.mesh.transformed(task.matrix).positions
+    edges = task.mesh.edges[task.about]
+    edge = edges[np.linalg.norm(points[edges].mean(axis=1) - _middle(task), axis=1).argmin()]
+    place, along = points[edge].mean(axis=0), points[edge[1]] - points[edge[0]]
+    triangle = task.mesh.triangles[np.isin(task.mesh.triangles, edge).sum(axis=1) == 2][0]
+    third = points[triangle[~np.isin(triangle, edge)][0]] - place
+    away = third - along * (third @ along) / (along @ along)
+    return place, away / np.linalg.norm(away)
 
 
 def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list[Rounded]:
     """Round the seams of every task; raises Refused, and what its cause is not."""
-    return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.seams, task.matrix, options, part), progress)
+    return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.about, task.matrix, options, part), progress)
 
 
 @dataclass
 class Asked(AskedInEditMode):
-    """What one run was asked for."""
-
-    tasks: list[Task]
-    options: FilletOptions
-    begin: float  # of the performance counter
+    """What one run was asked for; tasks are about seams, (e,) masks."""
 
     @cached_property
     def size(self) -> float:
         """About as many vertices as will be new: those of bands as wide as both sides."""
-        options, length = self.options, sum(task.length for task in self.tasks)
+        options, length = self.options, sum(map(_length, self.tasks))
         width = options.width or 0.02 * length  # a guess: the seams alone don't tell it
         width_2 = options.width_2 or width
         return length * (width + width_2) / (options.spacing or 0.25 * min(width, width_2)) ** 2
@@ -143,43 +117,34 @@ class Asked(AskedInEditMode):
                 raise Refused(task.object_name, NotUsable(verdict, outcome.result))
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
-        handle.flank = self.tasks[0].flank
+        handle.flank = _flank(self.tasks[0])
         written = write_each(context, zip(self.names, outcomes, strict=True), remeshed.write_edit_mesh)
         if not all(each.is_symmetric for each in written):
             say({"WARNING"}, translated(NOT_SYMMETRIC))
-        for warning in (each for outcome in outcomes for each in outcome.warnings):
-            say({"WARNING"}, translated(warning))
         count = sum(each.new_vertices for each in written)
         verdict = worst(outcome.verdict for outcome in outcomes)
         store_word(context.window_manager.fairing_report, self.names, count, verdict)
         seconds = time.perf_counter() - self.begin
-        say({"INFO"}, translated(said("new_vertices", n=count, seconds=seconds)))
-        return {"FINISHED"}
+        warnings = [each for outcome in outcomes for each in outcome.warnings]
+        return done(say, warnings, said("new_vertices", n=count, seconds=seconds))
 
 
-class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
+class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
     """Round the selected edges, or the hard edges of the selected faces, by a fair surface within a width"""
 
     bl_idname = "mesh.fair_fillet"
     bl_label = "Fair Fillet"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
+    needs = NO_SEAM
     _asked: Asked
     _timer: Any = None
+    _search: Run[list[Rounded]] | None = None  # aside, for the options of `_asked`
     if TYPE_CHECKING:  # made from a table
         confirm_on_release: bool
         width: float
         profile: float
         width_group: str
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Edit mode has seams; while a run is under way, the mesh is its own."""
-        return require_edit_mode(cls, context, NO_SEAM) and require_idle(cls, context)
-
-    def draw(self, context: bpy.types.Context) -> None:
-        """Lay the options out in groups."""
-        draw_options(self.layout, self, context.object, context.window_manager)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin to follow the mouse; without a window, round at once."""
@@ -188,11 +153,10 @@ class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
         return self._begin_with(context, lambda here: self._begin_to_follow(here, event))
 
     def _begin_to_follow(self, context: bpy.types.Context, event: Any) -> set[str]:
-        middle = np.mean([task.middle for task in self._asked.tasks], axis=0)
+        middle = np.mean([_middle(task) for task in self._asked.tasks], axis=0)
         self._follow(event, pixel_size(context, middle))
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(TICK, window=context.window)
-        manager.modal_handler_add(self)
+        self._timer = context.window_manager.event_timer_add(TICK, window=context.window)
+        hear_events(context, self)
         self._say(context)
         return {"RUNNING_MODAL"}
 
@@ -200,11 +164,13 @@ class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
         """Take the mouse's place as that of width 0."""
         self._pixel, self._origin, self._way = pixel, (event.mouse_x, event.mouse_y), 0.0
         self._last, self._typed, self._reason = self._origin, Typed(), ""
-        self._shown: tuple[FilletOptions, list[Rounded]] | None = None
+        self._found: list[Rounded] | None = None  # by the search; None while it goes on
         self._wanted: FilletOptions | None = None
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Mouse: width, wheel: profile, digits: width; click accepts, Esc leaves all as it was."""
+        if self._run is not None:
+            return Watched.modal(self, context, event)
         if event.type in ("ESC", "RIGHTMOUSE") and event.value == "PRESS":
             self.cancel(context)
             return {"CANCELLED"}
@@ -222,7 +188,7 @@ class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
                 self.width = self._typed.value
                 self._wanted = self._options()
         elif event.type == "TIMER":
-            self._show(context)
+            self._show()
         elif event.type in ("MIDDLEMOUSE", "NDOF_MOTION"):
             return {"PASS_THROUGH"}
         self._say(context)
@@ -230,6 +196,12 @@ class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Stop; nothing was written. Blender calls this too, when it closes a window."""
+        if self._search is not None:
+            self._search.cancel()
+        Watched.cancel(self, context)
+        self._follow_no_more(context)
+
+    def _follow_no_more(self, context: bpy.types.Context) -> None:
         for preview in previews:
             preview([])
         say(context, None)
@@ -250,47 +222,53 @@ class MESH_OT_fair_fillet(FilletProperties, Redone, bpy.types.Operator):
     def _options(self) -> FilletOptions:
         return FilletOptions.of(self)
 
-    def _show(self, context: bpy.types.Context) -> None:
-        """Solve what is wanted now, and let it be seen."""
-        if self._wanted is None:
-            return
-        wanted, self._wanted = self._wanted, None
-        end = time.perf_counter() + PATIENCE
-        outcomes: list[Rounded] = []
-        try:
-            outcomes = solve(self._asked.tasks, wanted, lambda _fraction, _stage: time.perf_counter() < end)
-            self._shown, self._reason = (wanted, outcomes), ""
-        except Refused as refusal:
-            self._shown, self._reason = None, refusal.reason
-        except fairing.Cancelled:
-            self._shown, self._reason = None, SLOW
-        for preview in previews:
-            preview(outcomes)
+    def _show(self) -> None:
+        """Let what was found be seen, and search for what is wanted now."""
+        search = self._search
+        if search is not None and self._found is None:
+            if not search.finished:
+                if time.perf_counter() > self._asked.begin + PATIENCE:
+                    self._reason = SLOW
+                    if self._wanted is not None:
+                        search.cancel()
+                return
+            self._found, self._reason = [], ""
+            try:
+                self._found = search.result()
+            except Refused as refusal:
+                self._reason = refusal.reason
+            except fairing.Cancelled:
+                self._reason = SLOW
+            for preview in previews:
+                preview(self._found)
+        if self._wanted is not None:
+            self._asked = replace(self._asked, options=self._wanted, begin=time.perf_counter())
+            self._search, self._found, self._wanted = Run(self._asked.work), None, None
 
     def _say(self, context: bpy.types.Context) -> None:
         width = self._typed.text or f"{self.width:.4g}"
-        new = sum(len(each.result.vertices) for each in self._shown[1]) if self._shown else 0
+        new = sum(len(each.result.vertices) for each in self._found or ())
         text = said("fillet_header", width=width, profile=self.profile, n=new, reason=self._reason)
         keys = translated(said("fillet_keys"))
         say(context, translated(text) + keys)
 
     def _accept(self, context: bpy.types.Context) -> set[str]:
-        self.cancel(context)
+        """Have the answer that is sought, in the background where that takes a while."""
+        self._follow_no_more(context)
         if not self._asked.is_as_read(context):
             self.report({"ERROR"}, translated(said("dropped")))
             return {"CANCELLED"}
-        shown, options = self._shown, self._options()
-        self._asked = replace(self._asked, options=options)
-        if shown is None or shown[0] != options:
-            return self._at_once(context)
-        return self._asked.settle(context, lambda: shown[1], self.report)
+        options, search = self._options(), self._search
+        if search is None or search.cancelled or self._asked.options != options:
+            if search is not None:
+                search.cancel()
+            self._asked = replace(self._asked, options=options, begin=time.perf_counter())
+            search = Run(self._asked.work)
+        return self._await(context, search, MOMENT)
 
     def _read(self, context: bpy.types.Context) -> Asked | None:
-        begin = time.perf_counter()
-        tasks = read(context, self.width_group)
+        options = self._options()
+        tasks = read(context, options.width_group)
         if not tasks:
-            store_refusal(context.window_manager.fairing_report, "", NO_SEAM)
-            last_run.forget()
-            self.report({"ERROR"}, translated(NO_SEAM))
-            return None
-        return Asked(tasks, self._options(), begin)
+            self.nothing(context, NO_SEAM)
+        return Asked(tasks, options) if tasks else None

@@ -179,9 +179,13 @@ class Watched:
             return self._at_once(context)
         # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
         large = self._asked.size >= LARGE
-        self._run = runner.Run(self._asked.work_aside(large))
-        if not large and self._run.wait(MOMENT):
-            return self._asked.settle(context, self._run.result, self.report)
+        return self._await(context, runner.Run(self._asked.work_aside(large)), 0.0 if large else MOMENT)
+
+    def _await(self, context: bpy.types.Context, run: runner.Run[Any], seconds: float) -> set[str]:
+        """Have the answer of a run within so many seconds, or watch it."""
+        self._run = run
+        if run.wait(seconds):
+            return self._asked.settle(context, run.result, self.report)
         self._start_watching(context)
         return {"RUNNING_MODAL"}
 

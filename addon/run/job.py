@@ -108,6 +108,7 @@ def read_for_new_faces(
     context: bpy.types.Context,
     chosen: Callable[[bpy.types.Mesh], Mask],
     about: Callable[[bpy.types.Object, MeshArrays, Floats, Mask], Any],
+    options: FairOptions | None = None,
 ) -> list[Task]:
     """Read every object in edit mode of which something is chosen; raises Refused.
 
@@ -121,7 +122,7 @@ def read_for_new_faces(
         with refusing(obj.name, ValueError):
             mesh_io.check_new_faces(obj)
             key = mesh_io.writable_key(obj)
-            mesh = mesh_io.read_edit_mesh(obj, FairOptions(), widens=False)
+            mesh = mesh_io.read_edit_mesh(obj, options or FairOptions(), widens=False)
             matrix = np.array(obj.matrix_world, dtype=np.float64)
             there = about(obj, mesh, matrix, mask)
         if there is not None:

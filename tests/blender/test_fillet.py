@@ -2,6 +2,7 @@
 
 from dataclasses import asdict
 from pathlib import Path
+from threading import Event
 from types import SimpleNamespace
 from typing import Any
 
@@ -195,7 +196,13 @@ def shown() -> Any:
 def dragged(operator: Any, way: int) -> None:
     operator._follow(event("MOUSEMOVE"), 0.01)
     assert operator.modal(bpy.context, event("MOUSEMOVE", at=(0, way))) == {"RUNNING_MODAL"}
-    assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+    searched(operator)
+
+
+def searched(operator: Any) -> None:
+    for _ in "begin", "show":
+        assert operator.modal(bpy.context, event("TIMER")) == {"RUNNING_MODAL"}
+        assert operator._search.wait(10.0)
 
 
 def test_the_mouse_moves_the_width_and_a_click_accepts(shown: Any) -> None:
@@ -224,12 +231,12 @@ def test_the_wheel_changes_the_profile_and_digits_the_width(shown: Any) -> None:
     assert operator.width == pytest.approx(0.3)
     operator.modal(bpy.context, event("MOUSEMOVE", at=(0, 80)))  # what is typed stays
     assert operator.width == pytest.approx(0.3)
-    operator.modal(bpy.context, event("TIMER"))
+    searched(operator)
     wide_top = max(shown[-1][0].surface[0][:, :2].sum(axis=1))
     for _ in range(5):
         operator.modal(bpy.context, event("WHEELUPMOUSE"))
     assert operator.profile == pytest.approx(0.5)
-    operator.modal(bpy.context, event("TIMER"))
+    searched(operator)
     sharp_top = max(shown[-1][0].surface[0][np.abs(shown[-1][0].surface[0][:, 2]) < 0.3][:, :2].sum(axis=1))
     assert sharp_top > wide_top - 1e-9 or sharp_top > 2 - 0.2
     assert round_top <= 2.0 + 1e-6
@@ -244,6 +251,38 @@ def test_escape_leaves_every_bit(shown: Any) -> None:
     assert operator.modal(bpy.context, event("ESC")) == {"CANCELLED"}
     assert snapshot() == before
     assert shown[-1] == []
+
+
+@pytest.mark.parametrize("end", [event("TIMER"), event("ESC")], ids=lambda each: each.type)
+def test_what_takes_long_is_watched_after_the_click_and_can_be_given_up(
+    end: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fillet, go_on, given_up = module("fillet.operator"), Event(), Event()
+    obj = cube()
+    enter(obj, edge_mask(obj, upright))
+    operator, before, solve = stand(), snapshot(), fillet.solve
+    operator._start_watching = lambda _context: None
+
+    def slow(tasks: Any, options: Any, progress: Any) -> Any:
+        while not go_on.wait(0.01):
+            if not progress(0.0, ""):
+                given_up.set()
+                raise module("fair.engine").fairing.Cancelled
+        return solve(tasks, options, progress)
+
+    monkeypatch.setattr(fillet, "solve", slow)
+    monkeypatch.setattr(fillet, "MOMENT", 0.01)
+    operator._follow(event("MOUSEMOVE"), 0.01)
+    operator.modal(bpy.context, event("MOUSEMOVE", at=(0, 30)))
+    operator.modal(bpy.context, event("TIMER"))
+    assert operator.modal(bpy.context, event("LEFTMOUSE")) == {"RUNNING_MODAL"}
+    assert snapshot() == before
+    if end.type == "TIMER":
+        go_on.set()
+        assert operator._run.wait(10.0)
+    assert operator.modal(bpy.context, end) == {"FINISHED" if end.type == "TIMER" else "CANCELLED"}
+    assert (snapshot() != before) == (end.type == "TIMER")
+    assert end.type == "TIMER" or given_up.wait(10.0)
 
 
 def test_a_width_that_is_too_large_is_reported_while_dragging(shown: Any) -> None:

@@ -121,7 +121,9 @@ def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch)
 def test_letting_go_accepts_a_fillet_of_the_tool_alone() -> None:
     """From the menu the button is pressed once more."""
     for by_tool, accepted in ((True, True), (False, False)):
-        stand: Any = SimpleNamespace(confirm_on_release=by_tool, _typed=SimpleNamespace(take=lambda *_: False))
+        stand: Any = SimpleNamespace(
+            confirm_on_release=by_tool, _run=None, _typed=SimpleNamespace(take=lambda *_: False)
+        )
         done: list[bool] = []
         stand._accept = lambda _context, done=done: done.append(True) or {"FINISHED"}
         stand._say = lambda _context: None
