@@ -36,12 +36,6 @@ class Asked(AskedInEditMode):
         self.preview = preview = Preview(self.tasks)
         return partial(job.solve, self.tasks, self.options, ahead=large, give=preview.give)
 
-    def refuse(self, context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[str]:
-        """Keep what was selected as well, and say why nothing is written."""
-        status = super().refuse(context, refusal, say)
-        last_run.keep_selection(self.tasks)
-        return status
-
     def finish(self, context: bpy.types.Context, outcomes: list[Fairing], say: Say) -> set[str]:
         """Write and report what the run came to; return an operator's status."""
         named = [(task.object_name, outcome) for task, outcome in zip(self.tasks, outcomes, strict=True)]

@@ -77,7 +77,7 @@ class Asked(AskedInEditMode):
         if not report.written:
             store(context.window_manager.fairing_report, report)
             if len(self.tasks) == 1:  # the boundary where the surface is no good
-                show_vertices(context, self.tasks[0].object_name, report.verdict.spots)
+                last_run.point_out(context, self.tasks[0].object_name, report.verdict.spots)
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         compare.forget()

@@ -101,10 +101,10 @@ class AskedInEditMode(Asked):
 
 
 def refuse(context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[str]:
-    """Show what a refusal is about, and leave every mesh as it is."""
-    job.show_vertices(context, refusal.object_name, refusal.elements)
+    """Say why nothing is written, and leave every mesh and its selection as it is."""
     store_refusal(context.window_manager.fairing_report, refusal.object_name, refusal.reason)
     last_run.forget()
+    last_run.point_out(context, refusal.object_name, refusal.elements)
     say({"ERROR"}, translated(str(refusal)))
     return {"CANCELLED"}
 

@@ -59,6 +59,13 @@ def _region(task: Task, spots: Ints) -> Region:
     return Region(task.object_name, len(task.mesh.in_patch), np.flatnonzero(task.mesh.in_patch), spots)
 
 
+def point_out(context: bpy.types.Context, name: str, vertices: Ints) -> None:
+    """Keep which vertices of an object a refusal is about, where that is in edit mode, and which faces are selected."""
+    if len(vertices) and context.mode == "EDIT_MESH":
+        faces = selecting.selected_faces(objects_in_mode(context)[name].data)
+        _last.seen = (Region(name, len(faces), np.flatnonzero(faces), vertices),)
+
+
 def renumber(written: list[Written | None]) -> None:
     """Follow the faces and vertices of objects whose patch was meshed anew."""
     _last.regions = tuple(
@@ -103,7 +110,7 @@ def options() -> FairOptions:
 
 
 def has_spots() -> bool:
-    return any(len(region.spots) for region in _last.regions)
+    return any(len(region.spots) for region in _last.regions or _last.seen)
 
 
 class Changed(Exception):
@@ -126,7 +133,7 @@ def _found(context: bpy.types.Context, regions: tuple[Region, ...]) -> list[tupl
 
 def worst_spot(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
     """Return where in world space the worst of the spots is, its normal, and how much around it is of interest."""
-    region, mesh = next(pair for pair in _found(context, _last.regions) if len(pair[0].spots))
+    region, mesh = next(pair for pair in _found(context, _last.regions or _last.seen) if len(pair[0].spots))
     place, normal, edge = selecting.surroundings(mesh, int(region.spots[0]))
     place, normal, size = _in_world(context, region, place, normal)
     return place, normal, SIGHT * edge * size
@@ -167,8 +174,8 @@ def reselect(context: bpy.types.Context) -> None:
 
 
 def select_spots(context: bpy.types.Context) -> None:
-    """Select the vertices that the verdict is about, in vertex mode; raises Changed."""
-    found = _found(context, _last.regions)
+    """Select the vertices that the verdict or the refusal is about, in vertex mode; raises Changed."""
+    found = _found(context, _last.regions or _last.seen)
     context.tool_settings.mesh_select_mode = (True, False, False)
     for region, mesh in found:
         selecting.select_vertices(mesh, region.spots)

@@ -118,20 +118,6 @@ def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch)
     assert meshes.positions(obj).tobytes() == meshes.positions(by_number).tobytes()
 
 
-def test_letting_go_accepts_a_fillet_of_the_tool_alone() -> None:
-    """From the menu the button is pressed once more."""
-    for by_tool, accepted in ((True, True), (False, False)):
-        stand: Any = SimpleNamespace(
-            confirm_on_release=by_tool, _run=None, _typed=SimpleNamespace(take=lambda *_: False)
-        )
-        done: list[bool] = []
-        stand._accept = lambda _context, done=done: done.append(True) or {"FINISHED"}
-        stand._say = lambda _context: None
-        release = SimpleNamespace(type="LEFTMOUSE", value="RELEASE", ascii="")
-        module("fillet.operator").MESH_OT_fair_fillet.modal(stand, bpy.context, release)
-        assert bool(done) == accepted
-
-
 def test_blender_may_end_the_wait_for_a_click() -> None:
     """As it does where it closes the window or the add-on goes: pointer and status bar are as before."""
     left: list[Any] = []
