@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Of points or triangles.
+// Columns of points or triangles.
 template <typename Column>
 Eigen::Matrix3X<typename Column::Scalar> as_columns(const std::vector<Column>& columns) {
     Eigen::Matrix3X<typename Column::Scalar> result(3, static_cast<Eigen::Index>(columns.size()));
@@ -24,14 +24,14 @@ inline Vector3 direction(const Vector3& v) {
     return (v / largest).normalized();
 }
 
-// Those of `all` that `known` does not hold; both are in ascending order.
+// The entries of `all` that are not in `known`; both are in ascending order.
 inline Indices without(const Indices& all, const Indices& known) {
     Indices rest;
     std::set_difference(all.begin(), all.end(), known.begin(), known.end(), std::back_inserter(rest));
     return rest;
 }
 
-// The upper one of the two in the middle; 0 without any.
+// The median, of two in the middle the upper one; 0 without values.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0.0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -52,7 +52,7 @@ inline Indices sorted_by(const Indices& keys, int count) {
     return order;
 }
 
-// The place of each number 0 … count − 1 in an order; `none` for those that it lacks.
+// The position of each number 0 … count − 1 in an order; `none` for those that it lacks.
 inline Indices places_in(const Indices& order, std::size_t count) {
     Indices places(count, none);
     for (std::size_t k = 0; k < order.size(); ++k) places[order[k]] = static_cast<int>(k);

@@ -1,4 +1,4 @@
-// What callers are told: findings about a mesh, and exceptions.
+// Reports to callers: findings about a mesh, and exceptions.
 #pragma once
 
 #include <map>
@@ -55,11 +55,10 @@ enum class Code {
 // The upper-case names that callers see, e.g. "NONMANIFOLD_EDGE", in the order of the enumeration.
 std::span<const std::string_view> code_names();
 std::string_view code_name(Code code);
-// What the indices in `elements` count. Edges are given by their two vertices, one after the other.
+// The kind of element that `elements` indexes. Edges are given by their two vertices, one after the other.
 enum class ElementKind { vertex, triangle };
 
-// The figures of a message by name: counts, degrees, shares of 1. Each function that makes a diagnostic documents its
-// own.
+// The figures of a message by name: counts, degrees, shares of 1; documented where a diagnostic is made.
 using Figures = std::map<std::string, double>;
 
 inline double size_of(const Indices& elements) { return static_cast<double>(elements.size()); }
@@ -97,7 +96,7 @@ public:
     Cancelled() : std::runtime_error("cancelled by the progress callback") {}
 };
 
-// The number with the phrase that goes with it.
+// The number and the phrase in singular or plural.
 inline std::string counted(std::size_t count, std::string_view one, std::string_view many) {
     return std::to_string(count) + " " + std::string(count == 1 ? one : many);
 }

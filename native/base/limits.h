@@ -1,11 +1,11 @@
-// Limits of numbers and loops, whatever they are about.
+// Limits of numbers and loops that are shared by all parts.
 #pragma once
 
 namespace fairing {
 
-// Relative: what sums of doubles leave of a zero.
+// Relative rounding error of sums of doubles whose exact value is zero.
 inline constexpr double roundoff = 1e-14;
-// Of iterations that end by themselves in 5 to 40 steps.
+// Bound of steps for iterations that end by themselves after 5 to 40.
 inline constexpr int most_iterations = 60;
 
 // So few are sorted, searched or worked on one by one.

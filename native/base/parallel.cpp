@@ -12,7 +12,7 @@ namespace fairing {
 
 namespace {
 
-// Of our own choice: more bring little, since parts of every solve are serial. And of the caller's.
+// The most threads by default (more bring little, since parts of every solve are serial), and by the caller's wish.
 constexpr int most_chosen = 8;
 constexpr int most_asked = 64;
 

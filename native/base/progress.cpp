@@ -61,7 +61,7 @@ private:
     const std::thread::id thread_ = std::this_thread::get_id();
     std::exception_ptr failure_;  // what the callback has thrown
     double last_ = 0.0;
-    std::string stage_ = "topology";  // what every run begins with, if it is asked before it says so
+    std::string stage_ = "topology";  // the first stage of every run, until one is named
     Clock::time_point asked_ = Clock::now();
 };
 

@@ -47,8 +47,8 @@ private:
     friend class Progress;
 };
 
-// A view of a callback that maps [0, 1] onto a sub-range of the whole run, so that a stage need not know its place. The
-// fraction that callers see never decreases. Called at every outer step, around each factorisation and at checkpoints.
+// A view of a callback that maps [0, 1] onto a sub-range of the whole run: a stage doesn't depend on what comes before
+// it. The fraction that callers see never decreases. Called at outer steps, around factorisations, at checkpoints.
 class Progress {
 public:
     Progress() = default;

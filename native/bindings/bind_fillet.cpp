@@ -12,7 +12,7 @@ namespace fairing::bindings {
 namespace {
 
 using namespace py::literals;
-// Of the seams, and of edges that a fillet does not reach over; widths on the left and on the right.
+// The seams, edges that a fillet does not cross, and widths on the left and on the right.
 using Edges = std::tuple<VertexPairs, VertexPairs>;
 using Widths = std::tuple<VectorX, VectorX>;
 

@@ -61,8 +61,8 @@ public:
         return result;
     }
 
-    // Of lone loops: normals, and whether edges may run on through them. Not where one face closes them, nor where the
-    // border passes a vertex several times: which pass an edge ends at is not known.
+    // Normals of lone loops, and whether edges may continue through them: not where one face closes the loop, nor where
+    // the border passes a vertex several times, since an edge could end at either pass.
     [[nodiscard]] py::list slopes(double spacing) const {
         py::list result;
         for (const Hole& hole : found_.holes) {

@@ -89,7 +89,7 @@ void bind_outline(py::module_& module) {
              const Threads team(threads);
              return denoised({vertices, triangles, fixed}, sizes, Progress(progress));
          });
-    // Places and directions: rows of the beginning and the end.
+    // Positions and directions: rows of the beginning and the end.
     bind(module, "fair_curve", {"places", "directions", "shares"},
          [](const Points& places, const Points& directions, const VectorX& shares) {
              return least_variation_curve({places.col(0), directions.col(0)}, {places.col(1), directions.col(1)},

@@ -12,7 +12,7 @@ namespace {
 
 py::object shown(const VisibleJoin& join) { return py::make_tuple(join.degrees, join.limit, join.seen); }
 
-// Of the parts of a mesh.
+// Measures of the parts of a mesh.
 void bind_parts(py::module_& module) {
     bind(module, "is_spoilt", {"vertices", "inside", "outside"},
          [](const Points& vertices, const Triangles& inside, const Triangles& outside) {
@@ -51,7 +51,7 @@ void bind_judged(py::module_& module) {
 
 void bind_shape(py::module_& module) {
     using namespace py::literals;
-    // Those of shape/limits that Python asks by.
+    // The limits of shape/limits.h that Python uses.
     module.attr("LIMITS") =
         py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink, "steep_kink"_a = steep_kink,
                  "turned_back"_a = turned_back, "off_slope"_a = off_slope);

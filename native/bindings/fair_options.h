@@ -6,7 +6,7 @@
 
 namespace fairing::bindings {
 
-// What Python's options come to: its groups (fairing/options/groups.py) set them by name.
+// Python's options in C++; its groups (fairing/options/groups.py) set them by name.
 struct Options {
     FairOptions fair;
     HeldInside held;

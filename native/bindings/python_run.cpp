@@ -34,7 +34,7 @@ public:
     }
 
 private:
-    // Of the other threads.
+    // The runs of the other threads.
     template <typename Condition>
     [[nodiscard]] bool any(const Condition& condition) const {
         return std::any_of(runs_.begin(), runs_.end(),

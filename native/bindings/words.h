@@ -76,7 +76,7 @@ inline constexpr Words<Termination, 4> termination_words{"termination",
                                                            {"stalled", Termination::stalled},
                                                            {"folded", Termination::folded}}}};
 
-// The equation of a result, or what stands in its place.
+// The equation of a result, or of its stand-in.
 inline std::string equation_of(const FairResult& result) {
     if (is_loft(result.provenance)) return "loft";
     if (result.provenance == Provenance::old_shape) return "smoothed";

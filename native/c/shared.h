@@ -9,7 +9,7 @@
 
 namespace fairing::c {
 
-// Runs the work; what it throws becomes a status.
+// Runs the work and converts its exceptions to a status.
 fairing_status guarded(fairing_error* error, const std::function<void()>& work);
 
 // Throws std::invalid_argument with the message where it does not hold.

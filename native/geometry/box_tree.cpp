@@ -52,7 +52,7 @@ struct Cube {
     }
 };
 
-// What falls into one cell is sorted in a cube of its own: small parts of a large mesh would be in disorder otherwise.
+// Triangles in one cell are sorted in a cube of their own: small parts of a large mesh would be unordered otherwise.
 void sort_along_curve(std::span<Key> keys, const Points& centres) {
     const Cube cube(centres, keys);
     if (!(cube.edge > 0.0 && cube.edge < HUGE_VAL)) return;
@@ -89,7 +89,7 @@ Indices along_curve(const Triangles& triangles, const Points& points) {
 
 }  // namespace
 
-// Those with settled triangles only.
+// Marks nodes all of whose triangles are done.
 class SettledNodes {
 public:
     explicit SettledNodes(std::size_t leaves) {
@@ -101,7 +101,7 @@ public:
         return levels_[level][node].load(std::memory_order_relaxed) != 0;
     }
 
-    // With the nodes above it that have nothing else.
+    // Also marks the nodes above it that become complete by this.
     void add(int leaf) {
         levels_[0][leaf] = 1;
         std::size_t node = leaf;
@@ -178,8 +178,8 @@ void BoxTree::compare(int level, const Pair& pair, const Take& take) const {
     }
 }
 
-// take(pair) for the pairs of children that overlap. A node's children with themselves come first: what they settle the
-// others need not look at.
+// take(pair) for the pairs of children that overlap. A node's children with themselves come first: triangles that are
+// done after these are skipped by the others.
 template <typename Take>
 void BoxTree::split(int level, const Pair& pair, const Take& take) const {
     const bool is_one = pair.first == pair.second;
@@ -226,7 +226,7 @@ bool BoxTree::is_settled(int leaf, const IsSettled& is_settled) const {
     return std::all_of(begin, begin + std::min<std::ptrdiff_t>(4, order_.end() - begin), is_settled);
 }
 
-// Pairs of large nodes are split one after the other, what they come down to side by side.
+// Pairs of large nodes are split serially; the pairs that they end in are worked on concurrently.
 void BoxTree::for_overlaps(const Visit& visit, const IsSettled& is_settled) const {
     SettledNodes nodes(levels_.front().size());
     const Walk walk{visit, is_settled, nodes};

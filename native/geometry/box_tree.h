@@ -1,4 +1,4 @@
-// A tree of the boxes around triangles, for the pairs of them that may cross.
+// A tree of bounding boxes, which finds the pairs of triangles that may cross.
 #pragma once
 
 #include "base/types.h"
@@ -12,12 +12,12 @@ class BoxTree {
 public:
     BoxTree(const Triangles& triangles, const Points& points);
 
-    // Receives one triangle and up to four others; returns true where one of them was settled.
+    // Receives one triangle and up to four others; returns true where one of them is done: all that is asked is known.
     using Visit = std::function<bool(int, std::span<const int>)>;
     using IsSettled = std::function<bool(int)>;
-    // Each pair once whose boxes have points inside in common: those that only touch don't count, nor do triangles that
-    // are not finite. Pairs of two settled triangles may be skipped (n coincident triangles have n² / 2 pairs). On
-    // several threads, in any order.
+    // Visits each pair whose boxes overlap once; boxes that only touch don't count, nor do triangles that are not
+    // finite. Pairs of two triangles that are done may be skipped (n coincident triangles have n² / 2 pairs). Several
+    // threads, any order.
     void for_overlaps(const Visit& visit, const IsSettled& is_settled) const;
 
 private:

@@ -14,7 +14,7 @@ constexpr double plane_angle = 0.1;  // degrees between triangles of one plane, 
 
 using WeightedAngle = DihedralBands::WeightedAngle;
 
-// The angle that this share of the weight doesn't exceed. `sorted` isn't empty.
+// The weighted quantile at this share. `sorted` isn't empty.
 double quantile(const std::vector<WeightedAngle>& sorted, double share) {
     double total = 0.0;
     for (const WeightedAngle& entry : sorted) total += entry.weight;
@@ -26,7 +26,7 @@ double quantile(const std::vector<WeightedAngle>& sorted, double share) {
     return sorted.back().angle;
 }
 
-// Between these shares of the weight, and zero.
+// The range between these two quantiles, extended to zero.
 AngleRange middle(double share, std::vector<WeightedAngle>& near) {
     AngleRange range;
     if (near.empty()) return range;
@@ -88,13 +88,13 @@ void DihedralBands::measure(int edge) {
     const int first = edges_.side(edge, 0);
     const int side = edges_.side(edge, 1);
     const int opposite = triangles_((side % 3 + 2) % 3, side / 3);
-    // Triangles that run along the edge the same way are wound against each other.
+    // Triangles that pass the edge in the same direction have opposite windings.
     const double winding = side_tail(triangles_, first) == side_tail(triangles_, side) ? -1.0 : 1.0;
     angles_[edge] = dihedral_angle(normals_.col(first / 3), winding * normals_.col(side / 3), points_.col(a),
                                    points_.col(opposite));
 }
 
-// Of the triangles at the vertex opposite to a side that lead on, by area and direction.
+// The mean normal of the triangles beyond the vertex opposite to a side, weighted by area and direction.
 Vector3 DihedralBands::normal_beyond(int side) const {
     const Vector3 tail = points_.col(side_tail(triangles_, side));
     const Vector3 along = direction(points_.col(side_head(triangles_, side)) - tail);
@@ -124,7 +124,7 @@ double DihedralBands::angle_over_rows(int edge) const {
     };
     const int first = edges_.side(edge, 0);
     const int second = edges_.side(edge, 1);
-    if (side_tail(triangles_, first) == side_tail(triangles_, second)) return 0.0;  // wound against each other
+    if (side_tail(triangles_, first) == side_tail(triangles_, second)) return 0.0;  // opposite windings
     const double own = turn(normals_.col(first / 3), normals_.col(second / 3));
     const double whole = turn(normal_beyond(first), normal_beyond(second));
     return own * whole > 0.0 ? std::copysign(whole, angles_[edge]) : 0.0;
@@ -200,7 +200,7 @@ double DihedralBands::weight_across(int edge, const Vector3& along) const {
     return lengths_[edge] * cosine * cosine;
 }
 
-// The plane face of the triangle over a side, as far as its third triangle.
+// The plane face that the triangle over a side belongs to, followed up to its third triangle.
 DihedralBands::PlaneFace DihedralBands::plane_face(int side) const {
     const int edge = edges_.edge_of_side[side];
     const double least = 0.5 * std::abs(angles_[edge]);
@@ -235,7 +235,7 @@ AngleRange DihedralBands::usual_across(int edge, double share, const std::vector
                                        Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
     const Indices around = inner_edges(triangles_near(a, b, walk), walk);
-    Indices uneven = around;  // those between two plane faces were made so, by no noise
+    Indices uneven = around;  // without edges between two plane faces: those bend by design, not by noise
     std::erase_if(uneven, [&](int e) { return between_planes[e] != 0; });
     std::vector<WeightedAngle> own = weighted(around, a, b);
     std::vector<WeightedAngle> other = weighted(uneven, a, b);
@@ -250,7 +250,7 @@ std::optional<DihedralBands::Curvatures> DihedralBands::curvatures_beyond(int ed
     const Vector3 along = direction(points_.col(b) - start);
     const Vector3 across = along.cross(Vector3(normals_.col(edges_.side(edge, 0) / 3)));
     const double height = mean_height(edge);
-    // 0 and 1: beyond on that side.
+    // 0 and 1: beyond the edge on its first and second side.
     const auto side_of = [&](const Vector3& place) {
         const Vector3 offset = place - start;
         const double apart = (offset - along.dot(offset) * along).norm();

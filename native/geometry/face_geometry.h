@@ -60,8 +60,8 @@ Field Stiffness::apply(const Patch& patch, const Field& field, int count) const 
 
 double total_area(const Points& points, const Triangles& triangles);
 
-// At each vertex the sum of the triangles' cross products (3 × points, zero where there are none): averaged normals,
-// not of unit length.
+// Averaged normals, not of unit length (3 × points): at each vertex the sum of the triangles' cross products, zero
+// without triangles.
 Points summed_normals(const Points& points, const Triangles& triangles);
 
 }  // namespace fairing

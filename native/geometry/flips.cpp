@@ -13,7 +13,7 @@ namespace fairing {
 
 namespace {
 
-// A triangle as flat as FaceGeometry gives no normal for is not turned over. The cross product is of its edges.
+// A triangle so flat that FaceGeometry gives it no normal doesn't count as turned over.
 bool has_normal(const Vector3& cross, const Vector3& first, const Vector3& second) {
     const double longest = std::max({first.squaredNorm(), second.squaredNorm(), (second - first).squaredNorm()});
     return cross.norm() > least_twice_area * longest;
@@ -27,7 +27,7 @@ bool is_turned(const Points& points, const Points& normals, const Eigen::Vector3
     return around.dot(cross) < 0.0 && has_normal(cross, first, second);
 }
 
-// Of the longest side: the normals of lower triangles are those of the roundoff in single precision.
+// Share of the longest side: in single precision, the normals of lower triangles are round-off.
 constexpr double flattest = 1e-5;
 
 // The longest side of a cap, or `none`.
@@ -48,7 +48,7 @@ public:
         for (int t = 0; t < static_cast<int>(triangles.cols()); ++t) insert(t);
     }
 
-    // Whether it could; `made` says what it did.
+    // False where no flip is possible; `made` is the flip.
     bool turn(int cap, int side, TurnedCap& made) {
         const int a = corner(cap, side);
         const int b = corner(cap, side + 1);
@@ -127,7 +127,7 @@ std::vector<TurnedCap> turn_caps(const Points& points, const std::vector<char>& 
     }
     if (waiting.empty()) return turned;
     Turning turning(may_take, triangles);
-    // A turn may make a cap of the triangle beside: that has one vertex less over its side.
+    // A flip may turn the adjacent triangle into a cap, with one vertex less over its side.
     for (auto left = 4 * waiting.size() + static_cast<std::size_t>(triangles.cols()); !waiting.empty() && left > 0;
          --left) {
         const int t = waiting.back();

@@ -1,4 +1,4 @@
-// Triangles that are turned over against those around them.
+// Triangles that are turned over relative to their neighbours, and flips of edges that mend them.
 #pragma once
 
 #include "base/types.h"
@@ -12,14 +12,14 @@ namespace fairing {
 // `points`: 3 × local vertices.
 Indices flipped_triangles(const Patch& patch, const Points& points);
 
-// The same without those that have no free corner: the boundary alone turns them, no solution can turn them back.
+// The same without triangles that have no free corner: the boundary turns them over, and no solution can help.
 Indices flipped_by_solution(const Patch& patch, const Points& points);
 
-// Whether one triangle is.
+// Whether one triangle is turned over.
 bool is_flipped(const Patch& patch, const Points& points, int triangle);
 
 // Whether the edge that two triangles share should be replaced by the other diagonal.
-// Times the length wanted: longer edges are split. A half of one is as much too short as the whole is too long.
+// Edges longer than this multiple of the target length are split: halves are then a third too short at most.
 inline constexpr double split_above = 4.0 / 3.0;
 
 // The edge from a to b with the triangles (a, b, c) and (b, a, d).
@@ -32,7 +32,7 @@ struct Diagonal {
         return !(cotangent(a - c, b - c) + cotangent(a - d, b - d) < slack);
     }
 
-    // A flip may not bend the mesh by more than 60°, or further than it is bent.
+    // A flip may not leave a dihedral angle above 60° unless the old one was larger.
     [[nodiscard]] bool flips_without_fold() const {
         const double after = cos_of_bend(area_vector(c, d, b), area_vector(d, c, a));
         return after >= cos_of_widest_turn || after >= cos_of_bend(area_vector(a, b, c), area_vector(b, a, d));
@@ -43,17 +43,17 @@ private:
 };
 
 // Triangles without area that have a vertex over their longest side, as booleans leave them.
-// What stood in a triangle list before and after: `cap` became, with the triangle `beside` over its longest side, two
-// triangles of that one's plane. `ends` of that side, which is no more, and the vertex `over` it, that parts it now.
+// One flip: `cap` and the triangle `beside` it across its longest side became two triangles in the latter's plane.
+// `ends`: of that side, which is gone; `over`: the cap's vertex over it, which splits it now.
 struct TurnedCap {
     int cap, beside;
     std::array<int, 2> ends;
     int over;
 };
 
-// Turns the longest side of each triangle marked in `may_turn` that is lower over it than `least`, or than 1e-5 of it,
-// while its sides are longer; the triangle beside has to be marked in `may_take`. In the order in which they were
-// turned: a side with several vertices over it is parted by one after the other.
+// Flips the longest side of each triangle marked in `may_turn` whose height over it is below `least` or 1e-5 of that
+// side, while its sides are longer; the adjacent triangle has to be marked in `may_take`. Returns the flips in order:
+// a side with several vertices over it is split by one after the other.
 std::vector<TurnedCap> turn_caps(const Points& points, const std::vector<char>& may_turn,
                                  const std::vector<char>& may_take, double least, Triangles& triangles);
 

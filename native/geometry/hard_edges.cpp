@@ -12,16 +12,16 @@ namespace fairing {
 
 namespace {
 
-// Degrees that a mesh may bend at each edge and still be meant to be round. A regular pentagon turns by 72° at a corner
+// Degrees by which each edge may bend on a mesh that is meant to be round. A regular pentagon turns by 72° at a corner
 // and is a coarse circle, a box turns by 90°.
 constexpr double roundest_bend = 40.0;
 // Bends to the other side come from noise. The middle half ends at .67 of its standard deviation: this is twice that.
 constexpr double noise_margin = 3.0;
-constexpr double most_alike = 0.85;  // a row of seven, with diagonals, has .09: one that bends alone is not usual
+constexpr double most_alike = 0.85;  // quantile; one edge in a row of seven, with diagonals, has .09 of the weight
 constexpr double runs_on = 0.25;     // cosine of the turn at which a chain goes on: as far as a pentagon's
-// Three rows may bend as much as a hard edge does where those beyond do not: a crease that runs between two rows.
+// A crease that runs between two rows: three rows bend as much as a hard edge, and those beyond do not.
 constexpr double rows = 3.0;
-constexpr double own_share = 0.35;  // of their bend: of three alike none is an edge
+constexpr double own_share = 0.35;  // of their bend; above a third: of three equal bends none is an edge
 constexpr int chain_length = 4;     // edges: noise has shorter ones
 constexpr int corner_edges = 2;     // other hard edges at a corner where a chain ends
 
@@ -78,7 +78,7 @@ private:
         return excess >= fading_bend ? fading : soft;
     }
 
-    // What a surface without hard edges may bend at an edge, and three times what it bends to the other side.
+    // The larger of the bend allowed without hard edges and three times the bend to the other side.
     struct Usual {
         double bend;
         double noise;
@@ -91,8 +91,8 @@ private:
                 noise_margin * (is_convex ? -range.low : range.high)};
     }
 
-    // Whether the edge bends by itself, or the greatest part of three rows, where the mesh beyond does not. One side
-    // that does not is enough for an edge: two may run beside each other. Three rows may be a part of a fillet.
+    // Whether the bend is this edge's alone, or it has the greatest part of a bend over three rows, while the mesh
+    // beyond is flat. A single edge needs that on one side only, as two may be parallel; three rows may be a fillet's.
     [[nodiscard]] bool stands_out(int edge, double noise, DihedralBands::Walk& walk) const {
         const double bend = std::abs(bands_.angle(edge));
         const double over_rows = std::abs(bands_.angle_over_rows(edge));
@@ -145,7 +145,7 @@ private:
         return direction(points_.col(vertex == a ? b : a) - points_.col(vertex));
     }
 
-    // Whether a chain may end here: it needs no more edges to be one.
+    // Whether a chain that ends here counts however short it is.
     [[nodiscard]] bool is_end(int edge, int vertex, UnionFind& chains, const std::vector<char>& is_marked) const {
         if (at_border_[vertex]) return true;
         int others = 0;
@@ -204,7 +204,7 @@ private:
 
 }  // namespace
 
-// Without caps: the normal of a triangle without area says nothing. What parts a marked side is marked, too.
+// Caps are flipped first: triangles without area have no normal. Both halves of a marked side that is split are marked.
 VertexPairs hard_edges(const Points& points, const Triangles& triangles, const VertexPairs& marked) {
     Triangles whole = without_collapsed(triangles);
     const std::vector<char> all(static_cast<std::size_t>(whole.cols()), 1);

@@ -35,7 +35,7 @@ public:
     void add_point(const Vector& offset);
 
     // II(t, t⊥) from the turn of the unit normals towards the point: −⟨normal_there − normal, t⊥⟩/|d|, t⊥ being t
-    // turned by 90° in the tangent plane. `weight`: of the row beside those of points.
+    // turned by 90° in the tangent plane. `weight`: of this row relative to those of points.
     void add_twist(const Vector& offset, const Vector& normal_there, Scalar weight);
 
     // x0, x1, x2, regularised by 1e-9 of the trace: finite for any input.

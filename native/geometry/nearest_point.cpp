@@ -15,7 +15,7 @@ namespace {
 using Box = Eigen::AlignedBox3d;
 using Tree = Eigen::KdBVH<double, 3, int>;
 
-// Nearest point of a segment as the weight of its end.
+// Nearest point of a segment, as the barycentric weight of its end.
 double segment_weight(const Vector3& p, const Vector3& a, const Vector3& b) {
     const double squared = (b - a).squaredNorm();
     return squared > 0.0 ? std::clamp((p - a).dot(b - a) / squared, 0.0, 1.0) : 0.0;
@@ -23,7 +23,7 @@ double segment_weight(const Vector3& p, const Vector3& a, const Vector3& b) {
 
 Vector3 area_of(const Corners& corners) { return area_vector(corners[0], corners[1], corners[2]); }
 
-// What Eigen's search asks for: the nearest triangle to a point.
+// The query for Eigen's tree search: the nearest triangle to a point.
 class Nearest {
 public:
     using Scalar = double;

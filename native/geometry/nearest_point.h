@@ -7,12 +7,12 @@ namespace fairing {
 
 using Corners = std::array<Vector3, 3>;
 
-// Barycentric coordinates of the foot of the perpendicular on the triangle's plane; negative outside of it. Without an
-// area: thirds.
+// Barycentric coordinates of the point's projection onto the triangle's plane; negative outside of the triangle.
+// Thirds where it has no area.
 Vector3 plane_weights(const Vector3& p, const Corners& corners);
-// Of the nearest point of the triangle's border. All but two of them are 0, at a corner all but one.
+// Those of the nearest point on the triangle's edges: all but two are 0, at a corner all but one.
 Vector3 border_weights(const Vector3& p, const Corners& corners);
-// Of the nearest point of the triangle.
+// Those of the nearest point of the triangle.
 Vector3 nearest_weights(const Vector3& p, const Corners& corners);
 
 struct NearestPlace {

@@ -6,7 +6,7 @@
 
 namespace fairing {
 
-// Adjacency of any triangle list, flat. A neighbour across a two-sided edge stands there twice.
+// Adjacency of any triangle list, flat. A neighbour across an edge with two triangles is listed twice.
 struct VertexAdjacency {
     Indices begin;
     Indices neighbours;
@@ -44,7 +44,7 @@ public:
 
     void gather(int vertex);
 
-    // Few where a mesh is regular: 60 at fans.
+    // The result is small on a regular mesh; at fans it is cut at 60.
     [[nodiscard]] std::span<const Vector3> rings(int count) const;
     // `count` ≤ reach.points.
     [[nodiscard]] std::span<const Vector3> nearest(std::size_t count) const;
@@ -70,13 +70,13 @@ private:
     std::vector<Distant> distances_;  // likewise
 };
 
-// At each vertex the sum of the triangles' cross products, of unit length (3 × points; zero where there is none).
+// Unit vertex normals (3 × points): the triangles' cross products summed and normalised; zero without triangles.
 Points averaged_normals(const Points& points, const Triangles& triangles);
 
 // Mean length of a patch's edges.
 double mean_edge(const Patch& patch, const Points& points);
 
-// Of those at one vertex.
+// The same over the edges at one vertex.
 double mean_spoke(const Patch& patch, const Points& points, int vertex);
 
 }  // namespace fairing

@@ -16,13 +16,13 @@ struct OneRing {
 
     [[nodiscard]] std::size_t size() const { return points.size(); }
     [[nodiscard]] double valence() const { return static_cast<double>(points.size()); }
-    // Of a point from the centre.
+    // Offset of a point from the centre.
     [[nodiscard]] Vector3 offset(std::size_t k) const { return points[k] - centre; }
-    // Of the point before the first one; the first one itself on an open ring.
+    // Offset of the first point's predecessor; of the first itself on an open ring.
     [[nodiscard]] Vector3 offset_before() const { return (closed ? points.back() : points.front()) - centre; }
 };
 
-// The rings of two vertices side by side. The shorter one is padded with its centre, which adds nothing to any sum.
+// The rings of two vertices in SIMD lanes. The shorter one is padded with its centre, which adds nothing to any sum.
 class RingPair {
 public:
     using Scalar = Lanes;

@@ -9,11 +9,11 @@ namespace fairing {
 namespace {
 
 constexpr double touching = 1e-9;  // of the extent
-// Of an edge: what single precision leaves where coordinates are as large as a hundred edges.
+// Share of an edge: the rounding of single precision where coordinates are as large as a hundred edges.
 constexpr double on_edge = 1e-5;
 constexpr double tiny = std::numeric_limits<double>::min();
 
-// Of inner points nearest to each other, and of ends from the other segment.
+// The least distance between inner points of both, and from each end to the other segment.
 double distance_between(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
     constexpr double parallel = 1e-12;  // of parallel ones an end is among the nearest
     const Vector3 u = b - a;

@@ -39,7 +39,7 @@ struct Face {
 
 using Heights = std::array<double, 3>;
 
-// Of the corners of a face over the plane of another with this area vector, times twice its area.
+// Heights of a face's corners over the plane of another one with this area vector, times twice its area.
 Heights heights(const Face& face, const Face& other, const Vector3& area) {
     Heights above;
     for (std::size_t k = 0; k < 3; ++k) above[k] = area.dot(face.corners[k] - other.corners[0]);
@@ -52,8 +52,8 @@ bool lie_beside(const Heights& above) {
     return std::min({p, q, r}) >= 0.0 || std::max({p, q, r}) <= 0.0;
 }
 
-// The line pq passes all edges of the triangle on the side of its inside: where all volumes have the sign of `slack`,
-// and more than its size.
+// Whether the line pq passes through the inside of the triangle: all volumes have the sign of `slack` and are larger
+// than it in size.
 bool passes_inside(const Vector3& p, const Vector3& q, const Corners& t, double slack) {
     const double sign = slack > 0.0 ? 1.0 : -1.0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -62,7 +62,7 @@ bool passes_inside(const Vector3& p, const Vector3& q, const Corners& t, double 
     return true;
 }
 
-// An edge of a face with these heights over another passes through the inside of that one, by more than round-off.
+// Whether an edge of a face with these heights over another one pierces that one's inside, by more than round-off.
 // Edges that end in a corner of the other only touch it.
 bool edge_pierces(const Face& face, const Heights& above, const Face& other, double slack) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ bool edge_pierces(const Face& face, const Heights& above, const Face& other, dou
 
 class Crossings {
 public:
-    // `asked`: for each triangle whether its pairs count; a pair of two that are not asked for doesn't.
+    // `asked`: flags of triangles; a pair counts where one of its two is flagged.
     Crossings(const Triangles& triangles, const Points& points, const std::vector<char>& asked)
         : triangles_(triangles), points_(points), asked_(asked), crossing_(asked.size()) {}
 
@@ -98,7 +98,7 @@ private:
         return {{triangles_(0, t), triangles_(1, t), triangles_(2, t)}, corners_of(triangles_, points_, t)};
     }
 
-    // Whether some cross.
+    // Whether any two cross.
     bool test(int t, std::span<const int> others) {
         const Face a = face(t);
         const Vector3 area = area_vector(a.corners[0], a.corners[1], a.corners[2]);
@@ -134,7 +134,7 @@ private:
     std::vector<std::atomic<char>> crossing_;
 };
 
-// Whether a box meets one of a tree's. Eigen names the functions.
+// Whether a box meets one of a tree's. The functions' names are Eigen's.
 struct Meeting {
     const Box& box;
     bool found = false;
@@ -144,7 +144,7 @@ struct Meeting {
     // NOLINTEND(readability-identifier-naming)
 };
 
-// Of all triangles those whose boxes meet the box of one of the few, these among them; ascending.
+// The triangles whose boxes meet the box of one of the few, these included; ascending.
 Indices around_few(const Triangles& triangles, const Points& points, const Indices& few) {
     std::vector<Box> boxes;
     boxes.reserve(few.size());

@@ -7,7 +7,7 @@ namespace fairing {
 
 namespace {
 
-// The form as κ(t) = II(t, t) has it: dn = −II.
+// The sign of dn = −II d, where κ(t) = II(t, t).
 void put(const CurvatureFit& fit, const Frame& frame, int i, ShapeOperators& shapes) {
     const Eigen::Matrix3d w = -(fit.x0 * frame.u * frame.u.transpose() + fit.x2 * frame.v * frame.v.transpose() +
                                 0.5 * fit.x1 * (frame.u * frame.v.transpose() + frame.v * frame.u.transpose()));

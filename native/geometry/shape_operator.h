@@ -18,10 +18,10 @@ inline Eigen::Vector3f turn(const ShapeOperators& shapes, int i, const Eigen::Ve
             w[4] * d.x() + w[5] * d.y() + w[2] * d.z()};
 }
 
-// Of the first `count` vertices, from the fitted curvature in the frames of their unit normals.
+// W at the first `count` vertices, from the fitted curvature in the frames of their unit normals.
 ShapeOperators shape_operators(const PatchCurvature& curvature, const Points& normals, int count);
 
-// Of the free vertices, from the unit normals (3 × local vertices, 0 at pins) of their neighbours alone, by least
+// W at the free vertices, from the unit normals (3 × local vertices, 0 at pins) of their neighbours alone, by least
 // squares: exact on spheres and cylinders with exact normals up to the square of the edges.
 ShapeOperators shape_operators(const Patch& patch, const Points& points, const Points& normals);
 

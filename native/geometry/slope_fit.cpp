@@ -13,7 +13,7 @@ namespace {
 constexpr double width_of_weights = 0.6;   // over the distance of the farthest point: it counts for 6 % in each row
 constexpr double least_pivot = 1e-4;       // of the largest, where the columns are about of one size
 constexpr int most_rounds = 10;            // a bound: rounds end when they change nothing
-constexpr double settled = 1e-12;          // radians: rounding
+constexpr double settled = 1e-12;          // radians, rounding: the normal has converged
 constexpr double settled_in_noise = 1e-3;  // standard errors
 
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
@@ -37,7 +37,7 @@ struct Round {
     double scatter;
 };
 
-// The axes in which the quadratic terms are written. Where the direction isn't known yet, chords stretch all of them.
+// The axes of the quadratic terms. Until their direction is known, chords stretch all of the terms.
 struct Axes {
     Vector3 x;
     Vector3 y;
@@ -102,7 +102,7 @@ public:
         return widest;
     }
 
-    // Of the sum of the terms of x² and y², in the last round.
+    // The standard error of the sum of the terms of x² and y², in the last round.
     [[nodiscard]] double error_of_curvature() const {
         TallSystem::Row covariance = TallSystem::Row::Zero(unknowns());
         covariance[0] = terms_ == sphere_terms ? 2.0 : 1.0;
@@ -186,7 +186,7 @@ Vector3 most_curved(const Eigen::Vector<double, 7>& terms, const Axes& axes) {
     return direction.x() * axes.x + direction.y() * axes.y;
 }
 
-// What a strip leaves open: its slope across, and half of its curvature, if it bends that way as it does along.
+// Uncertainty that a strip leaves: its slope across, and half of its curvature, if it bends across as much as along.
 void doubt(SlopeFit& fit, double width) {
     fit.error += std::abs(fit.terms[0]) * width;
     fit.curvature_error += std::abs(fit.mean_curvature);
@@ -197,7 +197,7 @@ Axes turned_into(const Vector3& direction, const Vector3& normal) {
     return {x, normal.cross(x), true};
 }
 
-// What a round found, as a fit whose normal it turns.
+// The result of a round as a fit; its slopes turn the normal.
 void take(SlopeFit& fit, const Round& round, const Axes& axes) {
     const double scale = fit.scale;
     fit.normal = (fit.normal - round.slopes.x() * axes.x - round.slopes.y() * axes.y).normalized();

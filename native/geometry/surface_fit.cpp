@@ -41,7 +41,7 @@ using Index = TallSystem::Index;
 using Place = Eigen::Map<Four, Eigen::Aligned16>;
 using ConstPlace = Eigen::Map<const Four, Eigen::Aligned16>;
 
-// Fours with ones at a place, and behind it, are cut out of these.
+// Masks of four with ones at a position, or behind it, are cut out of these.
 constexpr std::array<double, 7> one = {0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
 constexpr std::array<double, 7> ones = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
 Four cut_out(const std::array<double, 7>& numbers, Index place) {
@@ -54,15 +54,15 @@ double squared_length(const double* v, Index fours) {
     return sum.sum();
 }
 
-// Stores of single entries among fours would make the next loads wait: whole fours are written throughout.
+// Always writes whole groups of four: after stores of single entries the next loads would stall.
 struct Reflector {
     const double* v;
     Index fours;
-    Index place;     // where v begins in its first four
+    Index place;     // of v's first entry in its first group of four
     double inverse;  // of half of |v|²
 };
 
-// Reflects `Count` columns that lie `stride` apart, side by side. Their entries where v begins go to `row`.
+// Reflects `Count` columns, `stride` apart, concurrently. Their entries where v begins go to `row`.
 template <int Count>
 void reflect_columns(const Reflector& reflector, double* columns, Index stride, double* row) {
     const auto [v, fours, place, inverse] = reflector;
@@ -139,7 +139,7 @@ Points one_sided_normals(const Patch& patch, const Points& points) {
     const UnitSized unit = to_unit_size(strip.gather(points), strip.triangles);
     const SurfaceFits fits(unit.points, strip.triangles, Centre::met);
     Points normals(3, count);
-    // Few pieces: each has marks for all vertices of the strip.
+    // Few pieces, because each has marks for all vertices of the strip.
     for_ranges(count, std::max(16, count / 16), [&](int begin, int end) {
         Neighbourhood around = fits.walk();
         for (int k = begin; k < end; ++k) {

@@ -11,9 +11,9 @@
 
 namespace fairing {
 
-// The best fits at vertices of a surface formed by triangles. Where the centres are met, four fits of up to three rings
-// compete; where they are free, fits of up to four rings and the 40 nearest vertices do, too, against noise, and a
-// strip's fit stands in where these do not determine a quadric.
+// The best fits at vertices of a triangulated surface. Where they pass through the centre, four fits of up to three
+// rings compete; where the centre is free (noise), also fits of up to four rings and of the 40 nearest vertices; a
+// strip's fit is used where none of these determines a quadric.
 class SurfaceFits {
 public:
     // Coordinates beyond ±1e100 or within ±1e-100 lose their digits: scale them. Keeps references.
@@ -25,7 +25,7 @@ public:
     // The same with the caller's own walk, for loops on several threads.
     std::optional<SlopeFit> at_vertex(int vertex, Neighbourhood& around) const;
     [[nodiscard]] Neighbourhood walk() const { return {adjacency_, points_, reach_of(at_centres_)}; }
-    // The normalised sum of the adjacent triangles' cross products; zero where there are none.
+    // The normalised sum of the adjacent triangles' cross products; zero without triangles.
     [[nodiscard]] Vector3 averaged(int vertex) const { return direction(summed_.col(vertex)); }
 
 private:
@@ -67,14 +67,14 @@ public:
     // Entries 4 `four` … 4 `four` + 3 of a column.
     void set(Index four, Index column, const Four& values) { rows_.col(column * fours_ + four) = values; }
 
-    // Makes R, and leaves zeros in the rows.
+    // Computes R, and clears the rows for the next fit.
     void triangularise();
     [[nodiscard]] double factor(Index row, Index column) const { return factor_(row, column); }
     // The least pivot of the first `count` ones over the largest of them.
     [[nodiscard]] double least_pivot(Index count) const;
-    // R x = the column behind them, for the first `count` columns.
+    // Solves R x = column `count` for the first `count` columns.
     [[nodiscard]] Row solve(Index count) const;
-    // Rᵀ x = y, likewise.
+    // Solves Rᵀ x = y likewise.
     [[nodiscard]] Row solve_transposed(Row y) const;
 
 private:

@@ -32,7 +32,7 @@ SurfacePoint TargetSurface::project(const Vector3& position, int start) const {
         const std::array<Vector3, 3> points{points_.col(corners[0]), points_.col(corners[1]), points_.col(corners[2])};
         const Vector3 weights = plane_weights(position, points);
         int outside = 0;
-        if (face_normal(triangle).isZero()) break;  // no foot: without an area it would hold every walk
+        if (face_normal(triangle).isZero()) break;  // no projection: without an area it would stop every walk
         if (weights.minCoeff(&outside) >= 0.0) return {triangle, weights};
         const int next = across(patch_.triangle_edges(outside, triangle), triangle);
         if (next == none) return {triangle, border_weights(position, points)};
@@ -99,7 +99,7 @@ Vector3 TargetSurface::face_normal(int triangle) const {
     return area_vector(points_, patch_.triangles.col(triangle)).normalized();
 }
 
-// Of a flat triangle, or of the nearest one that has an area.
+// The normal of a flat triangle, or of the nearest one that has an area.
 Vector3 TargetSurface::flat_normal(int triangle) const {
     Indices found{triangle};
     for (std::size_t k = 0; k < found.size(); ++k) {

@@ -1,4 +1,4 @@
-// A solved mesh as a smooth surface that other vertices can be placed on.
+// A solved mesh as a smooth surface onto which other vertices are projected.
 #pragma once
 
 #include "mesh/patch.h"
@@ -11,8 +11,8 @@ struct SurfacePoint {
     Vector3 weights = Vector3(1.0, 0.0, 0.0);  // barycentric, ≥ 0
 };
 
-// Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices; flat ones between vertices
-// whose normals are zero.
+// Curved PN triangles (Vlachos et al. 2001) over a patch with unit normals at its vertices; triangles between vertices
+// with zero normals are flat.
 class TargetSurface {
 public:
     // The arguments must outlive the surface. Columns: local vertices of the patch. `walls`: edges that no walk

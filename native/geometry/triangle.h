@@ -25,11 +25,10 @@ Vector3 area_vector(const Points& points, const Corners& corners) {
     return area_vector(Vector3(points.col(corners[0])), points.col(corners[1]), points.col(corners[2]));
 }
 
-// A sine below this part of the longest edge squared counts as that: the cotangent of a degenerate triangle stays a
-// number that does not drown its neighbours'.
+// The cross product of a triangle is raised to this share of its longest edge squared: the cotangents of a degenerate
+// one stay finite, and too small to drown its neighbours'.
 constexpr double least_twice_area = 1e-12;
-// Of an edge where values are continued harmonically: with those of obtuse angles, which are less, they would
-// overshoot.
+// Least weight of an edge in harmonic interpolation: the negative weights of obtuse angles would overshoot.
 constexpr double least_harmonic_weight = 1e-3;
 
 // |a × b| of two edges of a triangle, bounded from below; `longest_squared`: of these edges.

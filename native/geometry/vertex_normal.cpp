@@ -57,7 +57,7 @@ Vector3Of<typename Ring::Scalar> max_normal_of(const Ring& ring) {
         ring, [](Scalar product) { return select(product > 0.0, 1.0 / select(product > 0.0, product, 1.0), 0.0); });
 }
 
-// 1 below fade_begin, 0 above fade_end and where it is no number, smooth between.
+// 1 below fade_begin, 0 above fade_end and for NaN, smooth between.
 template <typename Scalar>
 Scalar fade(Scalar tilt) {
     Scalar s = (fade_end - tilt) / (fade_end - fade_begin);
@@ -109,7 +109,7 @@ Vector3Of<typename Ring::Scalar> fitted_normal_of(const Ring& ring, const Vector
     return unit_or_zero(Vector3Of<Scalar>(start - (along_u * frame.u + along_v * frame.v)));
 }
 
-// Fitted normals where rings carry them.
+// Fitted normals where rings have enough points.
 template <typename Ring>
 Vector3Of<typename Ring::Scalar> first_fitted_normal(const Ring& ring) {
     const auto start = max_normal_of(ring);
@@ -123,7 +123,7 @@ bool is_prescribed(const Patch& patch, int vertex) {
     return !patch.is_free(vertex) && !patch.pin[static_cast<std::size_t>(vertex)];
 }
 
-// normal(ring): of the vertices without a prescribed one.
+// Calls normal(ring) for the vertices without a prescribed normal.
 template <typename Normal>
 Points computed_normals(const Patch& patch, const Points& points, const Points& prescribed, const Normal& normal) {
     Points normals(3, patch.vertex_count());

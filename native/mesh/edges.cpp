@@ -36,7 +36,7 @@ std::vector<Entry> bucket_sides(const Triangles& triangles, Indices& bucket_begi
     return entries;
 }
 
-// A bucket's by their larger vertex, then as they are. They are few.
+// Sorts the few sides of a bucket by their larger vertex, stably.
 void sort_bucket(Entry* first, Entry* last) {
     const auto is_less = [](const Entry& a, const Entry& b) { return a.high < b.high; };
     if (last - first > one_by_one) {

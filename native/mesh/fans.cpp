@@ -12,7 +12,7 @@ class FanWalk {
 public:
     FanWalk(const Triangles& triangles, const Twins& twins) : triangles_(triangles), twins_(twins) {}
 
-    // visit(corner) for a corner's fan, as far as it says true: from this corner to the last one on either hand.
+    // visit(corner) for the corners of a fan, from this one to either end, for as long as it returns true.
     template <typename Visit>
     void around(int corner, const Visit& visit) const {
         visit(corner);

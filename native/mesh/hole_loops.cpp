@@ -31,7 +31,7 @@ std::vector<Pair> open_fans(const std::vector<Pair>& spokes) {
     return fans;
 }
 
-// The fans counter-clockwise around the vertex. Of two fans each follows on the other.
+// The fans counter-clockwise around the vertex. With two fans, each follows the other.
 std::vector<Pair> in_order(int vertex, std::vector<Pair> fans, const View<Points>& points,
                            const std::vector<Pair>& spokes) {
     if (fans.size() < 3) return fans;
@@ -80,7 +80,7 @@ private:
     std::map<int, std::vector<Pair>> spokes_;
 };
 
-// The number of the border side after each; `none`: it ends there.
+// The number of the border side that follows each; `none` where the chain ends.
 class Walk {
 public:
     Walk(const BorderSides& sides, int vertex_count) : sides_(sides), after_(sides.size(), none) {

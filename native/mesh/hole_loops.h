@@ -5,12 +5,12 @@
 
 namespace fairing {
 
-// Tail and head of each, the hole on the left.
+// Tail and head of each border edge, the hole on its left.
 using BorderSides = std::vector<std::array<int, 2>>;
 
 struct HoleLoops {
     std::vector<Indices> loops;  // closed, the hole on the left; each begins at its smallest vertex, ordered by it
-    std::vector<Indices> torn;   // chains that close to no loop: triangles are wound against each other at an end
+    std::vector<Indices> torn;   // chains that don't close: the windings disagree at an end
 };
 
 // Edges with one triangle, in the order of the triangles' sides. Triangles that name a vertex twice have none.
@@ -22,8 +22,8 @@ BorderSides border_sides(const Triangles& triangles, int vertex_count);
 // `triangles`: those with a vertex that the border passes several times are enough.
 HoleLoops hole_loops(const View<Points>& points, const Triangles& triangles, const BorderSides& border);
 
-// A loop along the border with the hole on its left, parted likewise where it touches itself; a vertex some of whose
-// sectors belong to others stays as it is. The first one returned has the first of its sides.
+// Splits a loop along the border, the hole on its left, in the same way where it touches itself; a vertex that other
+// loops pass, too, is left alone. The first loop returned contains the first side.
 std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points, const Triangles& triangles);
 
 }  // namespace fairing

@@ -14,14 +14,14 @@ std::vector<Indices> boundary_loops(const Triangles& triangles, int vertex_count
 // The part of a patch around some of its vertices, as a triangle list of its own.
 struct PatchStrip {
     Indices vertices;     // of the patch, ascending
-    Indices local;        // vertex of the patch → its number in the strip, `none` where it is not there
+    Indices local;        // vertex of the patch → its number in the strip, `none` outside
     Triangles triangles;  // in the strip's numbers, in the patch's order
 
     // Columns of the strip's vertices.
     [[nodiscard]] Points gather(const Points& points) const { return points(Eigen::all, vertices); }
 };
 
-// All triangles of the vertices that are reached from `seeds` by so many edges.
+// All triangles at the vertices within so many edges of `seeds`.
 PatchStrip strip_around(const Patch& patch, const Indices& seeds, int edges);
 
 // From triangles of a patch to their corners and back.

@@ -81,7 +81,7 @@ Indices outline_triangles(const Twins& twins) {
 
 constexpr int cells = 65536;  // a power of two
 
-// The place of a cell on the Hilbert curve over cells × cells of them (Hilbert 1891).
+// The position of a cell on the Hilbert curve over cells × cells of them (Hilbert 1891).
 std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
     std::uint32_t place = 0;
     for (std::uint32_t half = cells / 2; half > 0; half /= 2) {
@@ -98,7 +98,7 @@ std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
     return place;
 }
 
-// Of each triangle on the curve over the chart. All of a piece can be reached.
+// The position of each triangle on the curve over the chart. Precondition: one piece.
 std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
     const Indices outline = outline_triangles(twins);
     const Indices east = steps_from(outline.front(), twins);
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
     return places;
 }
 
-// Old number → new number: the free vertices by the place of their first triangle, the fixed ones as they are.
+// Old number → new number: free vertices in the order of their first triangles, the fixed ones as they are.
 Indices vertex_numbers(const PatchMembers& members, const Twins& twins) {
     const std::vector<std::uint32_t> places = places_on_chart(twins);
     std::vector<std::pair<std::uint32_t, int>> sorted(members.free_count, {0, none});

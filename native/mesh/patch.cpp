@@ -60,7 +60,7 @@ void Patch::number_edges(const Twins& twins) {
     }
 }
 
-// The side from which on each ring is walked: of those on the border the one with the border behind it.
+// The side at which the walk around each ring begins: at border vertices the one with the border behind it.
 void Patch::lay_out_rings(const Twins& twins, Indices& first) {
     first.assign(vertex_count(), none);
     rim_begin_.assign(vertex_count() + 1, 0);

@@ -15,7 +15,7 @@ struct RingView {
     [[nodiscard]] std::size_t valence() const { return vertices.size(); }
 };
 
-// What a patch is made of. Local vertices 0 … free_count − 1 are free, the others fixed.
+// Input of a patch. Local vertices 0 … free_count − 1 are free, the others fixed.
 struct PatchMembers {
     int free_count = 0;
     Indices to_input;        // local vertex → input vertex

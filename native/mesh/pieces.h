@@ -23,7 +23,7 @@ private:
     const CutMesh& cut_;
     const VertexRoles& roles_;
     std::vector<Indices> triangles_;
-    Indices place_;                  // of a triangle in its piece's list
+    Indices place_;                  // index of a triangle in its piece's list
     std::vector<Indices> vertices_;  // cut vertices in the order of the patch
     Indices free_count_;
     Indices local_;  // cut vertex → its number in its piece

@@ -25,7 +25,7 @@ using SurfaceMesh = OpenMesh::TriMesh_ArrayKernelT<SurfaceMeshTraits>;
 // The connectivity of a patch, without positions; vertex, edge and face indices agree.
 SurfaceMesh surface_mesh(const Patch& patch);
 
-// The faces that are left, in their order. `number`: of each vertex.
+// The faces not deleted, in their order. `number`: vertex → its number in the result.
 Triangles triangles_of(const SurfaceMesh& mesh, const Indices& number);
 
 }  // namespace fairing

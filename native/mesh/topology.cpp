@@ -33,7 +33,7 @@ bool is_corner_chord(const Triangles& triangles, const EdgeTable& edges, int edg
 }
 
 void check_edge_is_manifold(const EdgeTable& edges, int edge, const VertexRoles& roles, Indices& offenders) {
-    // The foot of a fin lies on the fin's own border, which must not excuse it.
+    // Being on the border is no excuse: the ends of a fin's attached edge always are, on the fin's own.
     const auto [a, b] = edges.ends[edge];
     if (edges.side_count(edge) <= 2 || (roles.given[a] && roles.given[b])) return;
     offenders.insert(offenders.end(), edges.ends[edge].begin(), edges.ends[edge].end());
@@ -95,7 +95,7 @@ Windings join_windings(const Triangles& triangles, const EdgeTable& edges, const
     return windings;
 }
 
-// Which triangles lie in a piece with a free vertex.
+// Flags of triangles in pieces with a free vertex.
 std::vector<char> moving_triangles(const Triangles& triangles, Windings& windings, const VertexRoles& roles) {
     const auto count = static_cast<int>(triangles.cols());
     std::vector<char> piece_moves(count, 0);
@@ -138,7 +138,7 @@ void check_doubled(const Triangles& triangles, const Indices& doubled) {
                      {{"doubled_triangles", size_of(doubled)}}});
 }
 
-// How the triangles hang together along the edges that are not cut.
+// Connects triangles across the edges that are not cut.
 struct Joints {
     Twins twins;
     Fans fans;
@@ -198,7 +198,7 @@ std::vector<char> outline_triangles(const Triangles& triangles, const VertexRole
     return marks;
 }
 
-// Triangles to turn round, so that each piece follows the majority of those that `vote`, of all where they are even.
+// Triangles to reverse so that each piece follows the majority of those that `vote`, or of all where that is a tie.
 std::vector<char> minority_triangles(const std::vector<char>& vote, UnionFind& orientation) {
     struct Balance {
         int voters = 0;
@@ -235,10 +235,10 @@ void warn_of_windings(const CutMesh& mesh, Diagnostics& warnings) {
         offenders, ElementKind::triangle, "triangles"));
 }
 
-// By the lowest triangle of the input: here they may come in another order.
+// Numbers pieces by the lowest input triangle; the order of triangles here may differ.
 void number_pieces(CutMesh& mesh, UnionFind& pieces) {
     const int count = static_cast<int>(mesh.triangles.cols());
-    Indices lowest(count, none);  // of the piece of this root
+    Indices lowest(count, none);  // lowest input triangle of the piece with this root
     Indices roots;
     for (int t = 0; t < count; ++t) {
         const int root = pieces.root(t);

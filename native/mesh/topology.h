@@ -6,7 +6,7 @@
 
 namespace fairing {
 
-// What the caller's vertices are.
+// Flags of the caller's vertices.
 struct VertexRoles {
     std::vector<char> given;       // fixed by the caller
     std::vector<char> fixed;       // keeps its position: given, or on the mesh border
@@ -42,7 +42,7 @@ Triangles drop_collapsed_triangles(const Triangles& triangles, Indices& kept, Di
 
 VertexRoles classify_vertices(const EdgeTable& edges, const GivenRoles& given);
 
-// The edges at which the mesh is cut open. Both ends of such an edge are fixed, and there is a free vertex beside it
+// The edges at which the mesh is cut open. Both ends of such an edge are fixed, and a free vertex is opposite to it
 // or more than two triangles meet there. Three kinds of edges between fixed vertices are left whole: the chord that
 // only cuts a corner off the mesh border, a lone edge inside, which has nothing to open, and edges of smooth curves.
 // Throws NONMANIFOLD_EDGE where more than two triangles meet at an edge whose ends the caller has not both fixed.

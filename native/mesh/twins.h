@@ -18,7 +18,7 @@ using Misfit = std::optional<int>;
 // Joins the sides without a twin that run to and fro between two vertices.
 Misfit join_borders(const Triangles& triangles, Twins& twins);
 
-// Of a list of triangles, from the vertices alone.
+// The twins of a triangle list, from its vertices alone.
 Misfit find_twins(const Triangles& triangles, int vertex_count, Twins& twins);
 
 // Triangles that are wound against most of those which edges of two triangles connect them with; ascending. None in a

@@ -27,7 +27,7 @@ public:
 
     int root(int item) { return find(item).first; }
 
-    // Joins the sets of a and b, whose parities differ where `opposite`; false: they were joined already and disagree.
+    // Joins the sets of a and b; `opposite`: their parities differ. False where they were joined already and disagree.
     bool join(int a, int b, bool opposite = false) {
         auto [root_a, flipped_a] = find(a);
         auto [root_b, flipped_b] = find(b);

@@ -15,8 +15,8 @@ constexpr double most_quads = 3.0;  // as many as there is room for, and one mor
 
 using Kinds = std::vector<PoleKind>;
 
-// What turns the boundary's turning into that of a plane grid: so many poles of one sign at least. An odd number of
-// edges needs the triangle. `extra` pairs of a three and a five shift rows.
+// The least number of irregular vertices, of one sign, for the boundary's turning number. An odd number of edges
+// needs the triangle. `extra` pairs of a three and a five shift rows.
 Kinds kinds_for(int quarters, bool odd, int extra) {
     int threes = std::max(0, 4 - quarters) + extra;
     int fives = std::max(0, quarters - 4) + extra;
@@ -126,7 +126,7 @@ private:
     std::vector<Candidate> candidates_;
 };
 
-// How many quads an angle takes.
+// How many quads fit an angle.
 Indices nearest_faces(const VectorX& angles) {
     Indices faces;
     for (const double angle : angles) faces.push_back(std::clamp(static_cast<int>(std::lround(angle / 90.0)), 1, 4));
@@ -139,7 +139,7 @@ int quarters_of(const Indices& faces) {
     return sum;
 }
 
-// The same with more corners or fewer, those that cost least, so that the boundary turns by so many quarters.
+// The same with the cheapest corners added or removed, so that the boundary turns by so many quarters.
 Indices turned_faces(const VectorX& angles, Indices faces, int quarters) {
     for (int missing = quarters - quarters_of(faces); missing != 0;) {
         const int step = missing > 0 ? -1 : 1;

@@ -5,8 +5,8 @@
 
 namespace fairing {
 
-// What is known about a hole's boundary: interior angles of its surface in degrees, and where the boundary lies in a
-// plane without crossing itself, about.
+// A hole's boundary: interior angles of its surface in degrees, and roughly where it lies in a plane without crossing
+// itself.
 struct HoleBoundary {
     VectorX angles;
     Eigen::Matrix2Xd places;
@@ -18,11 +18,11 @@ struct CandidatePattern {
     QuadPattern pattern;
     double misfit = 0.0;
     int poles = 0;
-    int least_poles = 0;  // that the corners of the boundary ask for
+    int least_poles = 0;  // that the corners of the boundary require
 };
 
-// At most `count`. Corners are where angles are nearer to one quarter, three or four than to two; as a corner may be
-// rounded off, more and more of them are taken for straight as well.
+// At most `count`. Corners are vertices whose angles are nearer to 90°, 270° or 360° than to 180°; as a corner may be
+// rounded off, patterns are also tried with more and more corners taken as straight.
 std::vector<CandidatePattern> candidate_patterns(const HoleBoundary& boundary, int count);
 
 // The same for corners that are known: `faces` of the new quads at each vertex of the boundary.

@@ -59,7 +59,7 @@ private:
         return sum.turned(turned_[which]);
     }
 
-    // Every so many places are tried for one of the poles before the last two, so that the tries of all are bounded.
+    // The stride between positions tried for a pole before the last two, which bounds the number of tries.
     [[nodiscard]] std::size_t stride(std::size_t which) const {
         const double open = static_cast<double>(kinds_.size()) - 2.0;
         const double tries = std::max(6.0, std::pow(std::tgamma(open + 1.0) * most_tries / front_.size(), 1.0 / open));
@@ -101,7 +101,7 @@ private:
     std::vector<Closing> best_;
 };
 
-// The best fit of places w by a z + b with complex a, z the lattice's.
+// The best fit of positions w by a z + b with complex a, z those on the lattice.
 double Search::misfit(const std::vector<Lattice>& walk) const {
     using Complex = std::complex<double>;
     const double count = front_.size();
@@ -124,7 +124,7 @@ double Search::misfit(const std::vector<Lattice>& walk) const {
     return 1.0 - std::norm(mixed) / (spread_z * spread_w);
 }
 
-// The walk with its poles; apart from the rest, the place that a triangle adds.
+// The walk with its poles; the lattice point that a triangle adds is kept apart.
 struct Closed {
     std::vector<Lattice> own;
     std::optional<Lattice> added;

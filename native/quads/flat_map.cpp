@@ -13,7 +13,7 @@ namespace {
 
 constexpr double inner_radius = 0.3;  // of the ring that a tube is mapped to
 
-// What the angle grows by beyond the difference of its values, whole turns times the weight of an edge, at its ends.
+// By how much the angle along an edge exceeds the difference at its ends: whole turns times the edge's weight.
 struct Turns {
     Eigen::MatrixXd sources;
     explicit Turns(int vertex_count) : sources(Eigen::MatrixXd::Zero(vertex_count, 2)) {}
@@ -33,7 +33,7 @@ FlatMap::FlatMap(const Patch& patch, const Points& points) : patch_(patch), poin
     sort_triangles();
 }
 
-// The shortest way along edges from the first vertex of one loop to the other loop, which then begins there.
+// The shortest path along edges from the first vertex of one loop to the other loop, which then begins there.
 void FlatMap::cut_tube() {
     NearestFirst away(VectorX::Constant(patch_.vertex_count(), std::numeric_limits<double>::infinity()));
     Indices before(static_cast<std::size_t>(patch_.vertex_count()), none);
@@ -57,7 +57,7 @@ void FlatMap::cut_tube() {
     throw SolverError("the surface can't be flattened");
 }
 
-// Crossing the cut from its right to its left takes a turn away: spokes that leave it to the left begin a turn later.
+// Crossing the cut from right to left subtracts a turn: spokes that leave it to the left begin a turn later.
 FlatMap::Flat FlatMap::inside() const {
     const InnerWeights edges = harmonic_weights(patch_, points_);
     Turns turns(patch_.vertex_count());
@@ -96,7 +96,7 @@ VectorX FlatMap::along(const Indices& loop) const {
     return at;
 }
 
-// Of the loops' vertices: on the unit circle, or angle and height on a cylinder.
+// Positions of the loops' vertices: on the unit circle, or angle and height on a cylinder.
 FlatMap::Flat FlatMap::known() const {
     const auto first = static_cast<Eigen::Index>(loops_[0].size());
     const VectorX outer = along(loops_[0]);

@@ -15,7 +15,7 @@ public:
     // has one boundary loop or two, which pass no vertex twice.
     FlatMap(const Patch& patch, const Points& points);
 
-    // Of local vertices, the patch on their left. The second one begins near the beginning of the first.
+    // Loops of local vertices, the patch on their left. The second one begins near the beginning of the first.
     [[nodiscard]] const std::vector<Indices>& loops() const { return loops_; }
     [[nodiscard]] bool is_tube() const { return loops_.size() == 2; }
     // Precondition: one loop.
@@ -26,14 +26,14 @@ public:
     [[nodiscard]] double edge_length() const;
 
     using Flat = Eigen::Matrix2Xd;
-    // Of a pattern's vertices, all weights alike.
+    // Flat positions of a pattern's vertices, with equal weights.
     [[nodiscard]] Flat places(const QuadPattern& pattern) const;
-    // The triangle that a place lies in, or least out of.
+    // The triangle that contains a flat position, or the nearest one.
     [[nodiscard]] SurfacePoint located(const Eigen::Vector2d& place) const;
 
 private:
     void cut_tube();
-    // Of the patch's vertices; of a tube angle and height.
+    // Values at the patch's vertices; on a tube angle and height.
     [[nodiscard]] Flat inside() const;
     [[nodiscard]] Flat known() const;
     [[nodiscard]] VectorX along(const Indices& loop) const;

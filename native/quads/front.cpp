@@ -68,7 +68,7 @@ std::optional<double> QuadFront::cost_of_turning(int at, int quarters) const {
     if (left < 1 || left > regular) return std::nullopt;
     if (is_new(at)) return 0.0;
     if (angles_.size() == 0) return std::nullopt;
-    // Those that the boundary's vertex has in all: some may be there already.
+    // All quads at the boundary's vertex, those already made included.
     int there = faces_[at];
     for (const auto& quad : pattern_.quads)
         there += static_cast<int>(std::count(quad.begin(), quad.end(), vertices_[at]));
@@ -93,7 +93,7 @@ int QuadFront::new_vertex(const Eigen::Vector2d& place) {
     return pattern_.vertex_count++;
 }
 
-// A place off the walk, as far as its edges are long, at this share of the angle from the edge after to that before.
+// A position off the walk by its edges' length, at this share of the angle from the next edge to the previous one.
 Eigen::Vector2d QuadFront::inwards(int at, double share) const {
     const Eigen::Vector2d next = places_[after(at)] - places_[at];
     const Eigen::Vector2d last = places_[before(at)] - places_[at];
@@ -114,7 +114,7 @@ bool QuadFront::ring_meets_itself() const {
     return size() < 6;
 }
 
-// The new vertices at the walk's ones, in the order from the edge before to the edge after. Those beside a convex
+// The new vertices opposite to the walk's, ordered from the previous edge to the next. Those adjacent to a convex
 // corner are one.
 QuadFront::Spokes QuadFront::spokes_of_ring(int first_new) {
     Spokes spokes(faces_.size());
@@ -160,7 +160,7 @@ bool QuadFront::add_ring() {
     return true;
 }
 
-// Goes on from this walk of new vertices, numbered as they are used. Each gets as many quads as are missing.
+// Continues with this walk of new vertices, numbered as they are used. Each gets as many quads as are missing.
 void QuadFront::take(const Indices& vertices, int first_new) {
     Indices faces(static_cast<std::size_t>(pattern_.vertex_count - first_new), regular);
     for (const auto& quad : pattern_.quads) {
@@ -168,7 +168,7 @@ void QuadFront::take(const Indices& vertices, int first_new) {
             if (v >= first_new) --faces[v - first_new];
         }
     }
-    // Vertices that became one with another left their number unused.
+    // Merged vertices left their numbers unused.
     Indices number(faces.size(), none);
     int count = first_new;
     for (const int v : vertices) number[v - first_new] = count++;

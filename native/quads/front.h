@@ -26,28 +26,28 @@ struct Lattice {
     [[nodiscard]] Lattice turned(int quarters) const;  // counter-clockwise
 };
 
-// What keeps the rows from being those of a plane grid: an inner vertex of three quads (`quarters` 1) or of five (−1),
-// or the triangle (1), which lies on the edge from the front's vertex `at` to the next.
+// An irregular vertex inside, of three quads (`quarters` 1) or five (−1), or the triangle (1), which lies on the edge
+// from the front's vertex `at` to the next. Without any, all rows would be those of a plane grid.
 struct Pole {
     int at = 0;
     int quarters = 0;
     bool triangle = false;
 };
 
-// Of a boundary's angle, in degrees, that so many quads share: the sum of the squares of their errors, in units of 45°.
+// The squared errors, in units of 45°, of so many quads that share a boundary's angle (degrees), summed.
 inline double angles_error(double angle, int faces) {
     const double each = (angle / faces - 90.0) / 45.0;
     return faces * each * each;
 }
 
-inline constexpr double weight_of_angles = 0.2;  // of their mean over the boundary, beside a pattern's misfit
+inline constexpr double weight_of_angles = 0.2;  // of their mean over the boundary, relative to a pattern's misfit
 
 // A closed walk around the open part, that part on its left. `faces`: how many quads each vertex still gets there, 1 at
 // a convex corner, 2 where it is straight, 3 at a concave corner. A part of a plane grid turns by Σ (2 − faces) = 4
-// quarters, and a walk along unit edges comes back to its begin.
+// quarters, and a walk along unit edges returns to its start.
 class QuadFront {
 public:
-    // `faces` at the boundary, one or more each; `places`: (2 × n) where it lies in a plane, about; `angles` there in
+    // `faces` at the boundary, one or more each; `places`: (2 × n) approximate positions in a plane; `angles` there in
     // degrees, or none.
     QuadFront(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angles);
 
@@ -58,19 +58,19 @@ public:
     [[nodiscard]] int quad_count() const { return static_cast<int>(pattern_.quads.size()); }
     [[nodiscard]] bool is_new(int at) const { return vertices_[at] >= pattern_.boundary_count; }
     [[nodiscard]] int quarters() const;
-    // What a turn by so many quarters more costs at a vertex of the walk, which takes as many quads less: nothing at
-    // new ones, where it makes a pole; at the boundary by how much the squares of the angles' errors grow, in units of
-    // 45°. None where no angle or no new vertex allows it.
+    // The cost of turning by so many quarters more at a vertex of the walk, with as many quads less: 0 at new vertices
+    // (they become poles); at the boundary the growth of the angles' squared errors, in units of 45°. Empty where no
+    // angle or new vertex allows it.
     [[nodiscard]] std::optional<double> cost_of_turning(int at, int quarters) const;
-    // size() + 1 places: from (0, 0) along the walk and back to the first vertex, whether or not that is (0, 0) again.
+    // size() + 1 points: from (0, 0) along the walk and back to the first vertex, which need not be at (0, 0) again.
     [[nodiscard]] std::vector<Lattice> walk() const;
 
     // A row of quads along the whole walk. False, and nothing changes, where it would meet itself.
     bool add_ring();
-    // A row along the side that begins at the convex corner `at`. False where no convex corner ends it, or no edge
-    // beside it would be left.
+    // A row along the side that begins at the convex corner `at`. False where no convex corner ends it, or where it
+    // would use up the adjacent edges.
     bool add_row(int at);
-    // A row along a side of one or two edges, over which no ring leads.
+    // A row along a side of one or two edges, too short for a ring.
     bool add_short_row();
     // False where a vertex would have no quad left. Poles by ascending `at`.
     bool place(const std::vector<Pole>& poles);

@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double of_squares = 0.3;  // their weight beside that of rectangles
+constexpr double of_squares = 0.3;  // their weight, relative to that of rectangles
 constexpr double momentum = 0.7;    // of the last move (Polyak's heavy ball)
 
 // The best square c ± a, c ± n × a and the rectangle with the quad's diagonals, made equally long.
@@ -85,7 +85,7 @@ LaidOut QuadLayout::laid_out(const QuadPattern& pattern, const Relaxation& effor
     return result;
 }
 
-// Vertices of quads with unfit angles go where the fourth powers of the errors around sum to less.
+// Moves vertices of quads with unfit angles to where the sum of the fourth powers of the angles' errors is less.
 void QuadLayout::mend(LaidOut& laid, const QuadPattern& pattern, int passes) const {
     const int rim = pattern.boundary_count;
     std::vector<Indices> stars(static_cast<std::size_t>(pattern.vertex_count));

@@ -33,8 +33,8 @@ public:
     // The arguments must outlive it.
     QuadLayout(const FlatMap& map, const Patch& patch, const Points& points, const TargetSurface& surface);
 
-    // Begins where the pattern's map and the surface's meet: no quad is turned over there. From there each vertex goes
-    // to the mean of the places that the nearest squares and rectangles give it, and back onto the surface.
+    // Starts from the composition of the pattern's flat map and the surface's, which turns no quad over. Then each
+    // vertex moves to the mean of its positions in the closest squares and rectangles, and is projected.
     [[nodiscard]] LaidOut laid_out(const QuadPattern& pattern, const Relaxation& effort) const;
 
 private:
@@ -65,19 +65,19 @@ Vector3 normal_at(const Face& face, const Points& normals) {
 // Degrees from the edge to `next` counter-clockwise to that to `last`, 0 … 360, seen from where the normal points.
 double angle_of_corner(const Vector3& last, const Vector3& here, const Vector3& next, const Vector3& normal);
 
-// From a right angle, in units of 45°.
+// Deviation from a right angle, in units of 45°.
 double angle_error(double angle);
 
-// Of all quads of a pattern at these places; `normals` of the surface there tell what is turned over. `length`: that of
-// a good edge.
+// Quality of all quads of a pattern at these positions; the surface's `normals` there show which are turned over.
+// `length`: the target length of edges.
 QuadShapes shapes_of(const QuadPattern& pattern, const Points& points, const Points& normals, double length);
 
-// Where vertices go so that quads become squares, or rectangles at least: the mean of the places that the nearest ones
-// around give them (Bouaziz et al. 2012, shape constraints). Each step goes on by some of the last one.
+// Moves vertices so that quads become squares, or rectangles at least: to the mean of their positions in the closest
+// such shapes (Bouaziz et al. 2012, shape constraints). Each step adds momentum from the last one.
 class SquareSteps {
 public:
     explicit SquareSteps(const QuadPattern& pattern) : pattern_(pattern) {}
-    // New places; those of the boundary are as they were.
+    // New positions; those of the boundary are unchanged.
     Points wanted(const Points& points, const Points& normals);
 
 private:

@@ -40,7 +40,7 @@ struct CutTube {
 };
 
 HoleBoundary hole_of(const CutTube& cut, const TubeBoundary& tube) {
-    const double never = std::numeric_limits<double>::quiet_NaN();  // no angle that may take more or less quads
+    const double never = std::numeric_limits<double>::quiet_NaN();  // the number of quads at this angle is fixed
     HoleBoundary hole;
     hole.cells = tube.cells;
     hole.angles = VectorX::Constant(cut.size(), never);
