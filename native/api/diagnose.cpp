@@ -32,7 +32,7 @@ void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnos
     if (sharp.empty()) return;
     warnings.push_back({Code::sharp_boundary,
                         "the normals along the boundary turn by up to " + std::to_string(std::lround(widest)) +
-                            "° from one vertex to the next; a finer boundary gives a more accurate surface",
+                            "° from one vertex to the next: a finer boundary makes the surface more accurate there",
                         sharp,
                         ElementKind::vertex,
                         {{"degrees", widest}, {"edges", size_of(sharp) / 2}}});
@@ -141,8 +141,8 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
     if (!collapsed && static_cast<double>(bad.size()) <= tolerated_share * patch.triangle_count()) return true;
     warnings.push_back(
         about(Code::reference_unusable,
-              counted(bad.size(), "triangle of the reference mesh is a needle or turned over",
-                      "triangles of the reference mesh are needles or turned over") +
+              counted(bad.size(), "triangle of the reference mesh is a sliver or turned over",
+                      "triangles of the reference mesh are slivers or turned over") +
                   ", so that no distribution of vertices can be read off it; uniform inner fairness was used",
               bad, ElementKind::triangle, "triangles"));
     return false;

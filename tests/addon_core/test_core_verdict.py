@@ -126,7 +126,7 @@ class Row(NamedTuple):
 
 DETAIL, BULGE, FACTOR, FILM = {"detail": 0.5}, {"bulge": 1.0}, {"factor": 0.5}, {"continuity": "G0"}
 CONFORMAL, UNIFORM = {"inner_fairness": "CONFORMAL"}, {"inner_fairness": "UNIFORM"}
-SEARCH = "No fair surface was found: {}. What it came to…"
+SEARCH = "No fair surface was found: {}. Grow or shrink the selection. The best…"
 ROWS = {
     "clean": Row(lambda fine: fine, GOOD, remedies=()),
     "rounded outside": Row(
@@ -184,9 +184,9 @@ ROWS = {
         "The surface turns back from the slope around it at 2 vertices of the boundary, by 106°",
     ),
     "a coarse cage": Row(seen(join=Join(ints(7), np.array([20.0]))), GOOD),
-    "no start": Row(ended("stalled", 0), LOOK, SEARCH.format("no initial surface was found")),
-    "halted": Row(ended("stalled", 14), LOOK, SEARCH.format("the search came to a halt")),
-    "out of steps": Row(ended("iteration_limit", 20), LOOK, SEARCH.format("it was not there after 20 steps")),
+    "no start": Row(ended("stalled", 0), LOOK, SEARCH.format("not even a first, rough surface fits this boundary")),
+    "halted": Row(ended("stalled", 14), LOOK, SEARCH.format("the solver stopped making progress")),
+    "out of steps": Row(ended("iteration_limit", 20), LOOK, SEARCH.format("20 steps were not enough")),
 }  # fmt: skip
 
 
@@ -254,14 +254,14 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     verdict = judged(lost)
     assert verdict.grade == LOOK
     assert verdict.reason.startswith("Why: ")
-    assert ("it was not there after" in verdict.reason) == (termination == "iteration_limit")
-    assert verdict.reason.endswith("What it came to has no folds and no kinks")
+    assert ("steps were not enough" in verdict.reason) == (termination == "iteration_limit")
+    assert verdict.reason.endswith("The best surface so far has no folds and no kinks")
     for spoilt in (
         with_seen(lost, after=replace(CLEAN, crossing=ints(FACE))),
         with_seen(lost, after=replace(CLEAN, folded=ints(FACE))),
         with_seen(lost, join=Join(ints(7), np.array([31.0]), ints(0))),
     ):
-        assert "What it came to" not in judged(spoilt).reason
+        assert "The best surface" not in judged(spoilt).reason
         assert judged(spoilt).grade == UNUSABLE
         assert judged(spoilt).remedies[-1] == WRITE
     reported = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
@@ -272,7 +272,7 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert verdict.remedies == ()
     border = judged(lost, fair_open_borders=True)
     assert HOLD_BORDER in border.remedies
-    assert border.reason.startswith("Why: a fair border may not exist where it is rough beside the selection")
+    assert border.reason.startswith("Why: a fair border may not exist where it is rough next to the selection")
     assert HOLD_BORDER not in judged(fine, fair_open_borders=True).remedies
 
 
@@ -346,7 +346,7 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     lost = replace(fine, problem=problem, result=replace(fine.result, converged=False, termination="stalled"))
     verdict = judged(lost)
     assert verdict.remedies == ()
-    assert verdict.reason.startswith("No fair surface was found: the search came to a halt")
+    assert verdict.reason.startswith("No fair surface was found: the solver stopped making progress")
     assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
 
 

@@ -92,8 +92,8 @@ def test_a_language_has_every_sentence_with_its_fields(language: str) -> None:
         (lambda: joined([said("runs_on", n=1), said("drawn", n=2)]),
          "1 runs on, 2 drawn", "1 läuft weiter, 2 gezeichnet"),
         (lambda: said("halted", reason=said("no_fair_surface")),
-         "No fair surface was found: the search came to a halt",
-         "Keine glatte Fläche gefunden: Die Suche kam zum Stillstand"),
+         "No fair surface was found: the solver stopped making progress. Grow or shrink the selection",
+         "Keine glatte Fläche gefunden: Der Löser kam nicht mehr voran. Auswahl vergrößern oder verkleinern"),
         (lambda: said("holes_left", n=1, all=13, reason="?"), "1 of 13 holes stays open, and is selected. ?",
          "1 von 13 Löchern bleibt offen und ist ausgewählt. ?"),
     ],
@@ -145,7 +145,7 @@ def test_the_last_case_of_a_code_holds_without_any_figure_but_those_it_names(cod
         (diagnostic("FLIPPED_TRIANGLES", [0, 2, 3], "triangle", triangles=3.0),
          "2 faces of the result are turned over"),
         (diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
-         "The surface was found, but 1 face can't be placed on it without folds"),
+         "The surface was found, but 1 face folds over on this mesh: try Remesh"),
         (diagnostic("NO_SOLUTION", [0, 1, 2], free_vertices=3.0, harmonic=1.0),
          "No harmonic surface fits the boundary: Least Variation was used"),
         (diagnostic("NO_SOLUTION", [0, 2], free_vertices=3.0, harmonic=1.0, loft=1.0, kinks=2.0),
@@ -154,7 +154,7 @@ def test_the_last_case_of_a_code_holds_without_any_figure_but_those_it_names(cod
          "No fair surface fits these boundary loops: a loft joins them"),
         (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0),
          "Smooth Boundary was left out: with 2 boundary vertices moved, the result is worse"),
-        (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0), "2 vertices of a noisy boundary keep their place"),
+        (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0), "2 vertices of a noisy boundary were not smoothed: moving them would turn faces over"),
         # Ends of hard edges are counted as `ends`, which in sentences are those of an edge.
         (diagnostic("EDGES_LEFT_ALONE", [1, 3], ends=2.0, ambiguous=1.0),
          "2 hard edges end at the hole, at vertex 20 and others, and may be joined in several ways: draw edges (select "
@@ -196,7 +196,7 @@ def test_a_surface_with_folds_is_reported_once() -> None:
     assert reported(
         diagnostic("NOT_CONVERGED", [0], free_vertices=8.0, folds=2.0),
         diagnostic("FOLDED", [0, 1], "triangle", turned_over=2.0, free_vertices=8.0),
-    ) == ("The surface was found, but 1 face can't be placed on it without folds",)
+    ) == ("The surface was found, but 1 face folds over on this mesh: try Remesh",)
 
 
 @pytest.mark.parametrize("even", [True, False])

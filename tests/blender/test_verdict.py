@@ -37,7 +37,7 @@ def test_what_is_not_usable_leaves_every_bit_and_the_selection() -> None:
     before = meshes.in_edit_mode_once(obj, faces)
     meshes.edit(obj)
     selected = selected_faces(obj)
-    with pytest.raises(RuntimeError, match=r"Not usable: An island .* Nothing was changed"):
+    with pytest.raises(RuntimeError, match=r"Not usable: A part .* Nothing was changed"):
         meshes.run(**NONE)
     report = meshes.report()
     assert (report.verdict, report.written, report.converged) == ("UNUSABLE", False, False)

@@ -101,7 +101,7 @@ def solve_fitted(
     if worth != _FLAWLESS:
         kept = call(given)
         if _worth(kept, around) > worth:
-            why = "its fitted place gives folds, a larger kink or no solution"
+            why = "the fitted positions give folds, a larger kink or no solution"
             return _reported(kept, fitted["moved"], why, worse=1.0)
     answer["moved"] = fitted["moved"]
     return _reported(answer, fitted["held"], "moving it would turn triangles over")
@@ -140,7 +140,7 @@ def _folds(answer: Answer) -> int:
 
 def _reported(answer: Answer, vertices: IntArray, why: str, **figures: float) -> Answer:
     if len(vertices):
-        text = f"{len(vertices)} vertices of a noisy boundary keep their place: {why}"
+        text = f"{len(vertices)} vertices of a noisy boundary keep their positions: {why}"
         figures = {"vertices": len(vertices), **figures}
         answer["warnings"] += (Diagnostic("OUTLINE_KEPT", text, vertices, "vertex", figures),)
     return answer
