@@ -76,28 +76,10 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
         return NOTHING
     marked, running = evidence.seen.marked, evidence.seen.running_on
     if len(marked):
-        return _with_kinks(evidence, said("sharp_rounded", n=len(marked)), marked)
+        return said("sharp_rounded", n=len(marked)), marked
     if len(running):
-        return _with_kinks(evidence, said("edge_rounded", n=len(running)), running)
+        return said("edge_rounded", n=len(running)), running
     return NOTHING
-
-
-def _with_kinks(evidence: Evidence, reason: str, spots: Ints) -> Found:
-    """Add the kinks at the boundary, or begin with them where these are the worse of both.
-
-    Another selection may be what helps then.
-    """
-    seen = evidence.seen.join.seen
-    if not len(seen):
-        return reason, spots
-    if evidence.seen.join.worst_seen >= fairing.looks.LIMITS["steep_kink"]:
-        return said("and_rounded", reason=kink_reason(evidence.seen.join), n=len(spots)), _both(seen, spots)
-    return said("or_grow", reason=reason, degrees=evidence.seen.join.worst_seen), _both(spots, seen)
-
-
-def _both(spots: Ints, others: Ints) -> Ints:
-    joined: Ints = np.concatenate([spots, others])
-    return joined
 
 
 def _stumped(evidence: Evidence, options: FairOptions) -> Found:
