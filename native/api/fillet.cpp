@@ -50,6 +50,13 @@ LevelLine fillet_line(PreparedFillet& made) {
 
 namespace {
 
+// Of the cut mesh.
+Points all_points(const Points& old, const SplitMesh& cut) {
+    Points points(3, old.cols() + cut.points.cols());
+    points << old, cut.points;
+    return points;
+}
+
 // A side of a piece of the fillet beyond which there is none.
 struct EndSide {
     int piece;
@@ -69,18 +76,16 @@ std::vector<EndSide> ends_of(const SplitMesh& cut) {
     return ends;
 }
 
-void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& sides, FilletCut& result) {
+void add_boundary(const SeamMesh& mesh, const Points& points, SideNormals& sides, FilletCut& result) {
     const std::vector<EndSide> ends = ends_of(result.mesh);
     std::set<int> parents;
     for (const EndSide& end : ends) parents.insert(result.mesh.parent[end.piece]);
     sides.find_at({parents.begin(), parents.end()});
     std::map<int, std::vector<std::pair<Vector3, double>>> seen;
-    const Eigen::Index old = input.vertices.cols();
     for (const EndSide& end : ends) {
         const int parent = result.mesh.parent[end.piece];
         for (const int v : {end.from, end.to}) {
-            const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(result.mesh.points.col(v - old));
-            const Vector3 weights = barycentric(mesh.points, mesh.triangles, parent, place);
+            const Vector3 weights = barycentric(mesh.points, mesh.triangles, parent, points.col(v));
             seen[v].emplace_back(sides.normal(parent, weights), sides.curvature(parent, weights));
         }
     }
@@ -89,13 +94,8 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
         Vector3 sum = Vector3::Zero();
         for (const auto t : result.mesh.triangles.colwise()) {
             if (t[0] != v && t[1] != v && t[2] != v) continue;
-            std::array<Vector3, 3> at;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const int corner = t[static_cast<Eigen::Index>(c)];
-                at[c] =
-                    corner < old ? Vector3(input.vertices.col(corner)) : Vector3(result.mesh.points.col(corner - old));
-            }
-            sum += (at[1] - at[0]).cross(at[2] - at[0]);
+            const Vector3 start = points.col(t[0]);
+            sum += (points.col(t[1]) - start).cross(points.col(t[2]) - start);
         }
         return sum;
     };
@@ -123,26 +123,22 @@ void add_boundary(const SeamMesh& mesh, const FilletInput& input, SideNormals& s
 
 Points weights_in_parents(const FilletInput& input, const SplitMesh& cut) {
     Points weights(3, cut.triangles.size());
-    const Eigen::Index old = input.vertices.cols();
+    const Points points = all_points(input.vertices, cut);
     for (Eigen::Index c = 0; c < cut.triangles.size(); ++c) {
-        const int v = cut.triangles(c % 3, c / 3);
-        const Vector3 place = v < old ? Vector3(input.vertices.col(v)) : Vector3(cut.points.col(v - old));
-        const int parent = cut.parent[static_cast<std::size_t>(c / 3)];
-        weights.col(c) = barycentric(input.vertices, input.triangles, parent, place);
+        const Vector3 place = points.col(cut.triangles(c % 3, c / 3));
+        weights.col(c) = barycentric(input.vertices, input.triangles, cut.parent[c / 3], place);
     }
     return weights;
 }
 
 // At each vertex within the fillet; elsewhere none counts.
-VectorX spacings_of(const PreparedFillet& made, const SplitMesh& cut) {
-    const Eigen::Index old = made.input.vertices.cols();
-    VectorX found = VectorX::Constant(old + cut.points.cols(), made.input.spacing);
+VectorX spacings_of(const PreparedFillet& made, const Points& points, const SplitMesh& cut) {
+    VectorX found = VectorX::Constant(points.cols(), made.input.spacing);
     for (Eigen::Index c = 0; c < cut.triangles.size(); ++c) {
         if (cut.inside[c / 3] == 0) continue;
         const int v = cut.triangles(c % 3, c / 3);
-        const Vector3 place = v < old ? Vector3(made.input.vertices.col(v)) : Vector3(cut.points.col(v - old));
         const int parent = cut.parent[c / 3];
-        const Vector3 weights = barycentric(made.mesh.points, made.mesh.triangles, parent, place);
+        const Vector3 weights = barycentric(made.mesh.points, made.mesh.triangles, parent, points.col(v));
         found[v] = std::min(found[v], made.input.spacing * made.distance.relative_width(parent, weights));
     }
     return found;
@@ -166,9 +162,7 @@ void set_sections(const FilletInput& given, const EndSections& sections, FilletC
     }
 }
 
-void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
-    Points points(3, input.vertices.cols() + cut.points.cols());
-    points << input.vertices, cut.points;
+void turn_caps_inside(const FilletInput& input, const Points& points, SplitMesh& cut) {
     for (const TurnedCap& turned :
          turn_caps(points, cut.inside, cut.inside, snap * finest_spacing(input), cut.triangles))
         cut.parent[turned.cap] = cut.parent[turned.beside];
@@ -177,10 +171,11 @@ void turn_caps_inside(const FilletInput& input, SplitMesh& cut) {
 }  // namespace
 
 void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut) {
-    add_boundary(made.mesh, made.input, made.sides, cut);
-    cut.spacings = spacings_of(made, cut.mesh);
+    const Points points = all_points(made.input.vertices, cut.mesh);
+    add_boundary(made.mesh, points, made.sides, cut);
+    cut.spacings = spacings_of(made, points, cut.mesh);
     for (int& parent : cut.mesh.parent) parent = made.plane[parent];
-    turn_caps_inside(made.input, cut.mesh);
+    turn_caps_inside(made.input, points, cut.mesh);
     cut.weights = weights_in_parents(given, cut.mesh);
 }
 
