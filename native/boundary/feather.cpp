@@ -3,6 +3,8 @@
 #include <map>
 
 #include "geometry/neighbourhood.h"
+#include "geometry/segments.h"
+#include "mesh/edges.h"
 #include "mesh/nearest_first.h"
 
 namespace fairing {
@@ -11,31 +13,12 @@ namespace {
 
 using Edge = std::array<int, 2>;
 
-Edge sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-
-std::vector<Edge> sorted_edges(const Triangles& triangles) {
-    std::vector<Edge> edges;
-    for (const auto t : triangles.colwise()) {
-        for (int k = 0; k < 3; ++k) edges.push_back(sorted(t[k], t[(k + 1) % 3]));
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    return edges;
-}
-
-std::vector<Edge> shared_edges(const Triangles& inside, const Triangles& outside) {
-    const std::vector<Edge> first = sorted_edges(inside);
-    const std::vector<Edge> second = sorted_edges(outside);
+std::vector<Edge> shared_edges(const Triangles& inside, const Triangles& outside, int count) {
+    const std::vector<Edge> first = make_edges(inside, count).ends;
+    const std::vector<Edge> second = make_edges(outside, count).ends;
     std::vector<Edge> shared;
     std::set_intersection(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(shared));
     return shared;
-}
-
-double distance_to(const Vector3& point, const Vector3& a, const Vector3& b) {
-    const Vector3 along = b - a;
-    const double length = along.squaredNorm();
-    const double share = length > 0.0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0.0;
-    return (point - a - share * along).norm();
 }
 
 // A walk from the outline outwards, the nearest first: from vertex to vertex goes the nearest edge, with those next to
@@ -73,7 +56,7 @@ private:
 
     void reach(int vertex, int edge) {
         const auto [a, b] = edges_[edge];
-        if (reached_.lower(vertex, distance_to(points_.col(vertex), points_.col(a), points_.col(b))))
+        if (reached_.lower(vertex, distance_to_segment(points_.col(vertex), points_.col(a), points_.col(b))))
             nearest_edge_[vertex] = edge;
     }
 
@@ -92,7 +75,8 @@ VectorX feather_weights(const Points& points, const Triangles& inside, const Tri
                         const Indices& stops) {
     std::vector<char> is_stop(static_cast<std::size_t>(points.cols()), 0);
     for (const int v : stops) is_stop[v] = 1;
-    const VectorX distance = Walk(points, outside, shared_edges(inside, outside), is_stop).distances(width);
+    const VectorX distance =
+        Walk(points, outside, shared_edges(inside, outside, static_cast<int>(points.cols())), is_stop).distances(width);
     const VectorX share = (distance / width).cwiseMin(1.0);
     VectorX weights = 1.0 - share.array().square() * (3.0 - 2.0 * share.array());
     for (const int v : inside.reshaped()) weights[v] = 1.0;

@@ -130,11 +130,22 @@ private:
             }
         }
         for (std::size_t k = 0; k < arc.size(); ++k) path.push_back({static_cast<double>(k), arc[k]});
-        for (const VertexPair& edge : edges_) cross(edge, arc, path);
+        for (const VertexPair& edge : edges_) cross(edge, s, path);
         std::sort(path.begin(), path.end());
     }
 
-    void cross(const VertexPair& edge, const Indices& arc, std::vector<FaceChange::PathPoint>& path) {
+    // How far to the left of a piece's chord the section is, by its normals: a vertex on the chord would bend the
+    // surface.
+    [[nodiscard]] double rise(std::size_t s, std::size_t k, const Vector2& chord, double share) const {
+        const auto slope = [&](const Vector3& normal) {
+            const Vector2 flat(normal.dot(x_), normal.dot(y_));
+            return -flat.dot(chord) / cross2(chord, flat) * chord.norm() * share * (1.0 - share);
+        };
+        return (1.0 - share) * slope(sections_[s]->normals[k]) - share * slope(sections_[s]->normals[k + 1]);
+    }
+
+    void cross(const VertexPair& edge, std::size_t s, std::vector<FaceChange::PathPoint>& path) {
+        const Indices& arc = arcs_[s];
         const Vector2 a = at(edge[0]);
         const Vector2 b = at(edge[1]);
         const double length = (b - a).norm();
@@ -150,7 +161,9 @@ private:
             const bool touches = std::ranges::any_of(off, [&](double each) { return std::abs(each) <= near_; });
             if (touches || off[0] * off[1] > 0.0 || off[2] * off[3] > 0.0) continue;
             const double share = off[0] / (off[0] - off[1]);
-            const Vector2 place = from + share * (to - from);
+            const Vector2 chord = to - from;
+            const double along = rise(s, k, chord, share) * chord.norm() / cross2(chord, b - a);
+            const Vector2 place = from + share * chord + along * (b - a);
             made_.added.emplace_back(origin_ + place[0] * x_ + place[1] * y_);
             path.push_back({static_cast<double>(k) + share, next_});
             at_[next_] = place;

@@ -43,7 +43,8 @@ struct Parts {
     double growth, wanted;
 };
 
-// The number that each point becomes where those on a wall that are next to each other come together in their mean.
+// The number that each point becomes where those on both sides of a wall that are next to each other come together in
+// their mean.
 Indices joined_numbers(const SeamMesh& mesh, const SeamDistance& distance, double near, LevelLine& line) {
     Indices wall(mesh.edge.size(), none);  // of each edge: a half-edge on it
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
@@ -61,8 +62,10 @@ Indices joined_numbers(const SeamMesh& mesh, const SeamDistance& distance, doubl
     for (std::size_t k = 1; k < order.size(); ++k) {
         const LinePoint& before = line.points[order[k - 1]];
         const int h = wall[before.edge];
-        if (before.edge != line.points[order[k]].edge || number[order[k - 1]] != order[k - 1]) continue;
-        const double middle = 0.5 * (before.along + line.points[order[k]].along);
+        const LinePoint& after = line.points[order[k]];
+        if (before.edge != after.edge || before.triangle == after.triangle || number[order[k - 1]] != order[k - 1])
+            continue;
+        const double middle = 0.5 * (before.along + after.along);
         const double size = distance.relative_width(before.triangle, before.weights);
         if (2.0 * (middle - before.along) * mesh.length[h] > near * size) continue;
         number[order[k]] = order[k - 1];
@@ -75,10 +78,6 @@ Indices joined_numbers(const SeamMesh& mesh, const SeamDistance& distance, doubl
 
 void join_at_walls(const SeamMesh& mesh, const SeamDistance& distance, double spacing, LevelLine& line) {
     const Indices number = joined_numbers(mesh, distance, clear_of_line * spacing, line);
-    for (LineSegment& segment : line.segments) {
-        segment.from = number[segment.from];
-        segment.to = number[segment.to];
-    }
     Indices place(number.size(), none);
     std::vector<LinePoint> kept;
     for (std::size_t p = 0; p < number.size(); ++p) {
@@ -86,10 +85,8 @@ void join_at_walls(const SeamMesh& mesh, const SeamDistance& distance, double sp
         place[p] = static_cast<int>(kept.size());
         kept.push_back(line.points[p]);
     }
-    for (LineSegment& segment : line.segments) {
-        segment.from = place[segment.from];
-        segment.to = place[segment.to];
-    }
+    for (LineSegment& segment : line.segments)
+        segment = {place[number[segment.from]], place[number[segment.to]], segment.triangle};
     line.points = std::move(kept);
 }
 
@@ -99,12 +96,18 @@ void part_seams(const SeamMesh& mesh, const SeamDistance& distance, double spaci
         if (mesh.twin[h] == none) at_wall[mesh.tail(h)] = at_wall[mesh.head(h)] = 1;
     }
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.seam[h] == none || mesh.twin[h] == none || mesh.tail(h) > mesh.head(h)) continue;
+        if (mesh.twin[h] == none || mesh.tail(h) > mesh.head(h)) continue;
+        const bool between_walls = at_wall[mesh.tail(h)] != 0 && at_wall[mesh.head(h)] != 0;
+        if (mesh.seam[h] == none) {
+            const bool within =
+                between_walls && distance.reaches(h / 3) && distance.value(h / 3, weights_along(h, 0.5)) <= 0.0;
+            if (within) line.points.push_back(point_on(mesh, h, 0.5));  // an edge between fixed vertices would be held
+            continue;
+        }
         const double size = distance.relative_width(h / 3, weights_along(h, 0.5));
         if (std::min(mesh.apex[h][1], mesh.apex[mesh.twin[h]][1]) < sliver * size * spacing) continue;
         const Parts parts(mesh, distance, h, spacing);
-        const int least = at_wall[mesh.tail(h)] != 0 && at_wall[mesh.head(h)] != 0 ? 2 : 1;
-        const int count = std::max(least, static_cast<int>(std::lround(parts.wanted)));
+        const int count = std::max(between_walls ? 2 : 1, static_cast<int>(std::lround(parts.wanted)));
         for (int k = 1; k < count; ++k) line.points.push_back(point_on(mesh, h, parts.begin(k, count)));
     }
 }

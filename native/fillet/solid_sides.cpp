@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "fillet/limits.h"
 #include "geometry/nearest_point.h"
+#include "geometry/segments.h"
 
 namespace fairing {
 
@@ -15,7 +16,7 @@ constexpr double tolerated = 0.125;  // of the width: fair surfaces leave their 
 constexpr double felt = 2.0;         // widths: as far from an edge of the other kind a fair surface still follows it
 
 struct BentEdge {
-    Vector3 start, way;
+    Vector3 start, end;
     bool convex, concave;  // both, where it is flat
 };
 
@@ -32,15 +33,9 @@ std::vector<BentEdge> bent_edges(const Points& points, const Triangles& triangle
         const Vector3 across = Vector3(points.col(mesh.tail(SeamMesh::previous(other)))) - start;
         const double height = normal.dot(across);
         const double flat = straight_angle * across.norm();
-        result.push_back({start, way, height<flat, height> - flat});
+        result.push_back({start, points.col(mesh.head(h)), height<flat, height> - flat});
     }
     return result;
-}
-
-double distance_to(const BentEdge& edge, const Vector3& place) {
-    const double squared = edge.way.squaredNorm();
-    const double share = squared > 0.0 ? std::clamp((place - edge.start).dot(edge.way) / squared, 0.0, 1.0) : 0.0;
-    return (place - edge.start - share * edge.way).norm();
 }
 
 }  // namespace
@@ -55,7 +50,7 @@ Indices on_wrong_side(const Points& points, const Triangles& triangles, const st
         if (std::abs(height[k]) <= tolerated * width) continue;
         const bool right = std::any_of(bent.begin(), bent.end(), [&](const BentEdge& edge) {
             return (height[k] < 0.0 ? edge.convex : edge.concave) &&
-                   distance_to(edge, places.before.col(k)) <= felt * width;
+                   distance_to_segment(places.before.col(k), edge.start, edge.end) <= felt * width;
         });
         if (!right || std::abs(height[k]) > width) found.push_back(static_cast<int>(k));
     }
