@@ -14,8 +14,7 @@ namespace {
 using Edge = std::array<int, 2>;
 
 std::vector<Edge> shared_edges(const Triangles& inside, const Triangles& outside, int count) {
-    const std::vector<Edge> first = make_edges(inside, count).ends;
-    const std::vector<Edge> second = make_edges(outside, count).ends;
+    const std::vector<Edge> first = make_edges(inside, count).ends, second = make_edges(outside, count).ends;
     std::vector<Edge> shared;
     std::set_intersection(first.begin(), first.end(), second.begin(), second.end(), std::back_inserter(shared));
     return shared;

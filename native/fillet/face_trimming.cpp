@@ -163,7 +163,8 @@ private:
             const double share = off[0] / (off[0] - off[1]);
             const Vector2 chord = to - from;
             const double along = rise(s, k, chord, share) * chord.norm() / cross2(chord, b - a);
-            const Vector2 place = from + share * chord + along * (b - a);
+            Vector2 place = from + share * chord;
+            if (std::abs(along) * length < 0.5 * chord.norm()) place += along * (b - a);  // NaN stays out
             made_.added.emplace_back(origin_ + place[0] * x_ + place[1] * y_);
             path.push_back({static_cast<double>(k) + share, next_});
             at_[next_] = place;
