@@ -6,24 +6,23 @@ from typing import Any
 
 import numpy as np
 
-from fairing.results import FillResult, Hole
+from fairing.looks import LIMITS
+from fairing.results import FOLDS, FillResult, Hole
 
 GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
-VISIBLE = 12.0  # degrees at the join; docs/python.md, "What comes back"
-_BROKEN = {"FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION"}
 _HARMLESS = {"PIN_NORMAL_IGNORED", "INCONSISTENT_WINDING", "DEGENERATE_FACE", "NOT_A_HOLE", "SHARP_BOUNDARY"}
 
 
 def judged(result: Any) -> tuple[str, str]:
     """GOOD, LOOK or UNUSABLE, and why; of what `fair`, `fill` or `fillet` give back."""
-    broken = [each for each in result.warnings if each.code in _BROKEN and "others" not in each.figures]
+    broken = [each for each in result.warnings if each.code in FOLDS and "others" not in each.figures]
     if not result.converged or broken:
         return UNUSABLE, broken[0].message if broken else f"no surface was found: {result.termination}"
     for warning in result.warnings:
         if warning.code not in _HARMLESS:
             return LOOK, warning.message
     worst = float(np.max(result.join, initial=0.0))
-    return (LOOK, f"a kink of {worst:.0f}° at the join") if worst > VISIBLE else (GOOD, "")
+    return (LOOK, f"a kink of {worst:.0f}° at the join") if worst > LIMITS["visible_kink"] else (GOOD, "")
 
 
 def judged_holes(result: FillResult) -> tuple[str, str, list[tuple[str, str]]]:

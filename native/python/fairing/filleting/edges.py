@@ -15,8 +15,6 @@ from fairing.measure import boundary_loops, edges_with_uses, hard_edges
 from fairing.options import arguments
 from fairing.results import FloatArray, IntArray, read_only
 
-_COMPARED = 4  # rings inside with which hard edges at the boundary are compared, before all are
-
 
 @dataclass(frozen=True, eq=False)
 class EdgesThrough:
@@ -49,25 +47,14 @@ def edges_through(
     points = arguments.floats("vertices", vertices)
     own, around = (arguments.triangles_within(triangles, len(points)) for triangles in (inside, outside))
     marks = arguments.integers("marked", [] if marked is None else marked, 2)
-    found = arguments.NO_EDGES
-    near = _near(own, _border(own))
-    onward, _ = _hard(points, (near, around), _inner(near), marks)  # edges at the far side of `near` have one face
-    loops = boundary_loops(own) if len(onward) else []
-    if _joined(points, around, loops, onward, marks):
-        inner = _inner(own)
-        onward, within = _hard(points, (own, around), inner, marks)
-        usable = _counted(inner, neighbours, len(points))
-        found = _core.hard_ways(points, usable, within, _joined(points, around, loops, onward, marks))
-    return EdgesThrough(read_only(found), read_only(onward))
-
-
-def _hard(
-    points: FloatArray, sides: tuple[IntArray, IntArray], inner: IntArray, marks: IntArray
-) -> tuple[IntArray, IntArray]:
-    """Hard edges outside and along the boundary of both sides, and those among the `inner` ones."""
-    hard = hard_edges(points, np.concatenate(sides), marked=marks)
+    found, inner = arguments.NO_EDGES, _inner(own)
+    hard = hard_edges(points, np.concatenate([own, around]), marked=marks)
     is_inner = arguments.places_of(hard, inner) >= 0
-    return hard[~is_inner], hard[is_inner]
+    onward = hard[~is_inner]
+    joined = _joined(points, around, boundary_loops(own), onward, marks) if len(onward) else []
+    if joined:
+        found = _core.hard_ways(points, _counted(inner, neighbours, len(points)), hard[is_inner], joined)
+    return EdgesThrough(read_only(found), read_only(onward))
 
 
 def _joined(
@@ -87,32 +74,6 @@ def _inner(triangles: IntArray) -> IntArray:
     edges, uses = edges_with_uses(triangles)
     inner: IntArray = edges[uses == 2]
     return inner
-
-
-def _border(triangles: IntArray) -> IntArray:
-    """Vertices that no closed fan of triangles is around: going around one, each neighbour is reached and left once.
-
-    Sums of what is reached less what is left tell them apart without a sort of all edges.
-    """
-    faces = triangles.astype(np.float64)
-    after, before = np.roll(faces, -1, axis=1).ravel(), np.roll(faces, 1, axis=1).ravel()
-    vertices, open_fan = triangles.ravel(), False
-    for weight in (after - before, after**2 - before**2):
-        open_fan = open_fan | (np.bincount(vertices, weight) != 0.0)
-    border: IntArray = np.flatnonzero(open_fan)
-    return border
-
-
-def _near(triangles: IntArray, border: IntArray) -> IntArray:
-    """Those that hard edges at the border's vertices are compared with."""
-    reached = np.zeros(int(triangles.max(initial=-1)) + 1, dtype=bool)
-    near = np.zeros(len(triangles), dtype=bool)
-    reached[border] = True
-    for _ in range(_COMPARED):
-        near = reached[triangles].any(axis=1)
-        reached[triangles[near]] = True
-    found: IntArray = triangles[near]
-    return found
 
 
 def _counted(inner: IntArray, neighbours: npt.ArrayLike | None, count: int) -> IntArray:
