@@ -45,24 +45,6 @@ double spoke_length(const Disk& disk, const Points& points, const Vector3& centr
 
 }  // namespace
 
-Vector3 disk_normal(const Disk& disk, const Points& points) {
-    Vector3 sum = Vector3::Zero();
-    const Vector3 centre = points.col(disk.centre);
-    const auto neighbours = disk.ring.vertices;
-    const Vector3 first = points.col(neighbours.front()) - centre;
-    Vector3 a = first;
-    for (std::size_t k = 1; k < neighbours.size(); ++k) {
-        const Vector3 b = points.col(neighbours[k]) - centre;
-        sum += a.cross(b);
-        a = b;
-    }
-    if (disk.ring.closed()) sum += a.cross(first);
-    const double length = sum.norm();
-    return length > 0.0 ? Vector3(sum / length) : Vector3(Vector3::Zero());
-}
-
-Vector3 arc_over(const NormalChord& chord) { return virtual_point(chord) - 0.5 * (chord.a + chord.b); }
-
 std::size_t weight_count(const Disk& disk) {
     return padded(disk.ring.valence()) + (disk.completed ? padded(disk.ring.rim.size()) : 0);
 }

@@ -14,7 +14,7 @@ enum class VirtualPoints {
     everywhere  // at every vertex of every level
 };
 
-// The 1-disk D(q_i) of a vertex, however the connectivity is stored. `ring.rim[k]` is the column of `arcs` below that
+// The 1-disk D(q_i) of a vertex. `ring.rim[k]` is the column of `arcs` below that
 // belongs to the edge from neighbour k to k + 1; spokes are not read.
 struct Disk {
     int centre = none;
@@ -28,12 +28,6 @@ struct DiskField {
     const Points& points;
     const Points& arcs;
 };
-
-// Averages the cross products around the disk (§6). Zero when they cancel.
-Vector3 disk_normal(const Disk& disk, const Points& points);
-
-// The column of `arcs` for a chord.
-Vector3 arc_over(const NormalChord& chord);
 
 // Numbers that the weights of a disk take up: neighbours and virtual points, each group padded to pairs.
 std::size_t weight_count(const Disk& disk);

@@ -10,12 +10,8 @@ namespace {
 constexpr std::size_t fewest_steps = 4;  // for a contraction
 constexpr double fastest = 0.8;          // contraction
 
-constexpr std::size_t window = 10;             // cycles over which contraction, growth or rest shows
-constexpr double growth_of_alternation = 2.0;  // of the moves, over a window
-constexpr double hardly_falling = 0.97;        // lowest merit of a window over that of the window before
-constexpr double undone = 0.1;                 // part of the moves that is left when two updates undo each other
-constexpr int undone_cycles = 5;               // one after the other
-constexpr int patience = 50;                   // cycles without a hundredth less
+constexpr std::size_t window = 10;  // cycles over which contraction shows
+constexpr int patience = 50;        // cycles without a hundredth less: 399 of 400 random problems converge
 
 constexpr double smallest_damping = 0.05;  // below, the iteration is lost
 
@@ -42,7 +38,6 @@ public:
           weights_(crowding(level.patch, start)),
           update_(level, start),
           anderson_(history_depth),
-          watch_(accelerated_),
           damping_(limits.damping) {}
 
     IterationOutcome run(const Progress& progress) {
@@ -86,17 +81,15 @@ private:
     // One cycle; the residual is that of its first positions.
     void cycle(double residual, const Progress& progress) {
         const Points before = update_.points();
-        Change change;
+        double moved = std::numeric_limits<double>::infinity();  // by the larger one of the two updates
         if (std::isfinite(residual)) {
             update_.global(damping_);
             progress.here().report(0.0, "iteration");
             const Points between = update_.points();
-            if (update_.measure_again()) update_.local(damping_);
-            change.largest = std::max(largest(update_.points(), between), largest(between, before));
-            change.together = largest(update_.points(), before);
+            if (std::isfinite(update_.measure(Arcs::as_before))) update_.local(damping_);
+            moved = std::max(largest(update_.points(), between), largest(between, before));
         }
-        change.merit = accelerated_ ? change.largest / damping_ : residual;
-        switch (watch_.judge(change)) {
+        switch (watch_.judge(accelerated_ ? moved / damping_ : residual)) {
             case Verdict::better:
                 outcome_.points = before;
                 outcome_.residual = residual;
@@ -106,7 +99,7 @@ private:
             case Verdict::lost: return calm(true);
         }
         const double step = advance(before);
-        remaining_.add(std::max(change.largest, step));
+        remaining_.add(std::max(moved, step));
     }
 
     // Largest weighted move.
@@ -185,11 +178,8 @@ double RemainingChange::share_done(double tolerance) const {
     return std::min(1.0, std::log(first_ / std::max(now, 1e-300)) / std::log(first_ / tolerance));
 }
 
-Verdict ProgressWatch::judge(const Change& change) {
-    const double merit = change.merit;
+Verdict ProgressWatch::judge(double merit) {
     if (!std::isfinite(merit)) return Verdict::lost;
-    recent_.push_back(merit);
-    if (recent_.size() > 2 * window) recent_.pop_front();
     ++since_mark_;
     if (merit < 0.99 * mark_) {
         mark_ = merit;
@@ -197,34 +187,13 @@ Verdict ProgressWatch::judge(const Change& change) {
     }
     const bool better = merit < best_;
     best_ = std::min(best_, merit);
-    const bool exhausted = since_mark_ > patience;
-    if (exhausted || undoing(change) || growing() || resting()) return Verdict::alternating;
+    if (since_mark_ > patience) return Verdict::alternating;
     return better ? Verdict::better : Verdict::fair;
 }
 
 void ProgressWatch::restart() {
-    recent_.clear();
-    restarted_ = true;
     mark_ = std::numeric_limits<double>::infinity();
     since_mark_ = 0;
-    undone_ = 0;
-}
-
-bool ProgressWatch::undoing(const Change& change) {
-    undone_ = change.together < undone * change.largest ? undone_ + 1 : 0;
-    return accelerated_ && undone_ >= undone_cycles;
-}
-
-bool ProgressWatch::growing() const {
-    return !accelerated_ && recent_.size() > window &&
-           recent_.back() > growth_of_alternation * recent_[recent_.size() - 1 - window];
-}
-
-bool ProgressWatch::resting() const {
-    if (accelerated_ || restarted_ || recent_.size() < 2 * window) return false;
-    const auto middle = recent_.end() - static_cast<std::ptrdiff_t>(window);
-    const double before = *std::min_element(recent_.begin(), middle);
-    return *std::min_element(middle, recent_.end()) > hardly_falling * before;
 }
 
 IterationOutcome fair_level(const LevelProblem& level, const Points& start, const IterationLimits& limits,

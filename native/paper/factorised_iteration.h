@@ -24,13 +24,6 @@ private:
     double first_ = 0.0;
 };
 
-// What a cycle of a global and a local update did.
-struct Change {
-    double largest = std::numeric_limits<double>::infinity();   // move of a vertex in one of the two updates
-    double together = std::numeric_limits<double>::infinity();  // and in both together
-    double merit = std::numeric_limits<double>::infinity();     // what should fall
-};
-
 enum class Verdict {
     better,       // than ever
     fair,         // go on
@@ -38,26 +31,17 @@ enum class Verdict {
     lost          // no longer finite
 };
 
-// Follows an iteration, cycle by cycle. The merit of the plain one is its residual, which must not grow or rest for
-// long. That of the accelerated one is its changes. They may grow for a while, since the history damps modes that the
-// plain one doesn't. It may reach positions at which the two updates of a cycle undo each other. They are no solution.
+// Follows an iteration, cycle by cycle, by what should fall: the residual of the plain one, the changes of the
+// accelerated one. Both may grow for a while.
 class ProgressWatch {
 public:
-    explicit ProgressWatch(bool accelerated) : accelerated_(accelerated) {}
-    Verdict judge(const Change& change);
+    Verdict judge(double merit);
     void restart();  // after a change of the damping
 
 private:
-    [[nodiscard]] bool undoing(const Change& change);
-    [[nodiscard]] bool growing() const;
-    [[nodiscard]] bool resting() const;
-    bool accelerated_;
-    bool restarted_ = false;
-    std::deque<double> recent_;
     double best_ = std::numeric_limits<double>::infinity();
     double mark_ = std::numeric_limits<double>::infinity();
     int since_mark_ = 0;
-    int undone_ = 0;  // cycles in a row
 };
 
 struct IterationLimits {

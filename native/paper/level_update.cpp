@@ -1,27 +1,16 @@
 #include "paper/level_update.h"
 
+#include "linear/conjugate_gradients.h"
+
 namespace fairing {
 
 namespace {
 
-// The edges over which a disk of the level has virtual points.
-Indices edges_with_arcs(const LevelProblem& level) {
-    std::vector<char> wanted(static_cast<std::size_t>(level.patch.edge_count()), 0);
-    for (int i = 0; i < level.patch.vertex_count(); ++i) {
-        const Disk disk = level.disk(i);
-        if (!disk.completed) continue;
-        for (int edge : disk.ring.rim) wanted[static_cast<std::size_t>(edge)] = 1;
-    }
-    Indices edges;
-    for (int e = 0; e < level.patch.edge_count(); ++e) {
-        if (wanted[static_cast<std::size_t>(e)]) edges.push_back(e);
-    }
-    return edges;
-}
-
 // H of a fixed neighbour answers to the vertex too, and H̃ follows it, which eq. 13 leaves out: the step is as much too
 // long. Found by trial: 2 to 8 do. As published (no acceleration) all vertices have the same s.
 constexpr double answer_of_fixed_neighbours = 4.0;
+
+constexpr double exhausted = 1e-12;  // share of the defect, in the norm of the steps: round-off is left
 
 VectorX damping_shares(const LevelProblem& level) {
     VectorX shares = VectorX::Ones(level.patch.free_count);
@@ -54,8 +43,6 @@ double outer_source(const SolverOptions& options, const CurvatureFit& fit) {
 }
 
 void LevelState::prepare(const LevelProblem& level) {
-    arc_edges_ = edges_with_arcs(level);
-    arcs.setZero(3, level.patch.edge_count());
     weights_begin = {0};
     for (int i = 0; i < level.patch.free_count; ++i) {
         weights_begin.push_back(weights_begin.back() + weight_count(level.disk(i)));
@@ -68,29 +55,18 @@ std::span<double> LevelState::weights_of(int free_vertex) {
     return std::span(weights).subspan(weights_begin[i], weights_begin[i + 1] - weights_begin[i]);
 }
 
-void LevelState::measure(const LevelProblem& level) {
+void LevelState::measure(const LevelProblem& level, Arcs which) {
     if (weights_begin.empty()) prepare(level);
     faces_.update(points, level.patch.triangles);
     stiffness.update(faces_, level.patch);
     measure_normals(level);
-    measure_arcs(level);
-    measure_curvature(level);
-}
-
-void LevelState::measure_again(const LevelProblem& level) {
-    faces_.update(points, level.patch.triangles);
-    stiffness.update(faces_, level.patch);
-    measure_normals(level);
+    if (which == Arcs::present) measure_arcs(level);
     measure_curvature(level);
 }
 
 void LevelState::measure_normals(const LevelProblem& level) {
     const Patch& patch = level.patch;
-    normals.setZero(3, patch.vertex_count());
-    for (int t = 0; t < patch.triangle_count(); ++t) {
-        const Vector3 cross = faces_.areas[t] * faces_.normals.col(t);
-        for (int v : patch.triangles.col(t)) normals.col(v) += cross;
-    }
+    normals = summed_normals(points, patch.triangles);
     for (int i = 0; i < patch.vertex_count(); ++i) {
         const double length = normals.col(i).norm();
         if (level.prescribes_normal(i)) {
@@ -102,12 +78,10 @@ void LevelState::measure_normals(const LevelProblem& level) {
 }
 
 void LevelState::measure_arcs(const LevelProblem& level) {
-    for (int e : arc_edges_) {
-        const auto [a, b] = level.patch.edge_ends[static_cast<std::size_t>(e)];
-        const auto [left, right] = level.patch.edge_triangles[static_cast<std::size_t>(e)];
-        Vector3 triangle_normals = faces_.normals.col(left);
-        if (right != none) triangle_normals += faces_.normals.col(right);
-        arcs.col(e) = arc_over({points.col(a), points.col(b), normals.col(a), normals.col(b), triangle_normals});
+    arcs = edge_virtual_points(level.patch, points, faces_, normals);
+    for (int e = 0; e < level.patch.edge_count(); ++e) {
+        const auto [a, b] = level.patch.edge_ends[e];
+        arcs.col(e) -= 0.5 * (points.col(a) + points.col(b));
     }
 }
 
@@ -129,6 +103,16 @@ VectorX LevelState::right_hand_side(const LevelProblem& level) const {
     return -2.0 * stiffness.mass.head(level.patch.free_count).cwiseProduct(source);
 }
 
+VectorX LevelState::defect(const LevelProblem& level) const {
+    const Eigen::RowVectorXd row = H.transpose();
+    return right_hand_side(level) - stiffness.apply(level.patch, row, level.patch.free_count).transpose();
+}
+
+// Positive unless a whole 1-disk has collapsed.
+double LevelState::diagonal(const LevelProblem& level, int vertex) const {
+    return std::max(stiffness.diagonal(level.patch, vertex), 1e-9);
+}
+
 double LevelState::unfairness(const LevelProblem& level) const {
     double largest = 0.0;
     for (int i = 0; i < level.patch.free_count; ++i) {
@@ -142,54 +126,65 @@ double LevelState::unfairness(const LevelProblem& level) const {
     return largest;
 }
 
-double LevelState::residual(const LevelProblem& level, const CurvatureEquation& equation) const {
+double LevelState::residual(const LevelProblem& level) const {
     const int n = level.patch.free_count;
-    const double largest = level.solver.equation == Equation::soap_film
-                               ? H.head(n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>()
-                               : equation.defect(right_hand_side(level), H)
-                                     .cwiseAbs()
-                                     .cwiseQuotient(2.0 * stiffness.mass.head(n))
-                                     .maxCoeff<Eigen::PropagateNaN>();
+    const double largest =
+        level.solver.equation == Equation::soap_film
+            ? H.head(n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>()
+            : defect(level).cwiseAbs().cwiseQuotient(2.0 * stiffness.mass.head(n)).maxCoeff<Eigen::PropagateNaN>();
     return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
 }
 
-LevelUpdate::LevelUpdate(const LevelProblem& level, Points start) : level_(level), equation_(level.patch) {
+LevelUpdate::LevelUpdate(const LevelProblem& level, Points start) : level_(level) {
     state_.points = std::move(start);
     share_ = damping_shares(level);
 }
 
-double LevelUpdate::measure() {
+double LevelUpdate::measure(Arcs which) {
     if (!state_.points.allFinite()) return std::numeric_limits<double>::infinity();
-    state_.measure(level_);
-    equation_.assemble(state_.stiffness);
-    return state_.residual(level_, equation_);
+    state_.measure(level_, which);
+    return state_.residual(level_);
 }
 
-bool LevelUpdate::measure_again() {
-    if (!state_.points.allFinite()) return false;
-    state_.measure_again(level_);
-    equation_.assemble(state_.stiffness);
-    return true;
-}
+void LevelUpdate::local(double damping) { move_vertices(wanted_by(&LevelUpdate::sweep), damping); }
 
-void LevelUpdate::local(double damping) {
+void LevelUpdate::global(double damping) { move_vertices(wanted_by(&LevelUpdate::conjugate_gradient_steps), damping); }
+
+VectorX LevelUpdate::wanted_by(void (LevelUpdate::*solve)(VectorX&) const) const {
+    if (level_.solver.equation == Equation::soap_film) return VectorX::Zero(state_.H.size());
     VectorX H = state_.H;
-    if (level_.solver.equation != Equation::soap_film) {
-        equation_.sweep(state_.right_hand_side(level_), level_.paper.h_sweeps, H);
-    } else {
-        H.setZero();
-    }
-    move_vertices(H, damping);
+    (this->*solve)(H);
+    return H;
 }
 
-void LevelUpdate::global(double damping) {
-    VectorX H = state_.H;
-    if (level_.solver.equation != Equation::soap_film) {
-        equation_.conjugate_gradients(state_.right_hand_side(level_), level_.paper.cg_steps, H);
-    } else {
-        H.setZero();
+// Gauss–Seidel.
+void LevelUpdate::sweep(VectorX& H) const {
+    const VectorX rhs = state_.right_hand_side(level_);
+    for (int s = 0; s < level_.paper.h_sweeps; ++s) {
+        for (int i = 0; i < level_.patch.free_count; ++i) {
+            const RingView ring = level_.patch.ring(i);
+            double sum = rhs[i];
+            for (std::size_t k = 0; k < ring.valence(); ++k)
+                sum += state_.stiffness.weights[ring.spokes[k]] * H[ring.vertices[k]];
+            H[i] = sum / state_.diagonal(level_, i);
+        }
     }
-    move_vertices(H, damping);
+}
+
+// Preconditioned by the diagonal.
+void LevelUpdate::conjugate_gradient_steps(VectorX& H) const {
+    using Row = Eigen::RowVectorXd;
+    const int n = level_.patch.free_count;
+    Row inverse(n);
+    for (int i = 0; i < n; ++i) inverse[i] = 1.0 / state_.diagonal(level_, i);
+    Row whole = Row::Zero(H.size());  // stays zero at the fixed vertices
+    const auto apply = [&](const Row& p, Row& product) {
+        whole.head(n) = p;
+        product = state_.stiffness.apply(level_.patch, whole, n);
+    };
+    const auto precondition = [&](const Row& r, Row& z) { z = inverse.cwiseProduct(r); };
+    const Row first = state_.defect(level_).transpose();
+    H.head(n) += conjugate_gradients(first, exhausted, level_.paper.cg_steps, apply, precondition).x.transpose();
 }
 
 // Neighbours that have moved count with their new position.

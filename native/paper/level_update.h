@@ -2,7 +2,6 @@
 #pragma once
 
 #include "fairness/row_weights.h"
-#include "paper/curvature_equation.h"
 #include "paper/disk_curvature.h"
 #include "paper/options.h"
 #include "problem/problem.h"
@@ -33,6 +32,10 @@ struct LevelProblem {
 // The right-hand side f of Δ_B H = f for a fitted second fundamental form (§7.5).
 double outer_source(const SolverOptions& options, const CurvatureFit& fit);
 
+// Virtual points: of the present positions, or over chords with the arcs as they were. Between the two updates of a
+// cycle those take a sixth fewer updates.
+enum class Arcs { present, as_before };
+
 struct LevelState {
     Points points;   // 3 × level vertices
     Points normals;  // prescribed or averaged (§6)
@@ -43,17 +46,18 @@ struct LevelState {
     std::vector<double> weights;  // of the curvature at the free vertices, see DiskFit
     std::vector<std::size_t> weights_begin;
 
-    void measure(const LevelProblem& level);
-    // The same within a cycle of updates: with the arcs of the last measurement.
-    void measure_again(const LevelProblem& level);
+    void measure(const LevelProblem& level, Arcs which);
     // 2 M f with the sign of S H: the right-hand side of step I.
     [[nodiscard]] VectorX right_hand_side(const LevelProblem& level) const;
+    // rhs − S H (free count), and S_ii.
+    [[nodiscard]] VectorX defect(const LevelProblem& level) const;
+    [[nodiscard]] double diagonal(const LevelProblem& level, int vertex) const;
     [[nodiscard]] std::span<double> weights_of(int free_vertex);
     // max |P Δq|/ℓ² over the free vertices: how far inner fairness is off (§7.3), P the projection across the normal,
     // ℓ² the mean squared distance of the neighbours; in units of 1/D.
     [[nodiscard]] double unfairness(const LevelProblem& level) const;
     // max |Δ_B H − f| over the free vertices, |H| for minimal surfaces. Infinite where it is not a number.
-    [[nodiscard]] double residual(const LevelProblem& level, const CurvatureEquation& equation) const;
+    [[nodiscard]] double residual(const LevelProblem& level) const;
 
 private:
     void measure_normals(const LevelProblem& level);
@@ -64,7 +68,6 @@ private:
 
     FaceGeometry faces_;
     DiskFit fit_;
-    Indices arc_edges_;
 };
 
 class LevelUpdate {
@@ -74,10 +77,7 @@ public:
 
     // Measures all that an update needs, S included, at the present positions. Returns the residual: infinite where the
     // surface has left all bounds (there the residual, a third power of 1/length, means nothing).
-    double measure();
-    // The same between two updates of a cycle, with the virtual points' arcs as they were and without a residual; false
-    // where the surface has left all bounds.
-    bool measure_again();
+    double measure(Arcs which = Arcs::present);
 
     // Step I, "local" (Gauss–Seidel sweeps) or "global" (conjugate gradient steps), then step II with damping s
     // (accelerated: less of it next to fixed vertices). Asks for a measurement before.
@@ -89,10 +89,14 @@ public:
     void move_to(const Points& points) { state_.points = points; }
 
 private:
+    // Step I (§7.1), S H = rhs at the free vertices, H known at the fixed ones. Both begin at the H there is and are
+    // not meant to converge.
+    [[nodiscard]] VectorX wanted_by(void (LevelUpdate::*solve)(VectorX&) const) const;
+    void sweep(VectorX& H) const;
+    void conjugate_gradient_steps(VectorX& H) const;
     void move_vertices(const VectorX& wanted, double damping);
 
     const LevelProblem& level_;
-    CurvatureEquation equation_;
     LevelState state_;
     VectorX share_;  // of s, for each free vertex
 };

@@ -41,7 +41,9 @@ struct Wheel {
             const Eigen::Index a = k + 1;
             const Eigen::Index b = (k + 1) % m + 1;
             const Vector3 cross = (points.col(a) - points.col(0)).cross(points.col(b) - points.col(0));
-            arcs.col(k) = arc_over({points.col(a), points.col(b), normals.col(a), normals.col(b), cross.normalized()});
+            const Vector3 top =
+                virtual_point({points.col(a), points.col(b), normals.col(a), normals.col(b), cross.normalized()});
+            arcs.col(k) = top - 0.5 * (points.col(a) + points.col(b));
         }
     }
     [[nodiscard]] Disk disk(bool completed) const { return {0, {neighbours, {}, rim}, completed}; }
