@@ -2,7 +2,6 @@
 #include "api/hole_job.h"
 #include "api/remesh.h"
 #include "base/stopwatch.h"
-#include "fill/loop_check.h"
 #include "fill/short_edges.h"
 
 namespace fairing {
@@ -25,9 +24,10 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
     film.equation = Equation::soap_film;
     Stopwatch watch;
     const NewSurface first =
-        fill_loops({points, thin.loops, thin.normals}, false, film, within(progress.range(0.0, 0.2)));
+        fill_loops({points, thin.loops, thin.normals, taken()}, false, film, within(progress.range(0.0, 0.2)));
     const double first_seconds = watch.lap();
-    HolePatch patch{joined(points, first.vertices), thin.with_all(first.triangles), loops_[0].vertices, std::nullopt};
+    HolePatch patch{joined(points, first.vertices), thin.with_all(first.triangles), loops_[0].vertices, std::nullopt,
+                    taken()};
     const HeldInside held{numbers(through.creases), {}};
     Points slopes = normals();
     for (const int v : held.creases) {
@@ -37,7 +37,6 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
     }
     HolePatch made = meshed(patch, here + static_cast<int>(through.added.cols()),
                             {options_.spacing, 0, options_.spread}, held, progress.range(0.2, 0.4));
-    refuse_doubles(made.triangles, local_.triangles);
     made.normals = slopes;
     FairOptions options = options_.fair;
     options.solver.equation = Equation::least_variation;

@@ -50,18 +50,19 @@ Start start_after(Provenance first, const SolverOptions& options) {
     return is_harmonic && options.otherwise != Otherwise::stop && !is_chosen ? start : Start::given;
 }
 
-NewSurface first_over(const std::vector<BoundaryLoop>& loops, const std::vector<Indices>& numbers, const Points& points,
+NewSurface first_over(const std::vector<BoundaryLoop>& loops, const SplitBoundary& split, VertexPairs taken,
                       Equation equation, const Progress& progress) {
     ThinnedLoops thin;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         LoopShape shape = loops[l].shape;
-        shape.points = points(Eigen::all, numbers[l]);
-        add_thinned(thin, numbers[l], shape);
+        shape.points = split.parted(Eigen::all, split.loops[l]);
+        add_thinned(thin, split.loops[l], shape);
     }
     SolverOptions options;
     options.equation = equation;
     try {
-        NewSurface found = fill_loops({points, thin.loops, thin.normals}, true, options, within(progress));
+        NewSurface found =
+            fill_loops({split.parted, thin.loops, thin.normals, std::move(taken)}, true, options, within(progress));
         found.triangles = thin.with_all(found.triangles);
         return found;
     } catch (const MeshError& error) {
@@ -112,7 +113,7 @@ HolePatch meshed(const HolePatch& patch, int old_count, const WantedLengths& wan
     const int gone = static_cast<int>(patch.vertices.cols()) - old_count;
     mesh.triangles = mesh.triangles.unaryExpr([&](int v) { return v < old_count + gone ? v : v - gone; });
     HolePatch result{joined(patch.vertices.leftCols(old_count), mesh.vertices), mesh.triangles, patch.fixed,
-                     patch.normals};
+                     patch.normals, patch.taken};
     if (made) *made = std::move(mesh);
     return result;
 }
@@ -163,6 +164,20 @@ Points HoleJob::normals() const {
     return all;
 }
 
+// Edges around, between any copies of vertices of the boundary.
+VertexPairs HoleJob::taken() const {
+    std::map<int, Indices> copies;
+    for (const int v : split_.fixed()) copies[split_.source[v]].push_back(v);
+    VertexPairs pairs;
+    for (const auto corners : local_.triangles.colwise()) {
+        for (int k = 0; k < 3; ++k) {
+            for (const int a : copies[corners[k]])
+                for (const int b : copies[corners[(k + 1) % 3]]) pairs.push_back({a, b});
+        }
+    }
+    return pairs;
+}
+
 HeldInside HoleJob::held() const {
     HeldInside held = options_.held;
     for (Indices* list : {&held.creases, &held.smooth_curves}) {
@@ -179,7 +194,7 @@ FilledHole HoleJob::filled(const Progress& progress) const {
         made.report.seconds["total"] = watch.seconds();
         return made;
     };
-    if (!options_.bridge && takes_no_vertex(loops_[0].shape, options_.spacing)) return timed(closed_by_face());
+    if (auto made = closed_by_face()) return timed(std::move(*made));
     if (through_) {
         if (auto made = along(*through_, progress.range(0.0, 0.5))) return timed(std::move(*made));
     }
@@ -193,10 +208,12 @@ FilledHole HoleJob::filled(const Progress& progress) const {
     return timed(std::move(made));
 }
 
-FilledHole HoleJob::closed_by_face() const {
+std::optional<FilledHole> HoleJob::closed_by_face() const {
     const BoundaryLoop& loop = loops_[0];
-    SolvedHole made{{local_.points, face_over(loop, local_.triangles), loop.vertices, std::nullopt}, {}};
-    refuse_doubles(made.patch.triangles, local_.triangles);
+    if (options_.bridge || !takes_no_vertex(loop.shape, options_.spacing)) return std::nullopt;
+    const std::optional<Triangles> face = face_over(loop, local_.triangles);
+    if (!face) return std::nullopt;
+    SolvedHole made{{local_.points, *face, loop.vertices, std::nullopt}, {}};
     FairResult& report = made.report;
     const Equation asked = options_.fair.solver.equation;
     report.equation = asked == Equation::automatic ? Equation::harmonic : asked;
@@ -256,7 +273,7 @@ std::optional<SolvedHole> HoleJob::from_fan(const Progress& progress) const {
     const double own = fairing::flat_count({&shape, 1}, 0.0, false);
     if (!is_plain() || !(std::max(own, flat_count()) < few) || !is_star(shape, hub)) return std::nullopt;
     const HolePatch patch{joined(split_.parted, hub), fairing::fan(split_.loops[0], split_.count()), split_.fixed(),
-                          normals()};
+                          normals(), taken()};
     const SolvedHole made =
         on_mesh(patch, {options_.spacing, few_solved, options_.spread}, Start::given, Otherwise::stop, progress);
     return is_usable(made.report) ? std::optional(made) : std::nullopt;
@@ -266,7 +283,6 @@ SolvedHole HoleJob::on_mesh(const HolePatch& patch, const WantedLengths& wanted,
                             const Progress& progress) const {
     HolePatch fine = meshed(patch, split_.count(), wanted, held(), progress.range(0.0, 0.3));
     fine.vertices.leftCols(split_.count()) = split_.placed;
-    refuse_doubles(fine.triangles, local_.triangles);
     SolvedHole made{fine, solved(fine, start, otherwise, progress.range(0.3, 1.0))};
     made.patch.vertices = made.report.vertices;
     const Diagnostics slopes = not_tangent(made.report, split_.loops, local_, mesh_);
@@ -318,10 +334,9 @@ SolvedHole HoleJob::surface(const Progress& progress) const {
     most.check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), boundary);
     if (const auto made = from_fan(progress.range(0.0, 0.1))) return coarser(*made, progress.range(0.9, 1.0));
     Stopwatch watch;
-    const NewSurface first =
-        first_over(loops_, split_.loops, split_.parted, first_equation(options_), progress.range(0.1, 0.2));
+    const NewSurface first = first_over(loops_, split_, taken(), first_equation(options_), progress.range(0.1, 0.2));
     const double first_seconds = watch.lap();
-    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals()};
+    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals(), taken()};
     if (solver.equation == Equation::soap_film) patch.normals = std::nullopt;
     WantedLengths wanted{options_.spacing, 0, options_.spread};
     const double count = expected_remesh_count(patch.input({}), wanted);

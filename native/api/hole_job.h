@@ -13,9 +13,10 @@ struct HolePatch {
     Triangles triangles;
     Indices fixed;
     std::optional<Points> normals;  // at `fixed`; none for minimal surfaces
+    VertexPairs taken = {};         // vertices of the boundary that are joined outside
 
     [[nodiscard]] MeshInput input(const HeldInside& held) const {
-        return {vertices, triangles, fixed, normals, std::nullopt, Triangles(3, 0), held};
+        return {vertices, triangles, fixed, normals, std::nullopt, Triangles(3, 0), held, taken};
     }
 };
 
@@ -38,7 +39,7 @@ public:
     [[nodiscard]] double flat_count() const;
 
 private:
-    [[nodiscard]] FilledHole closed_by_face() const;
+    [[nodiscard]] std::optional<FilledHole> closed_by_face() const;
     [[nodiscard]] std::optional<SolvedHole> fan(const Progress& progress) const;
     [[nodiscard]] std::optional<FilledHole> along(const CurvesThrough& through, const Progress& progress) const;
     [[nodiscard]] SolvedHole surface(const Progress& progress) const;
@@ -53,6 +54,7 @@ private:
                                     const Progress& progress) const;
     [[nodiscard]] HeldInside held() const;
     [[nodiscard]] Points normals() const;
+    [[nodiscard]] VertexPairs taken() const;
 
     const HoledMesh& mesh_;
     const Hole& hole_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/types.h"
+#include "geometry/hard_edges.h"
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -53,6 +54,7 @@ struct MeshInput {
     std::optional<VectorX> fixed_curvatures = {};  // H at `fixed`, NaN where it is not known, ∞: tangent
     Triangles outside = {};                        // around the patches; they stay
     HeldInside held = {};
+    VertexPairs taken = {};  // fixed vertices that are joined outside: a new mesh has no such edge
 };
 
 // What follows from the connectivity and the fixed vertices alone. Border vertices are fixed, given or not.

@@ -1,6 +1,6 @@
 #include "api/remesh.h"
 
-#include <set>
+#include <map>
 
 #include "accept/accept.h"
 #include "api/assembly.h"
@@ -13,8 +13,6 @@
 namespace fairing {
 
 namespace {
-
-using EdgeSet = std::set<std::array<int, 2>>;
 
 EdgeSet sorted_pairs(const VertexPairs& pairs) {
     EdgeSet result;
@@ -30,6 +28,17 @@ KeptEdges edges_among(const Patch& patch, const EdgeSet& pairs) {
         kept.push_back(pairs.contains({low, high}) ? 1 : 0);
     }
     return kept;
+}
+
+// The pairs among some vertices, by their places there.
+EdgeSet places_of(const VertexPairs& pairs, std::span<const int> vertices) {
+    std::map<int, int> places;
+    for (const int v : vertices) places.emplace(v, static_cast<int>(places.size()));
+    VertexPairs among;
+    for (const auto& [a, b] : pairs) {
+        if (places.contains(a) && places.contains(b)) among.push_back({places[a], places[b]});
+    }
+    return sorted_pairs(among);
 }
 
 // The vertices of some loops, numbered anew in the loops' order.
@@ -119,7 +128,8 @@ NewMesh remesh(const MeshInput& input, const VertexPairs& kept, const WantedLeng
         const KeptEdges staying = edges_among(patch, pairs);
         const TargetSurface surface(patch, old.points, old.normals, staying);
         const VectorX lengths = old.lengths(wanted, staying);
-        EqualEdgeMesh equal(patch, old.points, surface, lengths, staying);
+        const std::span<const int> held = std::span(patch.to_input).subspan(patch.free_count);
+        EqualEdgeMesh equal(patch, old.points, surface, lengths, staying, places_of(input.taken, held));
         equal.equalise();
         if (!wanted.flat) equal.repair_angles();
         const EqualEdgeMesh::Result made = equal.result();
@@ -169,7 +179,8 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         const OutlineData data = gathered(input, chosen);
         const Normalisation unit = normalise(data.points);
         const Points points = unit.to_unit(data.points);
-        const FirstSurface first = first_surface({points, data.normals, data.loops}, options, part.range(0.1, 1.0));
+        const FirstSurface first = first_surface(
+            {points, data.normals, data.loops, places_of(input.taken, data.to_input)}, options, part.range(0.1, 1.0));
         const int free_count = first.patch.free_count;
         assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
         result.converged = result.converged && end_of(first.solution) == Termination::converged;

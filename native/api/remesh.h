@@ -32,6 +32,7 @@ struct OpenLoops {
     Points vertices;
     std::vector<Indices> loops;
     std::vector<Points> normals;  // 3 × size of each loop
+    VertexPairs taken = {};       // that are joined outside: no edge of the surface joins them
 };
 
 // A triangle mesh whose first vertices are the caller's, all of them; then come new ones.

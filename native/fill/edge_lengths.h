@@ -1,6 +1,8 @@
 // How long the edges of a new mesh are to be.
 #pragma once
 
+#include <set>
+
 #include "mesh/patch.h"
 
 namespace fairing {
@@ -21,6 +23,7 @@ struct WantedLengths {
 
 // One entry for each edge of a patch: whether the new mesh has it, too. Border edges stay anyway; empty: no others.
 using KeptEdges = std::vector<char>;
+using EdgeSet = std::set<std::array<int, 2>>;  // smaller number first
 
 // A length at each vertex of a patch (`points`: 3 × local vertices). At edges that stay it is that of these; from there
 // it grows or shrinks to the wanted one by a half of the distance; by all of it, or by twice as much, where the edges

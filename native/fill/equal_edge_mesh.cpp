@@ -24,13 +24,14 @@ using ShortestFirst = std::priority_queue<QueuedEdge, std::vector<QueuedEdge>, s
 }  // namespace
 
 EqualEdgeMesh::EqualEdgeMesh(const Patch& patch, const Points& points, const TargetSurface& surface,
-                             const VectorX& lengths, KeptEdges kept)
+                             const VectorX& lengths, KeptEdges kept, EdgeSet taken)
     : patch_(&patch),
       points_(&points),
       surface_(&surface),
       lengths_(&lengths),
       mesh_(surface_mesh(patch)),
       kept_(std::move(kept)),
+      taken_(std::move(taken)),
       free_count_(patch.free_count) {
     mesh_.request_vertex_status();
     mesh_.request_edge_status();
@@ -67,19 +68,20 @@ bool EqualEdgeMesh::is_chord(Edge e) const {
     return !stays(e) && fixed(mesh_.from_vertex_handle(h)) && fixed(mesh_.to_vertex_handle(h));
 }
 
-// A corner that is sharper stays one triangle: halved, its angle would be too small.
-bool EqualEdgeMesh::cuts_sharp_corner(Edge e, const Points& normals) const {
+// A corner that is sharper stays one triangle: halved, its angle would be too small. Not where its third side is an
+// edge outside, of a face that sticks out into the outline: there the triangle would lie on that face.
+bool EqualEdgeMesh::is_sharp_corner(Vertex corner, Vertex a, Vertex b) const {
+    const auto [low, high] = std::minmax({a.idx() - patch_->free_count, b.idx() - patch_->free_count});
+    return !taken_.contains({low, high}) && angle_at(point(corner), point(a), point(b)) < sharp_corner;
+}
+
+bool EqualEdgeMesh::cuts_sharp_corner(Edge e) const {
     for (const unsigned side : {0U, 1U}) {
         const Halfedge h = mesh_.halfedge_handle(e, side);
         const Halfedge next = mesh_.next_halfedge_handle(h);
         const Halfedge last = mesh_.next_halfedge_handle(next);
         if (!stays(mesh_.edge_handle(next)) || !stays(mesh_.edge_handle(last))) continue;
-        const Vector3 corner = point(apex(h));
-        const Vector3 a = point(mesh_.from_vertex_handle(h));
-        const Vector3 b = point(mesh_.to_vertex_handle(h));
-        const bool turned =
-            normals.cols() > 0 && (b - a).cross(corner - a).dot(normals.col(apex(h).idx() - patch_->free_count)) < 0.0;
-        if (!turned && angle_at(corner, a, b) < sharp_corner) return true;
+        if (is_sharp_corner(apex(h), mesh_.from_vertex_handle(h), mesh_.to_vertex_handle(h))) return true;
     }
     return false;
 }
@@ -117,12 +119,12 @@ EqualEdgeMesh::Vertex EqualEdgeMesh::split(Edge e) {
     return v;
 }
 
-int EqualEdgeMesh::split_chords(const Points& normals) {
+int EqualEdgeMesh::split_chords() {
     int splits = 0;
     const auto count = mesh_.n_edges();
     for (unsigned k = 0; k < count; ++k) {
         const Edge e(static_cast<int>(k));
-        if (mesh_.status(e).deleted() || !is_chord(e) || cuts_sharp_corner(e, normals)) continue;
+        if (mesh_.status(e).deleted() || !is_chord(e) || cuts_sharp_corner(e)) continue;
         split(e);
         ++splits;
     }

@@ -12,18 +12,18 @@ namespace fairing {
 // vertices come, go and slide on the surface until the edges are as long as wanted. Deterministic.
 class EqualEdgeMesh {
 public:
-    // Needs one free vertex. `lengths`: wanted at the vertices of `patch`. Keeps references.
+    // Needs one free vertex. `lengths`: wanted at the vertices of `patch`. `taken`: pairs of fixed vertices, counted
+    // from the first of these, that are joined outside. Keeps references.
     EqualEdgeMesh(const Patch& patch, const Points& points, const TargetSurface& surface, const VectorX& lengths,
-                  KeptEdges kept = {});
+                  KeptEdges kept = {}, EdgeSet taken = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void equalise();
     // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: then once more, so that
     // the smallest grow at the cost of others. Asks whether to stop.
     void repair_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
-    // many. With normals of the fixed vertices (3 × their count) corners whose triangle is turned against them are
-    // none: it lies on a face outside that sticks out into the outline.
-    int split_chords(const Points& normals = {});
+    // many.
+    int split_chords();
     // Vertices 0 … k − 1 are free, at these places; then come the patch's fixed vertices in their order.
     struct Result {
         std::vector<SurfacePoint> where;
@@ -46,7 +46,8 @@ private:
     [[nodiscard]] double wanted_between(Vertex one, Vertex other) const;
     [[nodiscard]] double relative_length(Edge e) const;
     [[nodiscard]] bool is_chord(Edge e) const;
-    [[nodiscard]] bool cuts_sharp_corner(Edge e, const Points& normals = {}) const;
+    [[nodiscard]] bool cuts_sharp_corner(Edge e) const;
+    [[nodiscard]] bool is_sharp_corner(Vertex corner, Vertex a, Vertex b) const;
     void put(Vertex v, const Vector3& position, int triangle);
     [[nodiscard]] int triangle_beside(Edge e) const;
     Vertex split(Edge e);
@@ -95,6 +96,7 @@ private:
     SurfaceMesh mesh_;
     std::vector<char> fixed_;  // in the patch, or at a kept edge
     KeptEdges kept_;
+    EdgeSet taken_;
     std::vector<SurfacePoint> where_;
     std::vector<double> wanted_;
     int free_count_;

@@ -108,8 +108,8 @@ Meshed first_mesh(const OpenOutline& outline, Equation equation) {
     const Points flat = Points::Zero(3, snapshot.points.cols());
     const TargetSurface surface(snapshot.patch, snapshot.points, flat);
     const VectorX lengths = VectorX::Ones(snapshot.points.cols());
-    EqualEdgeMesh chordless(snapshot.patch, snapshot.points, surface, lengths);
-    chordless.split_chords(outline.normals);
+    EqualEdgeMesh chordless(snapshot.patch, snapshot.points, surface, lengths, {}, outline.taken);
+    chordless.split_chords();
     Meshed made = meshed(chordless, outline.points);
     return made.patch.free_count > 0 ? made : with_free_vertex(made.patch.triangles, outline.points);
 }
@@ -152,7 +152,7 @@ Meshed with_equal_edges(const OpenOutline& outline, const Patch& patch, const Po
     const SurfaceState state = measured_surface(problem_on(outline, patch, options), points);
     const TargetSurface surface(patch, points, state.normals);
     const VectorX lengths = equal_lengths(patch, points);
-    EqualEdgeMesh mesh(patch, points, surface, lengths);
+    EqualEdgeMesh mesh(patch, points, surface, lengths, {}, outline.taken);
     mesh.equalise();
     return meshed(mesh, outline.points);
 }

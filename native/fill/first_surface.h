@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "fill/edge_lengths.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
@@ -12,6 +13,7 @@ struct OpenOutline {
     Points points;               // 3 × vertices, all on the boundary
     Points normals;              // unit
     std::vector<Indices> loops;  // of vertices, the surface on their left
+    EdgeSet taken = {};          // vertices that are joined outside
 };
 
 // A mesh of the engine's own with the surface on it. Fixed vertices: the boundary's, in their order.

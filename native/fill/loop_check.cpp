@@ -96,12 +96,6 @@ void refuse_touches(const VertexPairs& edges, const View<Points>& points) {
     refuse(Code::nonmanifold_vertex, text, std::move(crossing), {{"crossing", count}});
 }
 
-Triple sorted(const Eigen::Vector3i& corners) {
-    Triple result{corners[0], corners[1], corners[2]};
-    std::sort(result.begin(), result.end());
-    return result;
-}
-
 }  // namespace
 
 Diagnostic at_vertices(Code code, const std::string& text, Indices vertices, Figures figures) {
@@ -132,27 +126,6 @@ void refuse_shared_edges(const std::vector<Indices>& loops) {
     Indices vertices(twice.begin(), twice.end());
     const std::string text = "loops: an edge is passed twice at " + listed(vertices) + ": name it once";
     refuse(Code::not_a_loop, text, std::move(vertices));
-}
-
-void refuse_doubles(const Triangles& made, const Triangles& around) {
-    std::set<Triple> there;
-    for (const auto corners : around.colwise()) there.insert(sorted(corners));
-    Indices again;
-    for (const auto corners : made.colwise()) {
-        const Triple found = sorted(corners);
-        if (there.contains(found)) again.insert(again.end(), found.begin(), found.end());
-    }
-    if (again.empty()) return;
-    const auto count = static_cast<double>(again.size()) / 3.0;
-    const bool is_one = again.size() == 3;
-    const std::string what =
-        is_one ? "1 triangle that sticks" : std::to_string(again.size() / 3) + " triangles that stick";
-    throw MeshError({Code::nonmanifold_edge,
-                     "loops: the surface would double back onto " + what + " out into a loop: remove " +
-                         (is_one ? "it" : "them") + " first",
-                     once(std::move(again)),
-                     ElementKind::vertex,
-                     {{"doubles", count}}});
 }
 
 }  // namespace fairing

@@ -17,7 +17,4 @@ void check_boundary(const std::vector<Indices>& loops, const std::vector<char>& 
 // NOT_A_LOOP: an edge is passed twice, by one loop or by two.
 void refuse_shared_edges(const std::vector<Indices>& loops);
 
-// NONMANIFOLD_EDGE: a new triangle has the corners of one that is there.
-void refuse_doubles(const Triangles& made, const Triangles& around);
-
 }  // namespace fairing

@@ -43,7 +43,7 @@ bool EqualEdgeMesh::closes_sharp_corner(Vertex a, Vertex b) const {
         const Vertex corner = mesh_.to_vertex_handle(h);
         const Halfedge on = mesh_.find_halfedge(corner, b);
         if (!on.is_valid() || !stays(mesh_.edge_handle(h)) || !stays(mesh_.edge_handle(on))) continue;
-        if (angle_at(point(corner), point(a), point(b)) < sharp_corner) return true;
+        if (is_sharp_corner(corner, a, b)) return true;
     }
     return false;
 }

@@ -48,33 +48,34 @@ bool takes_no_vertex(const LoopShape& loop, double spacing) {
     return !(spacing > 0.0) || longest <= split_length * spacing;
 }
 
-Triangles face_over(const BoundaryLoop& loop, const Triangles& around) {
-    using Cut = std::array<std::array<int, 3>, 2>;
+std::optional<Triangles> face_over(const BoundaryLoop& loop, const Triangles& around) {
     const Indices& at = loop.vertices;
-    if (at.size() == 3) return Eigen::Vector3i(at[0], at[1], at[2]);
-    if (at.size() > 4) {
+    const int count = loop.shape.size();
+    const Vector3 normal = loop.shape.normals.rowwise().sum();
+    const auto facing = [&](const Triangles& cut) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const auto corners : cut.colwise())
+            least = std::min(least, std::cos(radians_between(area_vector(loop.shape.points, corners), normal)));
+        return least;
+    };
+    Triangles face(3, 2);
+    Triangles other(3, 2);
+    face << 0, 0, 1, 2, 2, 3;
+    other << 1, 1, 2, 3, 3, 0;
+    if (count != 4) {
         Indices places(at.size());
         std::iota(places.begin(), places.end(), 0);
-        Triangles faces = as_columns(cheapest_triangulation(places, TriangleCost(loop.shape.points)));
-        return faces.unaryExpr([&](int k) { return at[k]; });
+        face = as_columns(cheapest_triangulation(places, TriangleCost(loop.shape.points)));
+    } else if (facing(face) >= facing(other) ? is_edge_of(around, at[0], at[2]) : !is_edge_of(around, at[1], at[3])) {
+        face = other;
     }
-    const Vector3 normal = loop.shape.normals.rowwise().sum();
-    const auto facing = [&](const Cut& cut, bool is_there) {
-        constexpr double never = 10.0;  // above any difference of two cosines
-        double least = std::numeric_limits<double>::infinity();
-        for (const auto& corners : cut)
-            least = std::min(least, std::cos(radians_between(area_of(loop.shape, corners), normal)));
-        return is_there ? least - never : least;
-    };
-    const Cut one{{{0, 1, 2}, {0, 2, 3}}};
-    const Cut other{{{1, 2, 3}, {1, 3, 0}}};
-    const bool takes_one =
-        facing(one, is_edge_of(around, at[0], at[2])) >= facing(other, is_edge_of(around, at[1], at[3]));
-    Triangles face(3, 2);
-    for (int t = 0; t < 2; ++t) {
-        for (int k = 0; k < 3; ++k) face(k, t) = at[(takes_one ? one : other)[t][k]];
+    for (int k = 0; k < face.size(); ++k) {
+        const int a = face(k % 3, k / 3);
+        const int b = face((k + 1) % 3, k / 3);
+        const bool is_inner = (a + 1) % count != b && (b + 1) % count != a;
+        if (is_inner && is_edge_of(around, at[a], at[b])) return std::nullopt;
     }
-    return face;
+    return face.unaryExpr([&](int k) { return at[k]; });
 }
 
 VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face) {

@@ -12,8 +12,8 @@ namespace fairing {
 bool takes_no_vertex(const LoopShape& loop, double spacing);
 
 // Triangles over such a loop. Of two diagonals the one whose triangles face as the surroundings do, unless it is an
-// edge of `around` already; over a crack those of least area.
-Triangles face_over(const BoundaryLoop& loop, const Triangles& around);
+// edge of `around` already; over a crack those of least area. Nothing where they need such an edge.
+std::optional<Triangles> face_over(const BoundaryLoop& loop, const Triangles& around);
 
 // Degrees at each vertex of the loop between its normal and that of the face over it, area by area.
 VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face);

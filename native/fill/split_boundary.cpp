@@ -69,12 +69,4 @@ int SplitBoundary::welded(int vertex) const {
     return vertex < count() ? source[vertex] : vertex - (count() - old_count);
 }
 
-void SplitBoundary::weld(Triangles& triangles) const {
-    for (int& v : triangles.reshaped()) v = welded(v);
-}
-
-void SplitBoundary::weld(Indices& vertices) const {
-    for (int& v : vertices) v = welded(v);
-}
-
 }  // namespace fairing

@@ -16,9 +16,7 @@ struct SplitBoundary {
     [[nodiscard]] int count() const { return static_cast<int>(source.size()); }
     [[nodiscard]] Indices fixed() const;
 
-    // Numbers of these vertices, and of new ones behind them, as numbers of the n vertices and new ones behind those.
-    void weld(Triangles& triangles) const;
-    void weld(Indices& vertices) const;
+    // The number of one of these, or of a new one behind them, among the n vertices and new ones behind those.
     [[nodiscard]] int welded(int vertex) const;
 
     int old_count = 0;  // n

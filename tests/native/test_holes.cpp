@@ -67,16 +67,6 @@ TEST_CASE("short edges: vertices left out come back in their order") {
     CHECK(thin.left_out[0][1] + 1 == thin.left_out[1][1]);
 }
 
-TEST_CASE("fill: a second wall is refused where it comes all the same") {
-    Triangles around(3, 2);
-    around << 0, 2, 1, 1, 2, 3;
-    Triangles made(3, 2);
-    made << 0, 1, 1, 3, 4, 4;
-    refuse_doubles(made, around);
-    made.col(1) << 1, 2, 3;
-    CHECK_THROWS_AS(refuse_doubles(made, around), MeshError);
-}
-
 TEST_CASE("proportion: a search in vain gets no large mesh") {
     const Limit limit = Limit::of(210.0, 0);
     limit.check(20'000.0, {});

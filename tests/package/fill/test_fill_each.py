@@ -332,3 +332,13 @@ def test_a_crack_is_closed_without_new_vertices() -> None:
     (hole,) = (hole for hole in result.holes if hole.surface is not None)
     assert len(hole.loops[0]) == 12 and not len(result.vertices) and len(result.triangles) == 10
     assert not len(fairing.self_intersections(*whole(points, triangles, result)))
+
+
+def test_face_that_is_folded_back_over_the_border() -> None:
+    points, triangles = ball(1)
+    a, b = fairing.borders.hole_loops(points, triangles[(triangles != 20).all(axis=1)]).loops[0][:2]
+    points = np.vstack([points, 1.6 * points[a] + points[b] - points[20]])
+    triangles = np.vstack([triangles[(triangles != 20).all(axis=1)], [a, b, len(points) - 1]])
+    _, closed = whole(points, triangles, fairing.fill(points, triangles))
+    sides = np.sort(closed[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2))
+    assert (np.unique(sides, axis=0, return_counts=True)[1] == 2).all()  # not the face once more

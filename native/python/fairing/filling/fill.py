@@ -233,10 +233,10 @@ def fill(
     MeshError
         The first reason where no loop can be filled, or one of those that are to be joined is bad: NOT_A_LOOP,
         NO_BOUNDARY, NONMANIFOLD_VERTEX (loops that cross, or vertices of one boundary in one place or on its edges),
-        NONMANIFOLD_EDGE (also where the surface would double back onto a triangle that sticks out into a loop, or where
-        ``wires`` cross), NOT_A_HOLE (there are none but outer borders; or one that was named lies around a flat sheet,
-        which no surface closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED (one is turned; loops that no
-        surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE; ``elements`` are the vertices.
+        NONMANIFOLD_EDGE (also where ``wires`` cross), NOT_A_HOLE (there are none but outer borders; or one that was
+        named lies around a flat sheet, which no surface closes), OUT_OF_PROPORTION (``max_vertices``), LOOPS_NOT_JOINED
+        (one is turned; loops that no surface joins), ZERO_NORMAL, NORMALS_OPPOSE_WINDING, NONFINITE or INDEX_RANGE;
+        ``elements`` are the vertices.
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
