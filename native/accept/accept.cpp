@@ -32,7 +32,7 @@ bool is_behind(const Problem& problem, const Solution& solution) {
     return 2 * (angles.array() > turned_back).count() > (angles.array() > 0.0).count();
 }
 
-// Of some triangles those without fixed corners: a low-passed outline lies beside the surface.
+// Of some triangles those without fixed corners: a low-passed boundary lies beside the surface.
 Indices inside(const Patch& patch, Indices triangles) {
     std::erase_if(triangles, [&](int t) { return patch.triangles.col(t).maxCoeff() >= patch.free_count; });
     return triangles;
@@ -75,10 +75,11 @@ Indices crossings_of(const Problem& problem, Solution& solution) {
     return without(*solution.crossings, crossing_triangles(triangles, *problem.before));
 }
 
-// Where the next vertices were tried everywhere beside a low-passed outline, single triangles have no room: those folds
-// are the outline's own. Of 12 regions that kept any 10 kept less than 1 % of the outline's vertices, the worst 1.8 %.
+// Where the next vertices were tried everywhere beside a low-passed boundary, single triangles have no room: those
+// folds are the boundary's own. Of 12 regions that kept any 10 kept less than 1 % of the boundary's vertices, the
+// worst 1.8 %.
 Indices torn_beside(const Problem& problem, const Solution& solution) {
-    constexpr double most_forced = 0.02;  // of the outline's vertices
+    constexpr double most_forced = 0.02;  // of the boundary's vertices
     if (solution.provenance != Provenance::low_passed) return {};
     Indices torn = torn_triangles(problem.patch, solution.points);
     const bool forced =

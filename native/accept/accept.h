@@ -8,7 +8,7 @@
 namespace fairing {
 
 // What is wrong with a solution, if anything, whatever way it came. The checks, in this order: the iteration converged;
-// some area is left; the outline is not met from behind; there are no folds and no crossings that the surface itself
+// some area is left; the boundary is not met from behind; there are no folds and no crossings that the surface itself
 // does not have; the triangles can carry the equation; the iteration took no more steps than a right answer needs.
 // Names the bad triangles in the solution.
 Flaw flaw_of(const Problem& problem, Solution& solution);

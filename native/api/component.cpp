@@ -55,7 +55,7 @@ void weigh_by_distance(InnerWeights& weights, const Points& reference) {
 
 // Columns of the fixed points, one for each input vertex. An edge along a slit, with the component on both sides, has
 // two copies on the border.
-Indices outline_vertices(const Patch& patch) {
+Indices boundary_vertices(const Patch& patch) {
     std::map<std::array<int, 2>, int> copies;
     const auto in_input = [&](int e) {
         const auto [a, b] = patch.edge_ends[e];
@@ -91,9 +91,9 @@ Normalisation normalise(const Points& fixed_points) {
     return {centre, 2.0 * farthest};
 }
 
-double outline_radius(const Patch& patch, const Points& fixed_points) {
-    const Indices outline = outline_vertices(patch);
-    const Points points = outline.empty() ? fixed_points : fixed_points(Eigen::all, outline);
+double boundary_radius(const Patch& patch, const Points& fixed_points) {
+    const Indices boundary = boundary_vertices(patch);
+    const Points points = boundary.empty() ? fixed_points : fixed_points(Eigen::all, boundary);
     const Vector3 centre = points.rowwise().mean();
     return std::sqrt((points.colwise() - centre).colwise().squaredNorm().mean());
 }

@@ -22,7 +22,7 @@ Normalisation normalise(const Points& fixed_points);
 
 // a: the RMS distance of a component's boundary from its centroid. The boundary is the vertices of edges with the
 // component on one side only; all fixed vertices of a closed component that pins hold. 3 × fixed points.
-double outline_radius(const Patch& patch, const Points& fixed_points);
+double boundary_radius(const Patch& patch, const Points& fixed_points);
 
 // Columns belong to the input's vertices.
 struct ComponentData {

@@ -60,7 +60,7 @@ Normalisation checked_unit(const Patch& patch, const Points& fixed_points) {
 double load_in_units(const Patch& patch, const Points& fixed_points, double diameter, const FairOptions& options) {
     double load = 0.0;
     if (options.solver.load != 0.0) load = options.solver.load * std::pow(diameter, 3);
-    if (options.bulge != 0.0) load += 8.0 * options.bulge / std::pow(outline_radius(patch, fixed_points), 3);
+    if (options.bulge != 0.0) load += 8.0 * options.bulge / std::pow(boundary_radius(patch, fixed_points), 3);
     return load;
 }
 
@@ -88,33 +88,33 @@ bool ComponentSolver::keeps() const {
 
 ComponentAnswer ComponentSolver::solve(const ComponentData& data, const Progress& progress) {
     const bool wants_skin = options_.detail.share > 0.0;
-    if (!wants_skin) return solve_between(data, outline_as_given(data), progress);
+    if (!wants_skin) return solve_between(data, boundary_as_given(data), progress);
     skin_.read(data, options_.detail.size, progress);
-    const BaseOutline outline = skin_.found() ? skin_.outline(data) : outline_as_given(data);
-    ComponentAnswer answer = solve_between(data, outline, progress);
-    if (outline.moved && end_of(answer.solution) != Termination::converged) {
-        const BaseOutline rough = outline_as_given(data);
+    const BaseBoundary boundary = skin_.found() ? skin_.boundary(data) : boundary_as_given(data);
+    ComponentAnswer answer = solve_between(data, boundary, progress);
+    if (boundary.moved && end_of(answer.solution) != Termination::converged) {
+        const BaseBoundary rough = boundary_as_given(data);
         ComponentAnswer other = solve_between(data, rough, progress);
         if (end_of(other.solution) == Termination::converged) return dressed(std::move(other), data, rough, progress);
     }
-    return dressed(std::move(answer), data, outline, progress);
+    return dressed(std::move(answer), data, boundary, progress);
 }
 
-BaseOutline ComponentSolver::outline_as_given(const ComponentData& data) const {
+BaseBoundary ComponentSolver::boundary_as_given(const ComponentData& data) const {
     const auto fixed = fixed_vertices(patch_);
     return {gather(data.vertices, fixed), data.normals.gather(fixed)};
 }
 
 Points ComponentSolver::first_surface(const ComponentData& data, const Progress& progress) {
-    const ComponentAnswer answer = posed(data, outline_as_given(data));
+    const ComponentAnswer answer = posed(data, boundary_as_given(data));
     return answer.unit.from_unit(fairing::first_surface(answer.problem, progress));
 }
 
-ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseOutline& outline) {
-    const Normalisation unit = checked_unit(patch_, outline.points);
+ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseBoundary& boundary) {
+    const Normalisation unit = checked_unit(patch_, boundary.points);
     SolverOptions solver = options_.solver;
     solver.tolerance = std::max(solver.tolerance, least_tolerance);
-    ComponentAnswer answer{unit, {patch_, unit.to_unit(outline.points), outline.normals, {}, solver}, {}, {}, {}};
+    ComponentAnswer answer{unit, {patch_, unit.to_unit(boundary.points), boundary.normals, {}, solver}, {}, {}, {}};
     answer.problem.options.equation = equation_of(answer.problem, data);
     answer.problem.options.load = load_in_units(patch_, answer.problem.fixed_points, unit.diameter, options_);
     if (data.curvatures.size() > 0 && answer.problem.options.equation == Equation::harmonic) {
@@ -131,9 +131,9 @@ ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseOutl
     return answer;
 }
 
-ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseOutline& outline,
+ComponentAnswer ComponentSolver::solve_between(const ComponentData& data, const BaseBoundary& boundary,
                                                const Progress& progress) {
-    ComponentAnswer answer = posed(data, outline);
+    ComponentAnswer answer = posed(data, boundary);
     answer.solution = options_.method == Method::paper ? solve_by_paper(answer.problem, progress)
                                                        : solve_globally(answer, data, progress);
     return answer;
@@ -145,7 +145,7 @@ Equation ComponentSolver::equation_of(const Problem& problem, const ComponentDat
     if (asked != Equation::automatic) return equation_for(patch_, asked);
     // The paper's method has one equation for tubes, and one surface alone continues a curvature.
     const bool harmonic_alone = options_.method == Method::paper || data.curvatures.size() > 0;
-    const bool stays = keeps() && chosen_ && small_rotation(chosen_->outline, outline_of(problem));
+    const bool stays = keeps() && chosen_ && small_rotation(chosen_->boundary, boundary_of(problem));
     const Equation chosen = equation_for(patch_, stays && !harmonic_alone ? chosen_->equation : Equation::harmonic);
     chooses_ = !harmonic_alone && !stays && chosen == Equation::harmonic;
     return chosen;
@@ -168,8 +168,8 @@ void ComponentSolver::read_reference(const View<Points>& input, const Normalisat
     read_ = true;
 }
 
-ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
-                                         const Progress& progress) {
+ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data,
+                                         const BaseBoundary& boundary, const Progress& progress) {
     answer.warnings.insert(answer.warnings.end(), skin_.warnings().begin(), skin_.warnings().end());
     if (!skin_.found()) return answer;
     const Stopwatch watch;
@@ -178,7 +178,7 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
     answer.solution.crossings.reset();
     answer.solution.flipped.reset();
     Points base = answer.unit.from_unit(points);
-    base.rightCols(outline.points.cols()) = outline.points;
+    base.rightCols(boundary.points.cols()) = boundary.points;
     answer.dressed = skin_.put_back(data, base);
     if (!answer.dressed->detail.allFinite()) throw SolverError("the detail is not finite; nothing was changed");
     answer.dressed->detail *= options_.detail.share;
@@ -231,10 +231,10 @@ Solution ComponentSolver::solve_tangent(Problem& problem, const std::optional<Ne
     }
     Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
     if (!keeps()) return solution;
-    chosen_ = Chosen{outline_of(problem), problem.options.equation};
+    chosen_ = Chosen{boundary_of(problem), problem.options.equation};
     replaced_.reset();
     if (stands_in(solution.provenance) && end_of(solution) == Termination::converged)
-        replaced_ = Replaced{outline_of(problem), solution.provenance};
+        replaced_ = Replaced{boundary_of(problem), solution.provenance};
     // Other weights than those asked for were used: the next solve has to try again.
     if (solution.uniform_weights) {
         warm_.forget();
@@ -257,9 +257,9 @@ std::optional<Solution> ComponentSolver::solve_from(const Problem& problem, cons
     }
 }
 
-// The kind of surface stays what it was while an outline is dragged.
+// The kind of surface stays what it was while an boundary is dragged.
 std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem, const Progress& progress) {
-    if (!replaced_ || !small_rotation(replaced_->outline, outline_of(problem))) return warm_.solve(problem, progress);
+    if (!replaced_ || !small_rotation(replaced_->boundary, boundary_of(problem))) return warm_.solve(problem, progress);
     return solve_stand_in(problem, replaced_->kind, progress);
 }
 

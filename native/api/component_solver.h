@@ -38,25 +38,25 @@ public:
 
 private:
     struct Replaced {
-        Outline outline;
+        Boundary boundary;
         Provenance kind;
     };
     struct Chosen {
-        Outline outline;
+        Boundary boundary;
         Equation equation;
     };
     // Whether a solve starts from its last answer.
     [[nodiscard]] bool keeps() const;
     // `input`: M0, in the caller's units.
     void read_reference(const View<Points>& input, const Normalisation& unit);
-    [[nodiscard]] BaseOutline outline_as_given(const ComponentData& data) const;
+    [[nodiscard]] BaseBoundary boundary_as_given(const ComponentData& data) const;
     // The problem, in an answer without a solution.
-    [[nodiscard]] ComponentAnswer posed(const ComponentData& data, const BaseOutline& outline);
-    [[nodiscard]] ComponentAnswer solve_between(const ComponentData& data, const BaseOutline& outline,
+    [[nodiscard]] ComponentAnswer posed(const ComponentData& data, const BaseBoundary& boundary);
+    [[nodiscard]] ComponentAnswer solve_between(const ComponentData& data, const BaseBoundary& boundary,
                                                 const Progress& progress);
-    // With the detail put back; `outline`: that the answer was solved between.
-    [[nodiscard]] ComponentAnswer dressed(ComponentAnswer answer, const ComponentData& data, const BaseOutline& outline,
-                                          const Progress& progress);
+    // With the detail put back; `boundary`: that the answer was solved between.
+    [[nodiscard]] ComponentAnswer dressed(ComponentAnswer answer, const ComponentData& data,
+                                          const BaseBoundary& boundary, const Progress& progress);
     // Uniform where the reference is no surface.
     [[nodiscard]] InnerFairness fairness() const { return usable_ ? options_.inner_fairness : InnerFairness::uniform; }
     [[nodiscard]] Solution solve_by_paper(const Problem& problem, const Progress& progress) const;

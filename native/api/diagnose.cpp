@@ -17,7 +17,7 @@ namespace fairing {
 
 namespace {
 
-void warn_of_sharp_outline(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
+void warn_of_sharp_boundary(const Patch& patch, const Points& prescribed, Diagnostics& warnings) {
     constexpr double widest_turn = 20.0;  // degrees: 18 edges to a circle are not worth a word
     Indices sharp;
     double widest = 0.0;
@@ -99,7 +99,7 @@ Reason reason_of_join(const Solution& solution) {
 std::string_view reason_of(Pins pins) {
     switch (pins) {
         case Pins::too_close: return "some are nearer to each other than two radii; a smaller radius may do";
-        case Pins::no_outline: return "nothing but pins holds the surface";
+        case Pins::no_boundary: return "nothing but pins holds the surface";
         case Pins::curvature_met: return "the surface that continues the curvature of its surroundings takes no radius";
         case Pins::no_surface: return "the surface through the points was not found either";
         default: return "no acceptable surface was found with it";
@@ -328,7 +328,7 @@ void diagnose(const Patch& patch, const Solution& solution, const Points& prescr
     Indices flipped = solution.flipped ? *solution.flipped : flipped_triangles(patch, solution.points);
     Indices crossing = solution.crossings ? *solution.crossings : crossing_triangles(patch.triangles, solution.points);
     warn_of_folds(input_numbers(patch, std::move(flipped)), input_numbers(patch, std::move(crossing)), warnings);
-    warn_of_sharp_outline(patch, prescribed, warnings);
+    warn_of_sharp_boundary(patch, prescribed, warnings);
 }
 
 }  // namespace fairing

@@ -11,9 +11,9 @@ namespace fairing {
 
 enum class Method { global, paper };
 
-// Where a solve begins: the outline alone; the vertices given, where they lead to a surface; or, where the equation was
-// seen to have none, what was taken in its place.
-enum class Start { outline, given, least_variation, loft, smoothed };
+// Where a solve begins: the boundary alone; the vertices given, where they lead to a surface; or, where the equation
+// was seen to have none, what was taken in its place.
+enum class Start { boundary, given, least_variation, loft, smoothed };
 
 // What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
 // of the reference, whatever `inner_fairness` says.
@@ -24,9 +24,9 @@ struct DetailOptions {
 
 struct FairOptions {
     SolverOptions solver;  // the load in units of length⁻³
-    double bulge = 0.0;    // of the constant equation: adds 8 bulge / a³ to the load, a: the component's outline_radius
+    double bulge = 0.0;  // of the constant equation: adds 8 bulge / a³ to the load, a: the component's boundary_radius
     Method method = Method::global;
-    Start start = Start::outline;  // of Method::global
+    Start start = Start::boundary;  // of Method::global
     PaperOptions paper;
     InnerFairness inner_fairness = InnerFairness::uniform;
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
@@ -46,7 +46,7 @@ struct FairResult {
     Indices fixed;
     VectorX mean_curvature;  // eq. 8: −1/R on a sphere with outward normals; the mean of the sides on cut curves
     VectorX boundary_angle;  // degrees, in the order of `fixed`
-    VectorX join;            // likewise: how visible the outline is from the patch's side
+    VectorX join;            // likewise: how visible the boundary is from the patch's side
     std::optional<GirthRange> girth;  // the worst of all components between tube ends; nothing where there are none
     bool joins_curvature = true;      // G2, wherever a curvature was known
     bool converged = true;

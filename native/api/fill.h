@@ -15,7 +15,7 @@ struct FillOptions {
     bool bridge = false;           // one surface joins all loops
     bool in_rows = false;          // quads in rows, each as two triangles
     double spacing = 0.0;          // of new edges away from the boundary; 0: as long as its own
-    Spread spread = Spread::outline;
+    Spread spread = Spread::boundary;
     int max_vertices = 0;  // more are refused; 0: 20 times as many as over a flat surface, or 50,000, 4,000,000 at most
 };
 

@@ -65,7 +65,7 @@ void KeptSkin::read(const ComponentData& data, double size, const Progress& prog
     const Points old = unit_.to_unit(reference);
     if (old.allFinite() && !has_collapsed_fan(patch_, old)) {
         wavelength_ = size > 0.0 ? size : detail_wavelength(patch_, old);
-        just_read_ = low_pass_outline(data, data.reference);
+        just_read_ = low_pass_boundary(data, data.reference);
         skin_ = Skin::read(patch_, {old, unit_.to_unit(just_read_->points)}, wavelength_, progress.here());
     }
     if (!skin_) warn_of_missing_detail(warnings_);
@@ -73,10 +73,10 @@ void KeptSkin::read(const ComponentData& data, double size, const Progress& prog
     seconds_ += watch.seconds();
 }
 
-BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const View<Points>& given) const {
+BaseBoundary KeptSkin::low_pass_boundary(const ComponentData& data, const View<Points>& given) const {
     const auto fixed = fixed_vertices(patch_);
     const Points positions = given;
-    BaseOutline result{gather(positions, fixed), data.normals.gather(fixed)};
+    BaseBoundary result{gather(positions, fixed), data.normals.gather(fixed)};
     Indices places = places_at_rim(fixed, data.outside, positions.cols());
     if (places.empty() || !positions(Eigen::all, data.outside.reshaped()).allFinite()) return result;
     Indices rim;
@@ -103,20 +103,20 @@ BaseOutline KeptSkin::low_pass_outline(const ComponentData& data, const View<Poi
     return result;
 }
 
-BaseOutline KeptSkin::outline(const ComponentData& data) {
-    const std::optional<BaseOutline> read = std::exchange(just_read_, std::nullopt);
-    return read && data.reference == data.vertices ? *read : low_pass_outline(data, data.vertices);
+BaseBoundary KeptSkin::boundary(const ComponentData& data) {
+    const std::optional<BaseBoundary> read = std::exchange(just_read_, std::nullopt);
+    return read && data.reference == data.vertices ? *read : low_pass_boundary(data, data.vertices);
 }
 
 Dressed KeptSkin::put_back(const ComponentData& data, const Points& new_base) const {
     const int free = patch_.free_count;
     const auto fixed = fixed_vertices(patch_);
-    const Points at_outline =
+    const Points at_boundary =
         gather(data.vertices, fixed) - new_base.rightCols(static_cast<Eigen::Index>(fixed.size()));
     Dressed result{new_base, Points::Zero(3, new_base.cols()), {}};
-    result.detail.leftCols(free) = unit_.diameter * skin_->detail_on(new_base, at_outline / unit_.diameter);
+    result.detail.leftCols(free) = unit_.diameter * skin_->detail_on(new_base, at_boundary / unit_.diameter);
     Points shown = new_base + result.detail;
-    shown.rightCols(at_outline.cols()) += at_outline;
+    shown.rightCols(at_boundary.cols()) += at_boundary;
     result.turned_over = skin_->turned_over(new_base, shown);
     return result;
 }

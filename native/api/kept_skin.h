@@ -9,7 +9,7 @@
 namespace fairing {
 
 // Where a base meets its boundary: 3 × fixed vertices, in the caller's units.
-struct BaseOutline {
+struct BaseBoundary {
     Points points;
     Points normals;      // unit; zero at pins
     bool moved = false;  // whether it is not the boundary itself
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
     // Low-passed where triangles lie outside. The caller's normals are kept where they differ from those of the
     // triangles outside.
-    [[nodiscard]] BaseOutline outline(const ComponentData& data);
+    [[nodiscard]] BaseBoundary boundary(const ComponentData& data);
     [[nodiscard]] const Points& base() const { return skin_->base(); }
     // The detail on a new base (3 × local vertices, in the caller's units).
     [[nodiscard]] Dressed put_back(const ComponentData& data, const Points& new_base) const;
@@ -43,14 +43,14 @@ public:
     [[nodiscard]] double take_seconds() { return std::exchange(seconds_, 0.0); }
 
 private:
-    [[nodiscard]] BaseOutline low_pass_outline(const ComponentData& data, const View<Points>& given) const;
+    [[nodiscard]] BaseBoundary low_pass_boundary(const ComponentData& data, const View<Points>& given) const;
 
     const Patch& patch_;
     std::unique_ptr<Skin> skin_;
-    Points read_off_;                       // 3 × local vertices, the caller's
-    std::optional<BaseOutline> just_read_;  // data.reference's boundary, until `outline` is asked for
-    Normalisation unit_{};                  // of that
-    double wavelength_ = 0.0;               // share of D
+    Points read_off_;                        // 3 × local vertices, the caller's
+    std::optional<BaseBoundary> just_read_;  // data.reference's boundary, until `boundary` is asked for
+    Normalisation unit_{};                   // of that
+    double wavelength_ = 0.0;                // share of D
     double seconds_ = 0.0;
     Diagnostics warnings_;
 };

@@ -98,7 +98,7 @@ public:
         const Indices border = border_of(triangles_);
         const Limit most = Limit::of(flat_count(), options_.max_vertices);
         most.check(most.flat, border);
-        FairResult report = faired({points_, triangles_, input_.fixed, input_.fixed_normals}, Start::outline,
+        FairResult report = faired({points_, triangles_, input_.fixed, input_.fixed_normals}, Start::boundary,
                                    input_.fixed_curvatures, progress_.range(0.0, 0.4));
         const double first_seconds = watch_.lap();
         SolvedHole solved{surface_of(report), std::move(report)};

@@ -42,15 +42,15 @@ EdgeSet places_of(const VertexPairs& pairs, std::span<const int> vertices) {
 }
 
 // The vertices of some loops, numbered anew in the loops' order.
-struct OutlineData {
+struct BoundaryData {
     Indices to_input;
     std::vector<Indices> loops;
     Points points;
     Points normals;
 };
 
-OutlineData gathered(const OpenLoops& input, std::span<const int> chosen) {
-    OutlineData data;
+BoundaryData gathered(const OpenLoops& input, std::span<const int> chosen) {
+    BoundaryData data;
     std::vector<Vector3> normals;
     for (const int l : chosen) {
         Indices& loop = data.loops.emplace_back();
@@ -176,7 +176,7 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         part.report(0.0, "triangulation");
         Indices chosen{s};
         for (int l = 1; bridge && l < count; ++l) chosen.push_back(l);
-        const OutlineData data = gathered(input, chosen);
+        const BoundaryData data = gathered(input, chosen);
         const Normalisation unit = normalise(data.points);
         const Points points = unit.to_unit(data.points);
         const FirstSurface first = first_surface(

@@ -35,7 +35,7 @@ enum class Code {
     precision,
     g2_not_met,
     pins_not_spread,
-    outline_kept,
+    boundary_kept,
     not_a_loop,
     not_a_hole,
     loops_not_joined,

@@ -18,7 +18,7 @@ using Wanted = std::tuple<std::variant<double, VectorX>, int, bool, bool>;
 
 WantedLengths to_lengths(const Wanted& wanted) {
     const auto& [spacing, least_count, even, flat] = wanted;
-    const Spread spread = even ? Spread::equal : Spread::outline;
+    const Spread spread = even ? Spread::equal : Spread::boundary;
     if (const auto* each = std::get_if<VectorX>(&spacing)) return {0.0, least_count, spread, *each, flat};
     return {std::get<double>(spacing), least_count, spread, {}, flat};
 }

@@ -99,7 +99,7 @@ public:
         PythonRun run(callback);
         const auto& [bridge, in_rows, joins, spacing, is_even, most] = wishes;
         FillOptions options{
-            given.fair, given.held, joins, bridge, in_rows, spacing, is_even ? Spread::equal : Spread::outline, most};
+            given.fair, given.held, joins, bridge, in_rows, spacing, is_even ? Spread::equal : Spread::boundary, most};
         std::vector<std::optional<CurvesThrough>> curves(through.size());
         for (std::size_t k = 0; k < through.size(); ++k) {
             if (through[k]) curves[k] = made_of<CurvesThrough>(*through[k]);

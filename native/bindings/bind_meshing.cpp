@@ -37,7 +37,7 @@ void bind_meshing(py::module_& module) {
             const MeshInput input{vertices, triangles, fixed, normals, curvatures, outside, options.held};
             const auto& [spacing, is_even, in_rows, most] = wishes;
             return new_patch(input, kept,
-                             {options.fair, {spacing, 0, is_even ? Spread::equal : Spread::outline}, in_rows, most},
+                             {options.fair, {spacing, 0, is_even ? Spread::equal : Spread::boundary}, in_rows, most},
                              progress);
         },
         &from_patch);

@@ -20,8 +20,8 @@ void bind_parts(py::module_& module) {
          });
     bind(
         module, "visible_join", {"vertices", "inside", "outside", "outline", "before"},
-        [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& outline,
-           const MaybePoints& before) { return visible_join({vertices, inside, outside, before}, outline); },
+        [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& boundary,
+           const MaybePoints& before) { return visible_join({vertices, inside, outside, before}, boundary); },
         [](const VisibleJoin& join) { return shown(join); });
 }
 

@@ -16,6 +16,6 @@ PYBIND11_MODULE(_core, module) {
     fairing::bindings::bind_holes(module);
     fairing::bindings::bind_measure(module);
     fairing::bindings::bind_meshing(module);
-    fairing::bindings::bind_outline(module);
+    fairing::bindings::bind_boundary(module);
     fairing::bindings::bind_shape(module);
 }

@@ -11,7 +11,7 @@ void bind_fillet(pybind11::module_& module);
 void bind_holes(pybind11::module_& module);
 void bind_measure(pybind11::module_& module);
 void bind_meshing(pybind11::module_& module);
-void bind_outline(pybind11::module_& module);
+void bind_boundary(pybind11::module_& module);
 void bind_shape(pybind11::module_& module);
 
 }  // namespace fairing::bindings

@@ -30,7 +30,7 @@ struct Words {
 
 inline constexpr Words<Method, 2> method_words{"method", {{{"global", Method::global}, {"paper", Method::paper}}}};
 inline constexpr Words<Start, 5> solve_start_words{"start",
-                                                   {{{"outline", Start::outline},
+                                                   {{{"outline", Start::boundary},
                                                      {"given", Start::given},
                                                      {"least_variation", Start::least_variation},
                                                      {"loft", Start::loft},

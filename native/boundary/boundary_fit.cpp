@@ -23,10 +23,10 @@ VertexPairs without(const VertexPairs& all, const VertexPairs& some) {
     return rest;
 }
 
-// Places in `vertices` of those all of whose outline edges are among `chosen`.
-Indices places_between(const VertexPairs& chosen, const VertexPairs& outline, const Indices& vertices,
+// Places in `vertices` of those all of whose boundary edges are among `chosen`.
+Indices places_between(const VertexPairs& chosen, const VertexPairs& boundary, const Indices& vertices,
                        Eigen::Index count) {
-    const Indices all = counts_at(outline, count);
+    const Indices all = counts_at(boundary, count);
     const Indices own = counts_at(chosen, count);
     Indices places;
     for (int k = 0; k < static_cast<int>(vertices.size()); ++k) {
@@ -65,7 +65,7 @@ BoundaryNormals boundary_normals(const Surroundings& given, const Indices& verti
     both << whole, given.outside;
     const auto [points, size] = to_unit_size(given.points, both);
     const PatchInMesh mesh{points, within, beyond, whole};
-    const VertexPairs outline = outline_edges(mesh);
+    const VertexPairs boundary = boundary_edges(mesh);
     SurroundingFit fit = blank_fit(points, beyond, vertices, size);
     fit.fits.resize(vertices.size());
     Indices all(vertices.size());
@@ -73,15 +73,15 @@ BoundaryNormals boundary_normals(const Surroundings& given, const Indices& verti
     SidedFits outside(points, beyond, vertices, creases);
     take(outside, vertices, all, fit);
     const bool is_automatic = rule == SideRule::automatic;
-    const Walls walls = is_automatic ? walls_of(mesh, {vertices, fit.fits, outside.hard()}) : Walls{outline, points};
+    const Walls walls = is_automatic ? walls_of(mesh, {vertices, fit.fits, outside.hard()}) : Walls{boundary, points};
     BoundaryNormals result;
     result.from_inside.assign(vertices.size(), 0);
     if (!walls.edges.empty()) {
-        const Indices places = places_between(walls.edges, outline, vertices, points.cols());
+        const Indices places = places_between(walls.edges, boundary, vertices, points.cols());
         for (int k : places) result.from_inside[k] = 1;
         SidedFits rest(points, beyond, vertices, creases, walls.edges);
         take(rest, vertices, all, fit);
-        const VertexPairs others = without(outline, walls.edges);
+        const VertexPairs others = without(boundary, walls.edges);
         SurroundingFit film = fit;
         SidedFits free(walls.film, within, vertices, creases, others);
         take(free, vertices, places, film);

@@ -21,8 +21,8 @@ struct BoundaryNormals {
 };
 
 // At `vertices`, which don't move. `automatic`: along walls (walls_of) the slope is that of the patch's own triangles
-// where these are clean, else that of a film over the boundary. `inside`: all outline edges take that of the patch's
-// own triangles. A vertex between edges of both kinds takes the slope outside. One that is on no outline edge, too.
+// where these are clean, else that of a film over the boundary. `inside`: all boundary edges take that of the patch's
+// own triangles. A vertex between edges of both kinds takes the slope outside. One that is on no boundary edge, too.
 BoundaryNormals boundary_normals(const Surroundings& mesh, const Indices& vertices, const VertexPairs& creases,
                                  SideRule rule);
 

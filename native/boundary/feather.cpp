@@ -20,7 +20,7 @@ std::vector<Edge> shared_edges(const Triangles& inside, const Triangles& outside
     return shared;
 }
 
-// A walk from the outline outwards, the nearest first: from vertex to vertex goes the nearest edge, with those next to
+// A walk from the boundary outwards, the nearest first: from vertex to vertex goes the nearest edge, with those next to
 // it.
 class Walk {
 public:

@@ -13,10 +13,10 @@ constexpr double least_noise = 0.02;  // edges
 constexpr double farthest = 0.25;     // edges
 constexpr int rings_outside = 2;      // that follow
 
-// How much of the way each vertex goes: 1 on the outline, ⅔ and ⅓ on the rings outside, 0 beyond.
-VectorX shares(const Triangles& triangles, const Indices& outline, Eigen::Index count) {
+// How much of the way each vertex goes: 1 on the boundary, ⅔ and ⅓ on the rings outside, 0 beyond.
+VectorX shares(const Triangles& triangles, const Indices& boundary, Eigen::Index count) {
     VectorX share = VectorX::Zero(count);
-    share(outline).setOnes();
+    share(boundary).setOnes();
     for (int ring = 1; ring <= rings_outside; ++ring) {
         const VectorX before = share;
         const double here = 1.0 - ring / (rings_outside + 1.0);
@@ -83,7 +83,7 @@ Indices hold_folds(const Points& points, const Triangles& triangles, Points& mov
 constexpr double least_error = 0.15;    // radians
 constexpr double least_height = 0.3;    // edges
 constexpr double times_median = 4.0;    // what is usual along this boundary
-constexpr double largest_share = 0.15;  // of the outline
+constexpr double largest_share = 0.15;  // of the boundary
 
 // Of the places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.
 struct Doubts {
@@ -106,11 +106,11 @@ Doubts doubts_of(const SurroundingFit& fit) {
 
 }  // namespace
 
-FittedBoundary fitted_boundary(const Points& points, const Triangles& triangles, const Indices& outline) {
-    const SurroundingFit fit = fit_surroundings(points, triangles, outline);
+FittedBoundary fitted_boundary(const Points& points, const Triangles& triangles, const Indices& boundary) {
+    const SurroundingFit fit = fit_surroundings(points, triangles, boundary);
     FittedBoundary result{points, {}, {}, noise_of(fit), normals_of(fit)};
     if (result.noise < least_noise) return result;
-    Points move = moves(points, triangles, shares(triangles, outline, points.cols()));
+    Points move = moves(points, triangles, shares(triangles, boundary, points.cols()));
     result.held = hold_folds(points, triangles, move);
     for (int v = 0; v < move.cols(); ++v) {
         if (move.col(v).isZero(0.0)) continue;

@@ -13,11 +13,11 @@ struct FittedBoundary {
     SurroundingNormals normals;  // at the boundary
 };
 
-// Moves each vertex of `outline` onto the fit of `triangles` (those outside it). The two rings of vertices outside move
-// by ⅔ and ⅓ of the distance to their fits. None moves by more than a quarter of its edges' mean length. Nothing moves
-// where the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices whose
-// move would turn a triangle over are held.
-FittedBoundary fitted_boundary(const Points& points, const Triangles& triangles, const Indices& outline);
+// Moves each vertex of `boundary` onto the fit of `triangles` (those outside it). The two rings of vertices outside
+// move by ⅔ and ⅓ of the distance to their fits. None moves by more than a quarter of its edges' mean length. Nothing
+// moves where the noise is less than a fiftieth of an edge: heights there are the fit's error, not the mesh's. Vertices
+// whose move would turn a triangle over are held.
+FittedBoundary fitted_boundary(const Points& points, const Triangles& triangles, const Indices& boundary);
 
 // Places in the list of vertices, ascending. A vertex is bad if its fit's standard error is above .15 rad and four
 // times the median, or if it lies farther from its fit than .3 edges and four times the median. Noise everywhere makes

@@ -42,26 +42,26 @@ Points across(const Points& curve, const Points& normals, const Points& otherwis
     return result;
 }
 
-double mean_edge_of(const Patch& patch, const OutlineData& outline, const Indices& loop) {
+double mean_edge_of(const Patch& patch, const BoundaryData& boundary, const Indices& loop) {
     double sum = 0.0;
     for (std::size_t k = 0; k < loop.size(); ++k) {
         const int next = loop[(k + 1) % loop.size()];
-        sum += (outline.points.col(next - patch.free_count) - outline.points.col(loop[k] - patch.free_count)).norm();
+        sum += (boundary.points.col(next - patch.free_count) - boundary.points.col(loop[k] - patch.free_count)).norm();
     }
     return sum / static_cast<double>(loop.size());
 }
 
 }  // namespace
 
-double outline_variation(const Patch& patch, const OutlineData& outline) {
+double boundary_variation(const Patch& patch, const BoundaryData& boundary) {
     double sum = 0.0;
     for (const Indices& loop : patch.loops()) {
-        const double least = std::pow(least_reported * mean_edge_of(patch, outline, loop), 4.0);
+        const double least = std::pow(least_reported * mean_edge_of(patch, boundary, loop), 4.0);
         for (std::size_t k = 0; k < loop.size(); ++k) {
             const int a = loop[k] - patch.free_count;
             const int b = loop[(k + 1) % loop.size()] - patch.free_count;
-            const Vector3 edge = outline.points.col(b) - outline.points.col(a);
-            const double turn = (outline.normals.col(a) + outline.normals.col(b)).dot(edge);
+            const Vector3 edge = boundary.points.col(b) - boundary.points.col(a);
+            const double turn = (boundary.normals.col(a) + boundary.normals.col(b)).dot(edge);
             const double fourth = edge.squaredNorm() * edge.squaredNorm();
             if (fourth > least) sum += 36.0 * turn * turn / fourth;
         }
@@ -69,14 +69,14 @@ double outline_variation(const Patch& patch, const OutlineData& outline) {
     return sum;
 }
 
-OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, double wave) {
-    OutlineData result = outline;
+BoundaryData low_passed_boundary(const Patch& patch, const BoundaryData& boundary, double wave) {
+    BoundaryData result = boundary;
     for (Indices loop : patch.loops()) {
         if (static_cast<double>(loop.size()) <= wave) continue;
         for (int& v : loop) v -= patch.free_count;
         const Eigen::SimplicialLDLT<SparseMatrix> factor(low_pass(static_cast<int>(loop.size()), wave));
-        const Points given = outline.normals(Eigen::all, loop);
-        const Points points = factor.solve(outline.points(Eigen::all, loop).transpose()).transpose();
+        const Points given = boundary.normals(Eigen::all, loop);
+        const Points points = factor.solve(boundary.points(Eigen::all, loop).transpose()).transpose();
         const Points normals = factor.solve(given.transpose()).transpose();
         result.points(Eigen::all, loop) = points;
         result.normals(Eigen::all, loop) = across(points, normals, given);

@@ -7,7 +7,7 @@
 namespace fairing {
 
 // Positions of a patch's fixed vertices and unit normals there, each 3 × fixed count.
-struct OutlineData {
+struct BoundaryData {
     Points points;
     Points normals;
 };
@@ -15,12 +15,12 @@ struct OutlineData {
 // How much any surface with this boundary has to vary: (dκ/ds)² along the boundary's edges, each over a square on it,
 // with dκ/ds = 6 ⟨n_i + n_j, e⟩ / |e|³ along an edge e. Zero for boundary loops on spheres and cylinders; in units of
 // length⁻².
-double outline_variation(const Patch& patch, const OutlineData& outline);
+double boundary_variation(const Patch& patch, const BoundaryData& boundary);
 
 // The boundary without its short waves: along each loop positions and normals minimise Σ |x − x₀|² + μ Σ |δ²x|², which
 // halves waves of `wave` vertices, and normals are then at right angles to it. Loops of no more than `wave` vertices
 // and what lies on no loop stay.
-OutlineData low_passed_boundary(const Patch& patch, const OutlineData& outline, double wave);
+BoundaryData low_passed_boundary(const Patch& patch, const BoundaryData& boundary, double wave);
 
 // Every vertex of the triangles that is not held at the mean of its neighbours: discs over flat loops are flat.
 // Vertices that hang together with no held one stay.

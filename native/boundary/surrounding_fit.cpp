@@ -18,8 +18,8 @@ Indices first_places(const Indices& vertices, Eigen::Index count) {
     return place;
 }
 
-OutlineEdges border_edges(const Triangles& triangles, const Indices& place) {
-    OutlineEdges sides;
+BoundaryEdges border_edges(const Triangles& triangles, const Indices& place) {
+    BoundaryEdges sides;
     for (const auto t : triangles.colwise()) {
         for (int k = 0; k < 3; ++k) {
             const int a = place[t[k]];
@@ -28,7 +28,7 @@ OutlineEdges border_edges(const Triangles& triangles, const Indices& place) {
         }
     }
     std::sort(sides.begin(), sides.end());
-    OutlineEdges border;
+    BoundaryEdges border;
     for (auto first = sides.begin(); first != sides.end();) {
         const auto last = std::upper_bound(first, sides.end(), *first);
         if (last - first == 1) border.push_back(*first);

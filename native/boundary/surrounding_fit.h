@@ -8,7 +8,7 @@
 namespace fairing {
 
 // Edges of a boundary, as places in the list of vertices that were asked for.
-using OutlineEdges = std::vector<std::array<int, 2>>;
+using BoundaryEdges = std::vector<std::array<int, 2>>;
 
 struct SurroundingFit {
     std::vector<std::optional<SlopeFit>> fits;  // of each vertex asked for, in units of `size`
@@ -17,7 +17,7 @@ struct SurroundingFit {
     Points averaged;                            // 3 × k: unit mean normals of the adjacent triangles, zero without any
     VectorX lengths;                            // k: mean lengths of the adjacent edges, likewise; zero without any
     Indices first;                              // k: the first place of the same vertex
-    OutlineEdges edges;                         // border edges between first places, each once
+    BoundaryEdges edges;                        // border edges between first places, each once
     double size = 1.0;                          // of the coordinates
 };
 

@@ -330,7 +330,7 @@ private:
 
 }  // namespace
 
-VertexPairs outline_edges(const PatchInMesh& mesh) {
+VertexPairs boundary_edges(const PatchInMesh& mesh) {
     VertexPairs result;
     const EdgeTable outside = make_edges(mesh.outside, static_cast<int>(mesh.points.cols()));
     for (const Meeting& edge : meetings(mesh, outside)) result.push_back(edge.ends);

@@ -15,7 +15,7 @@ struct PatchInMesh {
 };
 
 // All edges with one triangle on either side, smaller index first, ascending.
-VertexPairs outline_edges(const PatchInMesh& mesh);
+VertexPairs boundary_edges(const PatchInMesh& mesh);
 
 // What the triangles outside say along a boundary.
 struct RimFits {
@@ -29,7 +29,7 @@ struct Walls {
     Points film;  // closing_surface over the vertices that don't move; empty without any wall
 };
 
-// The outline edges at which the surroundings are walls. A film over the boundary dips below their tangents there, and
+// The boundary edges at which the surroundings are walls. A film over the boundary dips below their tangents there, and
 // their curvature does not explain it: on a ball, curvature times distance to the loop's middle is the sine of the dip,
 // on the sides of boxes, cans and cones it is nearly nothing. Or their first two rows lie on an arc that curves more
 // than any ball that spans the loop, and goes on in the film: a bevel. Between several loops the way to the next one

@@ -33,7 +33,7 @@ FillOptions to_fill_options(const fairing_fill_options& given) {
     options.fair = to_options(given.surface);
     options.bridge = given.bridge != 0;
     options.spacing = given.spacing;
-    options.spread = given.spacing > 0.0 ? Spread::equal : Spread::outline;
+    options.spread = given.spacing > 0.0 ? Spread::equal : Spread::boundary;
     options.max_vertices = given.max_vertices;
     return options;
 }

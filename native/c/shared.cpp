@@ -124,18 +124,18 @@ MeshInput SelectedMesh::input(std::string_view side) const {
     std::set<int> border;
     for (const Indices& loop : boundary_loops(inside, static_cast<int>(points.cols())))
         border.insert(loop.begin(), loop.end());
-    const Indices outline(border.begin(), border.end());
+    const Indices boundary(border.begin(), border.end());
     require(side == "outside" || side == "inside" || side == "automatic",
             "options.side: outside, inside or automatic is needed");
     const SideRule rule = side == "inside" ? SideRule::inside : SideRule::automatic;
     const SurroundingNormals found = side == "outside"
-                                         ? surrounding_normals(points, outside, outline, {})
-                                         : boundary_normals({points, inside, outside}, outline, {}, rule).normals;
+                                         ? surrounding_normals(points, outside, boundary, {})
+                                         : boundary_normals({points, inside, outside}, boundary, {}, rule).normals;
     Indices known;
-    for (int k = 0; k < static_cast<int>(outline.size()); ++k)
+    for (int k = 0; k < static_cast<int>(boundary.size()); ++k)
         if (found.normals.col(k).squaredNorm() > 0.0) known.push_back(k);
     const Points normals = found.normals(Eigen::all, known);
-    for (int& place : known) place = outline[place];
+    for (int& place : known) place = boundary[place];
     return {points, inside, known, normals, std::nullopt, outside};
 }
 

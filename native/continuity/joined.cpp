@@ -29,17 +29,17 @@ bool varies_wildly(const Problem& problem, const Solution& joined, const Solutio
     return !(joined.mean_curvature.cwiseAbs().maxCoeff() <= most * std::max(given, before));
 }
 
-// What the tangent join's curvature lacks at the outline, of the largest |H| there or of 1/D.
+// What the tangent join's curvature lacks at the boundary, of the largest |H| there or of 1/D.
 double relative_size(const KnownCurvature& known, const VectorX& missing) {
     double count = 0.0;
-    for (const OutlineCurve& curve : known.curves) count += static_cast<double>(curve.places.size());
+    for (const BoundaryCurve& curve : known.curves) count += static_cast<double>(curve.places.size());
     const double scale = std::max(1.0, known.values.cwiseAbs().maxCoeff());
     return missing.norm() / (scale * std::sqrt(count));
 }
 
 // Its waves of twelve vertices and more: half as fast as the fastest ones. Of white noise they are a sixth.
 VectorX smooth_part(const Problem& problem, const KnownCurvature& known, const VectorX& missing) {
-    const OutlineModes modes(known.curves, problem.fixed_points, 2 * fastest_wave);
+    const BoundaryModes modes(known.curves, problem.fixed_points, 2 * fastest_wave);
     return modes.combined(modes.projected(missing));
 }
 
@@ -56,7 +56,7 @@ std::optional<Solution> acceptable(const Problem& problem, const KnownCurvature&
     return found;
 }
 
-// With the fastest waves of H first. On outlines in steps these may not answer to the multipliers, and the iteration
+// With the fastest waves of H first. On boundaries in steps these may not answer to the multipliers, and the iteration
 // does not settle: long waves do, and meet what is smooth of H as well.
 std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
                                        const Progress& progress) {
@@ -153,7 +153,7 @@ private:
     const Patch& patch_;
     const KnownCurvature& known_;
     const Progress& progress_;
-    OutlineModes modes_;
+    BoundaryModes modes_;
     JoinOperator operator_;
     std::unique_ptr<TangentialStep> tangential_;
     Anderson anderson_;
@@ -193,11 +193,11 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     return std::move(*found);
 }
 
-JoinOperator::JoinOperator(const Patch& patch, const Points& fixed_points, const OutlineModes& modes, Points layout)
+JoinOperator::JoinOperator(const Patch& patch, const Points& fixed_points, const BoundaryModes& modes, Points layout)
     : modes_(modes),
       laplace_(patch, std::move(layout)),
       coupling_(patch),
-      outline_(patch, fixed_points),
+      boundary_(patch, fixed_points),
       free_mass_(patch.free_count),
       fixed_mass_(fixed_points.cols()) {}
 
@@ -205,13 +205,13 @@ bool JoinOperator::update(const Stiffness& stiffness, const Progress& progress) 
     coupling_.update(stiffness);
     free_mass_ = 4.0 * stiffness.mass.head(free_mass_.size());
     fixed_mass_ = 4.0 * stiffness.mass.tail(fixed_mass_.size());
-    if (!outline_.update(fixed_mass_) || !laplace_.update(stiffness, progress)) return false;
+    if (!boundary_.update(fixed_mass_) || !laplace_.update(stiffness, progress)) return false;
     beside_ = laplace_.factor().reach(coupling_.beside());
     return true;
 }
 
-VectorX JoinOperator::lifted(const VectorX& outline) const {
-    return laplace_.factor().solve_vector(coupling_.spread(outline.transpose()), beside_);
+VectorX JoinOperator::lifted(const VectorX& boundary) const {
+    return laplace_.factor().solve_vector(coupling_.spread(boundary.transpose()), beside_);
 }
 
 VectorX JoinOperator::turned(const VectorX& field) const {
@@ -228,7 +228,7 @@ VectorX JoinOperator::applied(const VectorX& unknowns) const {
     const VectorX source = coupling_.spread(change.transpose()) + 0.25 * free_mass_.cwiseProduct(kappa);
     const VectorX first = fixed_mass_.cwiseProduct(change) + turned(laplace_.factor().solve_vector(source));
     VectorX rows(unknowns.size());
-    rows << outline_.approximate_inverse(first.transpose()).transpose(), modes_.projected(change);
+    rows << boundary_.approximate_inverse(first.transpose()).transpose(), modes_.projected(change);
     return rows;
 }
 
@@ -245,7 +245,7 @@ JoinOperator::Step JoinOperator::solve(const VectorX& residual, const VectorX& m
     const SparseCholesky& factor = laplace_.factor();
     const VectorX inner = factor.solve_vector(residual);
     VectorX rhs(fixed_mass_.size() + modes_.count());
-    rhs << -outline_.approximate_inverse(turned(inner).transpose()).transpose(), modes_.projected(missing);
+    rhs << -boundary_.approximate_inverse(turned(inner).transpose()).transpose(), modes_.projected(missing);
     const VectorX unknowns =
         gmres([&](const VectorX& v) { return applied(v); }, [&](const VectorX& v) { return preconditioned(v); }, rhs,
               relative_tolerance, most_cycles);

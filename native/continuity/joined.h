@@ -3,17 +3,17 @@
 
 #include "base/progress.h"
 #include "continuity/known_curvature.h"
+#include "operators/boundary_system.h"
 #include "operators/normal_operator.h"
-#include "operators/outline_system.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
 
 namespace fairing {
 
 // Of the squares of what the tangent join's curvature lacks, the least share in waves of twelve vertices and more. What
-// is rough comes from noise in the outline or its surroundings, or from an outline in steps, and a surface that follows
-// it is only wavier. With noise in the H of a torus, an ellipsoid and a cubic cylinder, errors shrank by a quarter and
-// more wherever the share was above a third, and grew in some cases below a quarter.
+// is rough comes from noise in the boundary or its surroundings, or from an boundary in steps, and a surface that
+// follows it is only wavier. With noise in the H of a torus, an ellipsoid and a cubic cylinder, errors shrank by a
+// quarter and more wherever the share was above a third, and grew in some cases below a quarter.
 inline constexpr double least_smooth_share = 1.0 / 3.0;
 
 // `tangent`: the answer with Δ_B H = 0. It comes back bit for bit where it has the curvature already, to a hundredth,
@@ -32,7 +32,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
 class JoinOperator {
 public:
     // `layout`: about where the free vertices are (3 × free count). The modes must outlive the operator.
-    JoinOperator(const Patch& patch, const Points& fixed_points, const OutlineModes& modes, Points layout);
+    JoinOperator(const Patch& patch, const Points& fixed_points, const BoundaryModes& modes, Points layout);
 
     // Factorises A for a surface. False where it is not positive definite.
     [[nodiscard]] bool update(const Stiffness& stiffness, const Progress& progress);
@@ -49,16 +49,16 @@ public:
 
 private:
     // A⁻¹ C.
-    [[nodiscard]] VectorX lifted(const VectorX& outline) const;
+    [[nodiscard]] VectorX lifted(const VectorX& boundary) const;
     // Cᵀ A⁻¹ D.
     [[nodiscard]] VectorX turned(const VectorX& field) const;
     [[nodiscard]] VectorX applied(const VectorX& unknowns) const;
     [[nodiscard]] VectorX preconditioned(const VectorX& rows) const;
 
-    const OutlineModes& modes_;
+    const BoundaryModes& modes_;
     LaplaceOperator laplace_;
-    OutlineCoupling coupling_;
-    OutlineSystem outline_;
+    BoundaryCoupling coupling_;
+    BoundarySystem boundary_;
     VectorX free_mass_;   // D
     VectorX fixed_mass_;  // 4M_B
     FrontReach beside_;

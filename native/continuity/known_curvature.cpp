@@ -2,14 +2,14 @@
 
 #include "geometry/limits.h"
 #include "geometry/triangle.h"
-#include "operators/outline_system.h"
+#include "operators/boundary_system.h"
 
 namespace fairing {
 
 namespace {
 
 // Lengths of the edges from each vertex to the next one; on an open curve the last one repeats.
-VectorX edge_lengths(const OutlineCurve& curve, const Points& points) {
+VectorX edge_lengths(const BoundaryCurve& curve, const Points& points) {
     const auto count = static_cast<Eigen::Index>(curve.places.size());
     VectorX lengths(count);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -43,7 +43,7 @@ VectorX parameters(const VectorX& lengths, const VectorX& spacing) {
 
 // The nearest place in that direction that is not skipped, as its value and how far it is; infinitely far where there
 // is none.
-std::pair<double, double> nearest(const OutlineCurve& curve, const VectorX& given, int place, int direction) {
+std::pair<double, double> nearest(const BoundaryCurve& curve, const VectorX& given, int place, int direction) {
     const auto count = static_cast<int>(curve.places.size());
     for (int away = 1; away < count; ++away) {
         const int there = place + direction * away;
@@ -86,7 +86,7 @@ void bridge(const Indices& loop, VectorX& curvatures) {
 }
 
 // The known arcs of a loop that begins with one.
-void split(const Indices& loop, const VectorX& curvatures, std::vector<OutlineCurve>& curves) {
+void split(const Indices& loop, const VectorX& curvatures, std::vector<BoundaryCurve>& curves) {
     const auto is_known = [&](int place) { return std::isfinite(curvatures[place]); };
     if (std::all_of(loop.begin(), loop.end(), is_known)) {
         curves.push_back({loop, true, {}});
@@ -114,7 +114,7 @@ std::vector<char> corners_of(const Patch& patch, const Points& points) {
 
 }  // namespace
 
-VectorX values_along(const OutlineCurve& curve, const VectorX& values) {
+VectorX values_along(const BoundaryCurve& curve, const VectorX& values) {
     const VectorX given = values(curve.places);
     if (curve.skipped.empty()) return given;
     VectorX result = given;
@@ -128,12 +128,13 @@ VectorX values_along(const OutlineCurve& curve, const VectorX& values) {
     return result;
 }
 
-OutlineModes::OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points, int vertices_per_wave)
+BoundaryModes::BoundaryModes(const std::vector<BoundaryCurve>& curves, const Points& fixed_points,
+                             int vertices_per_wave)
     : fixed_count_(fixed_points.cols()) {
-    for (const OutlineCurve& curve : curves) add_curve(curve, fixed_points, vertices_per_wave);
+    for (const BoundaryCurve& curve : curves) add_curve(curve, fixed_points, vertices_per_wave);
 }
 
-void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_points, int vertices_per_wave) {
+void BoundaryModes::add_curve(const BoundaryCurve& curve, const Points& fixed_points, int vertices_per_wave) {
     const auto vertices = static_cast<Eigen::Index>(curve.places.size());
     const VectorX lengths = edge_lengths(curve, fixed_points);
     const VectorX spacing = evened(lengths, curve.closed);
@@ -160,32 +161,33 @@ void OutlineModes::add_curve(const OutlineCurve& curve, const Points& fixed_poin
     curves_.push_back(std::move(made));
 }
 
-VectorX OutlineModes::combined(const VectorX& coefficients) const {
+VectorX BoundaryModes::combined(const VectorX& coefficients) const {
     VectorX values = VectorX::Zero(fixed_count_);
     Eigen::Index first = 0;
     for (const Curve& curve : curves_) {
-        values(curve.outline.places) += curve.waves * coefficients.segment(first, curve.waves.cols());
+        values(curve.boundary.places) += curve.waves * coefficients.segment(first, curve.waves.cols());
         first += curve.waves.cols();
     }
     return values;
 }
 
-VectorX OutlineModes::projected(const VectorX& values) const {
+VectorX BoundaryModes::projected(const VectorX& values) const {
     VectorX coefficients(count_);
     Eigen::Index first = 0;
     for (const Curve& curve : curves_) {
-        coefficients.segment(first, curve.waves.cols()) = curve.waves.transpose() * values_along(curve.outline, values);
+        coefficients.segment(first, curve.waves.cols()) =
+            curve.waves.transpose() * values_along(curve.boundary, values);
         first += curve.waves.cols();
     }
     return coefficients;
 }
 
-VectorX OutlineModes::multipliers(const VectorX& coefficients) const {
+VectorX BoundaryModes::multipliers(const VectorX& coefficients) const {
     VectorX values = VectorX::Zero(fixed_count_);
     Eigen::Index first = 0;
     for (const Curve& curve : curves_) {
         const VectorX weighed = curve.symbol.cwiseProduct(coefficients.segment(first, curve.waves.cols()));
-        values(curve.outline.places) += curve.inverse_square.cwiseProduct(curve.waves * weighed);
+        values(curve.boundary.places) += curve.inverse_square.cwiseProduct(curve.waves * weighed);
         first += curve.waves.cols();
     }
     return values;
@@ -193,7 +195,7 @@ VectorX OutlineModes::multipliers(const VectorX& coefficients) const {
 
 VectorX KnownCurvature::missing(const VectorX& curvatures) const {
     VectorX result = VectorX::Zero(curvatures.size());
-    for (const OutlineCurve& curve : curves) result(curve.places) = values_along(curve, values - curvatures);
+    for (const BoundaryCurve& curve : curves) result(curve.places) = values_along(curve, values - curvatures);
     return result;
 }
 
@@ -208,7 +210,7 @@ KnownCurvature known_curvature(const Patch& patch, const Points& points, const V
         known.unknown.insert(known.unknown.end(), loop.begin(), loop.end());
     }
     std::vector<char> covered(static_cast<std::size_t>(curvatures.size()), 0);
-    for (OutlineCurve& curve : known.curves) {
+    for (BoundaryCurve& curve : known.curves) {
         for (int place : curve.places) {
             curve.skipped.push_back(corners[place]);
             covered[place] = 1;

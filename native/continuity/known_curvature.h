@@ -6,14 +6,14 @@
 namespace fairing {
 
 // A piece of a boundary: fixed vertices, counted from the first one, in their order.
-struct OutlineCurve {
+struct BoundaryCurve {
     Indices places;
     bool closed;
     std::vector<char> skipped = {};  // places where the measured value is meaningless; empty: none
 };
 
 // Values (of the fixed vertices) at the places of a curve, interpolated at those that are skipped. Where all are, zero.
-VectorX values_along(const OutlineCurve& curve, const VectorX& values);
+VectorX values_along(const BoundaryCurve& curve, const VectorX& values);
 
 // Vertices of the fastest wave along a boundary: faster ones change the curvature that is measured there in a way that
 // depends on the mesh. Shorter arcs have none.
@@ -21,11 +21,11 @@ inline constexpr int fastest_wave = 6;
 
 // Waves along the boundary. Closed curves have sines and cosines, open ones sines that vanish
 // beyond their ends. Crowded vertices have shorter waves.
-class OutlineModes {
+class BoundaryModes {
 public:
     // `fixed_points`: 3 × fixed vertices. The fastest wave has so many vertices.
-    OutlineModes(const std::vector<OutlineCurve>& curves, const Points& fixed_points,
-                 int vertices_per_wave = fastest_wave);
+    BoundaryModes(const std::vector<BoundaryCurve>& curves, const Points& fixed_points,
+                  int vertices_per_wave = fastest_wave);
 
     [[nodiscard]] Eigen::Index count() const { return count_; }
     // U c, zero off the curves. The columns of U are nearly orthonormal.
@@ -38,13 +38,13 @@ public:
 
 private:
     struct Curve {
-        OutlineCurve outline;
+        BoundaryCurve boundary;
         Eigen::MatrixXd waves;
         VectorX symbol;          // of each wave, for spacing one
         VectorX inverse_square;  // of the spacing at each vertex
     };
 
-    void add_curve(const OutlineCurve& curve, const Points& fixed_points, int vertices_per_wave);
+    void add_curve(const BoundaryCurve& curve, const Points& fixed_points, int vertices_per_wave);
 
     std::vector<Curve> curves_;
     Eigen::Index count_ = 0;
@@ -52,8 +52,8 @@ private:
 };
 
 struct KnownCurvature {
-    VectorX values;                    // H at the fixed vertices, 0 off the curves
-    std::vector<OutlineCurve> curves;  // whole loops, or arcs between vertices without a known curvature
+    VectorX values;                     // H at the fixed vertices, 0 off the curves
+    std::vector<BoundaryCurve> curves;  // whole loops, or arcs between vertices without a known curvature
     Indices unknown;  // boundary vertices off the curves that ask for it, counted from the first fixed one; ascending
 
     // What H at the fixed vertices lacks, zero off the curves.

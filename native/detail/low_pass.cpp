@@ -75,7 +75,7 @@ bool contradicted(const SlopeFit& fit, const Fits& quadrics) {
     });
 }
 
-// A reach with few points is no guide: the narrow fits for noisy outlines take its place.
+// A reach with few points is no guide: the narrow fits for noisy boundaries take its place.
 std::optional<SlopeFit> best_fit(const Vector3& centre, const Ball& ball, double length,
                                  const std::optional<SlopeFit>& narrow) {
     const Vector3 start = narrow ? narrow->normal : ball.mean_normal(reaches.front() * length);

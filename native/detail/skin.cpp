@@ -19,8 +19,8 @@ double mass_factor(double wavelength) {
     return std::pow(2.0 * std::numbers::pi / wavelength, 4) / half;
 }
 
-// c of the slopes at which the old patch meets its outline, fitted to its own side. Those prescribed for the new base
-// would make detail of a crease along the outline, which is what has to go.
+// c of the slopes at which the old patch meets its boundary, fitted to its own side. Those prescribed for the new base
+// would make detail of a crease along the boundary, which is what has to go.
 Points own_conormals(const Patch& patch, const OldPatch& old, double wavelength) {
     Indices fixed(patch.vertex_count() - patch.free_count);
     std::iota(fixed.begin(), fixed.end(), patch.free_count);
@@ -32,7 +32,7 @@ Points own_conormals(const Patch& patch, const OldPatch& old, double wavelength)
             if (!smooth.found[k]) normals.col(k) = narrow.col(k);
         }
     }
-    return conormals(patch, old.outline, normals);
+    return conormals(patch, old.boundary, normals);
 }
 
 Eigen::Matrix3d corners_of(const Patch& patch, const Points& points, int triangle) {
@@ -71,7 +71,7 @@ double detail_wavelength(const Patch& patch, const Points& old) {
 BaseFilter::BaseFilter(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength)
     : patch_(patch),
       stiffness_(stiffness),
-      outline_(old.outline),
+      boundary_(old.boundary),
       conormals_(own_conormals(patch, old, wavelength)),
       smoothing_(patch, old.points.leftCols(patch.free_count)) {}
 
@@ -84,7 +84,7 @@ std::optional<Points> BaseFilter::without(const Points& surface, double waveleng
         factorised_for_ = wavelength;
     }
     Points base = surface;
-    base.rightCols(outline_.cols()) = outline_;
+    base.rightCols(boundary_.cols()) = boundary_;
     Points h = mixed_curvature_vectors(patch_, stiffness_, base, conormals_);
     h.array().rowwise() /= 2.0 * stiffness_.mass.transpose().array();
     const Eigen::MatrixXd first = smoothing_.solve(stiffness_.apply(patch_, h, patch_.free_count).transpose());
@@ -130,9 +130,9 @@ Eigen::Matrix3d Skin::pull(int t, const Points& field) const {
 }
 
 // Σ cot R (d_i − d_j) at all vertices, less the share of S y that the fixed ones have.
-Points Skin::sources(const Points& new_base, const Points& at_outline) const {
+Points Skin::sources(const Points& new_base, const Points& at_boundary) const {
     Points known = Points::Zero(3, patch_.vertex_count());
-    known.rightCols(at_outline.cols()) = at_outline;
+    known.rightCols(at_boundary.cols()) = at_boundary;
     std::vector<Eigen::Matrix3d> pulls(patch_.triangle_count());  // column k: at corner k
     for_ranges(patch_.triangle_count(), coarse_grain, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
@@ -148,8 +148,8 @@ Points Skin::sources(const Points& new_base, const Points& at_outline) const {
     return sum;
 }
 
-Points Skin::detail_on(const Points& new_base, const Points& at_outline) const {
-    const Points pulls = sources(new_base, at_outline).leftCols(patch_.free_count);
+Points Skin::detail_on(const Points& new_base, const Points& at_boundary) const {
+    const Points pulls = sources(new_base, at_boundary).leftCols(patch_.free_count);
     return laplacian_.solve(pulls.transpose()).transpose();
 }
 

@@ -11,8 +11,8 @@ namespace fairing {
 
 // The old patch without its detail, that is without what is shorter than a wavelength.
 struct OldPatch {
-    const Points& points;   // 3 × local vertices, D = 1
-    const Points& outline;  // 3 × fixed vertices: where the base meets its boundary
+    const Points& points;    // 3 × local vertices, D = 1
+    const Points& boundary;  // 3 × fixed vertices: where the base meets its boundary
 };
 
 // Twelve mean edges of the old patch (3 × local vertices, D = 1), but 0.45 D at most: a patch of a few edges has no
@@ -27,7 +27,7 @@ public:
     BaseFilter(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength);
 
     // y + u − G M u/l⁴ with u = G S_I (2M)⁻¹ h, G = (K + M/l⁴)⁻¹, h = −½ S y + c, for a surface y (3 × local vertices)
-    // with the fixed vertices at `outline`. That is the b with the least Σ M |b − y|² + l⁴ |h(b)|²/M, once for y and
+    // with the fixed vertices at `boundary`. That is the b with the least Σ M |b − y|² + l⁴ |h(b)|²/M, once for y and
     // once more for what was left of it. Waves of length `wavelength` (units of D) keep half of their height. Nothing
     // where the patch has degenerated. Throws Cancelled.
     [[nodiscard]] std::optional<Points> without(const Points& surface, double wavelength, const Progress& progress);
@@ -35,7 +35,7 @@ public:
 private:
     const Patch& patch_;
     const Stiffness& stiffness_;
-    Points outline_;
+    Points boundary_;
     Points conormals_;  // c
     BiharmonicOperator smoothing_;
     double factorised_for_ = 0.0;  // this wavelength; 0: none
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] const Points& base() const { return base_; }
     // y at the free vertices, in units of `old`, for a new base (3 × local vertices, of any size) and y at the fixed
     // ones (3 × k): d itself where the new base is the old one and y there is d.
-    [[nodiscard]] Points detail_on(const Points& new_base, const Points& at_outline) const;
+    [[nodiscard]] Points detail_on(const Points& new_base, const Points& at_boundary) const;
     // Local numbers of the triangles that the detail turns over on the new base and did not on the old one.
     // `shown`: the new base with its detail.
     [[nodiscard]] Indices turned_over(const Points& new_base, const Points& shown) const;
@@ -70,7 +70,7 @@ private:
     [[nodiscard]] bool split(const OldPatch& old, double wavelength, const Progress& progress);
     // Of triangle t: Σ cot (f_i − f_j) at its corners, the columns.
     [[nodiscard]] Eigen::Matrix3d pull(int t, const Points& field) const;
-    [[nodiscard]] Points sources(const Points& new_base, const Points& at_outline) const;
+    [[nodiscard]] Points sources(const Points& new_base, const Points& at_boundary) const;
 
     const Patch& patch_;
     Points base_;

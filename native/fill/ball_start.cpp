@@ -11,7 +11,7 @@ namespace fairing {
 namespace {
 
 constexpr double widest_flat = 115.0 * degree;  // half-angle up to which a flat start grows into the surface quickly
-constexpr double least_turn = 1e-3;             // of the normals along the outline, below which there is no ball
+constexpr double least_turn = 1e-3;             // of the normals along the boundary, below which there is no ball
 
 struct Ball {
     Vector3 centre;
@@ -73,17 +73,17 @@ private:
 std::optional<Points> ball_start(const Patch& patch, const Points& flat, const Points& normals) {
     const std::vector<Indices> loops = patch.loops();
     if (loops.size() != 1) return std::nullopt;
-    const Points outline = flat.rightCols(normals.cols());
-    const std::optional<Ball> ball = fitted_ball(outline, normals);
+    const Points boundary = flat.rightCols(normals.cols());
+    const std::optional<Ball> ball = fitted_ball(boundary, normals);
     if (!ball) return std::nullopt;
     const Spread spread(ball->centre, apex_direction(flat, loops.front(), *ball));
-    Eigen::MatrixXd places(outline.cols(), 3);
+    Eigen::MatrixXd places(boundary.cols(), 3);
     double angles = 0.0;
-    for (Eigen::Index k = 0; k < outline.cols(); ++k) {
-        places.row(k) = spread.out(outline.col(k)).transpose();
+    for (Eigen::Index k = 0; k < boundary.cols(); ++k) {
+        places.row(k) = spread.out(boundary.col(k)).transpose();
         angles += places.row(k).head<2>().norm();
     }
-    if (!(angles > widest_flat * static_cast<double>(outline.cols()))) return std::nullopt;
+    if (!(angles > widest_flat * static_cast<double>(boundary.cols()))) return std::nullopt;
     const std::optional<Eigen::MatrixXd> inside = harmonic_values(patch, flat, places);
     if (!inside) return std::nullopt;
     Points points = flat;

@@ -10,7 +10,7 @@ namespace fairing {
 namespace {
 
 constexpr double usual_growth = 0.5;  // of lengths by distance
-constexpr double steep_growth = 1.0;  // where the outline is so coarse that the usual one gives too few vertices
+constexpr double steep_growth = 1.0;  // where the boundary is so coarse that the usual one gives too few vertices
 // Beside an edge of any length the wanted one is reached at half of the edge: where the next vertex is as near.
 constexpr double steepest_growth = 2.0;
 
@@ -73,7 +73,7 @@ void grade(const Patch& patch, const Points& points, double growth, double sign,
     lengths = sign * std::move(reached).take();
 }
 
-// The outline's edges are what they are: where they are longer than wanted, lengths shrink inwards, and the other way
+// The boundary's edges are what they are: where they are longer than wanted, lengths shrink inwards, and the other way
 // round.
 VectorX graded(const Patch& patch, const Points& points, double growth, const VectorX& border, const VectorX& inside) {
     VectorX lengths = inside;
@@ -91,7 +91,7 @@ VectorX graded(const Patch& patch, const Points& points, double growth, const Ve
     return lengths;
 }
 
-// The least growth with which the outline's long edges leave most of the inside the lengths wanted there.
+// The least growth with which the boundary's long edges leave most of the inside the lengths wanted there.
 double enough_growth(const Patch& patch, const Points& points, const VectorX& border, const VectorX& inside) {
     constexpr double most = 0.5;  // of the vertices
     const double count = expected_count(patch, points, inside);
@@ -106,7 +106,7 @@ VectorX lengths_inside(const Patch& patch, const Points& points, const WantedLen
     if (wanted.each.size() > 0) return wanted.each;
     const double mean = mean_border_edge(patch, points);
     const bool has_scale = mean > 0.0 && wanted.spacing > 0.0;
-    if (wanted.spread == Spread::outline && (has_scale || wanted.spacing <= 0.0))
+    if (wanted.spread == Spread::boundary && (has_scale || wanted.spacing <= 0.0))
         return (has_scale ? wanted.spacing / mean : 1.0) * continued(patch, points, border);
     const double same = wanted.spacing > 0.0 ? wanted.spacing : mean;
     if (same > 0.0) return VectorX::Constant(patch.vertex_count(), same);

@@ -10,13 +10,13 @@ namespace fairing {
 // Of a mesh of equilateral triangles, per square of its edge: 2 / √3.
 inline constexpr double vertices_per_square = 1.1547;
 
-// In proportion to the outline's own edges, harmonic in between, or the same everywhere.
-enum class Spread { outline, equal };
+// In proportion to the boundary's own edges, harmonic in between, or the same everywhere.
+enum class Spread { boundary, equal };
 
 struct WantedLengths {
-    double spacing = 0.0;  // of an edge in the mean of the outline's; 0: as these are
+    double spacing = 0.0;  // of an edge in the mean of the boundary's; 0: as these are
     int least_count = 0;   // about so many vertices at least: lengths shrink evenly until they give that many
-    Spread spread = Spread::outline;
+    Spread spread = Spread::boundary;
     VectorX each = {};  // with equal spread, of each vertex in place of the spacing
     bool flat = false;  // the old triangles are the surface as they are; small angles that smoothing leaves stay
 };

@@ -51,7 +51,7 @@ EqualEdgeMesh::EqualEdgeMesh(const Patch& patch, const Points& points, const Tar
 }
 
 // Of the edge wanted between two vertices. Where lengths grow steadily from one to the other, their logarithmic mean
-// counts: by the mean of a long and a short one, the edge of a coarse outline's corner would never be split.
+// counts: by the mean of a long and a short one, the edge of a coarse boundary's corner would never be split.
 double EqualEdgeMesh::wanted_between(Vertex one, Vertex other) const {
     const auto [low, high] = std::minmax(wanted_[one.idx()], wanted_[other.idx()]);
     const double more = high - low;
@@ -69,7 +69,7 @@ bool EqualEdgeMesh::is_chord(Edge e) const {
 }
 
 // A corner that is sharper stays one triangle: halved, its angle would be too small. Not where its third side is an
-// edge outside, of a face that sticks out into the outline: there the triangle would lie on that face.
+// edge outside, of a face that sticks out into the boundary: there the triangle would lie on that face.
 bool EqualEdgeMesh::is_sharp_corner(Vertex corner, Vertex a, Vertex b) const {
     const auto [low, high] = std::minmax({a.idx() - patch_->free_count, b.idx() - patch_->free_count});
     return !taken_.contains({low, high}) && angle_at(point(corner), point(a), point(b)) < sharp_corner;

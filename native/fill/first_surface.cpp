@@ -22,7 +22,7 @@ namespace fairing {
 namespace {
 
 constexpr Sizing sizing{0.5, 0.06, 20000};  // units of D
-constexpr double first_count = 400.0;       // vertices of a mesh of equal edges, about, where the outline is no finer
+constexpr double first_count = 400.0;       // vertices of a mesh of equal edges, about, where the boundary is no finer
 
 Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count) {
     PatchMembers members;
@@ -37,12 +37,12 @@ Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count)
 }
 
 // Mean cosine between the triangles and the normals at their corners, by area.
-double agreement(const OpenOutline& outline, const Triangles& triangles) {
+double agreement(const OpenBoundary& boundary, const Triangles& triangles) {
     double along = 0.0;
     double whole = 0.0;
     for (const auto corners : triangles.colwise()) {
-        const Vector3 area = area_vector(outline.points, corners);
-        for (const int v : corners) along += area.dot(outline.normals.col(v)) / 3.0;
+        const Vector3 area = area_vector(boundary.points, corners);
+        for (const int v : corners) along += area.dot(boundary.normals.col(v)) / 3.0;
         whole += area.norm();
     }
     return whole > 0.0 ? along / whole : 1.0;
@@ -62,13 +62,13 @@ bool is_surface(const Triangles& triangles) {
 
 // Of least area. Where that closes a limb instead of going around it: the one that follows the normals, which a minimal
 // surface has none of.
-Triangles triangulated(const OpenOutline& outline, Equation equation) {
+Triangles triangulated(const OpenBoundary& boundary, Equation equation) {
     constexpr double better = 0.25;  // of the mean cosine
-    const Triangles least = joined_loops(outline.points, outline.loops);
-    const double before = agreement(outline, least);
+    const Triangles least = joined_loops(boundary.points, boundary.loops);
+    const double before = agreement(boundary, least);
     if (before + better >= 1.0 || equation == Equation::soap_film) return least;
-    const Triangles along = joined_loops(outline.points, outline.loops, &outline.normals);
-    return agreement(outline, along) > before + better && is_surface(along) ? along : least;
+    const Triangles along = joined_loops(boundary.points, boundary.loops, &boundary.normals);
+    return agreement(boundary, along) > before + better && is_surface(along) ? along : least;
 }
 
 // A mesh whose first patch.free_count vertices are free.
@@ -77,45 +77,45 @@ struct Meshed {
     Points points;
 };
 
-Meshed meshed(const EqualEdgeMesh& mesh, const Points& outline) {
+Meshed meshed(const EqualEdgeMesh& mesh, const Points& boundary) {
     EqualEdgeMesh::Result made = mesh.result();
-    Points points(3, made.points.cols() + outline.cols());
-    points << made.points, outline;
+    Points points(3, made.points.cols() + boundary.cols());
+    points << made.points, boundary;
     const int free_count = static_cast<int>(made.points.cols());
     return {made_patch(free_count, std::move(made.triangles), points.cols()), std::move(points)};
 }
 
 // With a vertex in the middle of the largest triangle, where no vertex is free: between chords at sharp corners.
-Meshed with_free_vertex(const Triangles& triangles, const Points& outline) {
-    FaceGeometry faces(outline, triangles);
+Meshed with_free_vertex(const Triangles& triangles, const Points& boundary) {
+    FaceGeometry faces(boundary, triangles);
     Eigen::Index largest = 0;
     faces.areas.maxCoeff(&largest);
     Triangles fan(3, triangles.cols() + 2);
     fan << triangles, triangles.col(largest), triangles.col(largest);
     fan.array() += 1;
     fan(0, largest) = fan(1, triangles.cols()) = fan(2, triangles.cols() + 1) = 0;
-    Points points(3, outline.cols() + 1);
-    points << outline(Eigen::all, triangles.col(largest)).rowwise().mean(), outline;
+    Points points(3, boundary.cols() + 1);
+    points << boundary(Eigen::all, triangles.col(largest)).rowwise().mean(), boundary;
     return {made_patch(1, std::move(fan), points.cols()), std::move(points)};
 }
 
-// Coarse and flat, no two vertices of the outline joined across it but at sharp corners.
-Meshed first_mesh(const OpenOutline& outline, Equation equation) {
-    const Triangles triangles = triangulated(outline, equation);
-    ProxyMesh mesh(made_patch(0, triangles, outline.points.cols()), outline.points);
+// Coarse and flat, no two vertices of the boundary joined across it but at sharp corners.
+Meshed first_mesh(const OpenBoundary& boundary, Equation equation) {
+    const Triangles triangles = triangulated(boundary, equation);
+    ProxyMesh mesh(made_patch(0, triangles, boundary.points.cols()), boundary.points);
     mesh.adapt(sizing);
     const auto snapshot = mesh.snapshot();
     const Points flat = Points::Zero(3, snapshot.points.cols());
     const TargetSurface surface(snapshot.patch, snapshot.points, flat);
     const VectorX lengths = VectorX::Ones(snapshot.points.cols());
-    EqualEdgeMesh chordless(snapshot.patch, snapshot.points, surface, lengths, {}, outline.taken);
+    EqualEdgeMesh chordless(snapshot.patch, snapshot.points, surface, lengths, {}, boundary.taken);
     chordless.split_chords();
-    Meshed made = meshed(chordless, outline.points);
-    return made.patch.free_count > 0 ? made : with_free_vertex(made.patch.triangles, outline.points);
+    Meshed made = meshed(chordless, boundary.points);
+    return made.patch.free_count > 0 ? made : with_free_vertex(made.patch.triangles, boundary.points);
 }
 
-Problem problem_on(const OpenOutline& outline, const Patch& patch, const SolverOptions& options) {
-    return {patch, outline.points, outline.normals, uniform_weights(patch), options};
+Problem problem_on(const OpenBoundary& boundary, const Patch& patch, const SolverOptions& options) {
+    return {patch, boundary.points, boundary.normals, uniform_weights(patch), options};
 }
 
 VectorX equal_lengths(const Patch& patch, const Points& points) {
@@ -146,31 +146,31 @@ bool has_blown_up(const FirstSurface& surface) {
     return !(count < most_per_fixed * (first_count + fixed_count));
 }
 
-// A mesh of some 400 vertices on the surface found, or more where the outline is fine.
-Meshed with_equal_edges(const OpenOutline& outline, const Patch& patch, const Points& points,
+// A mesh of some 400 vertices on the surface found, or more where the boundary is fine.
+Meshed with_equal_edges(const OpenBoundary& boundary, const Patch& patch, const Points& points,
                         const SolverOptions& options) {
-    const SurfaceState state = measured_surface(problem_on(outline, patch, options), points);
+    const SurfaceState state = measured_surface(problem_on(boundary, patch, options), points);
     const TargetSurface surface(patch, points, state.normals);
     const VectorX lengths = equal_lengths(patch, points);
-    EqualEdgeMesh mesh(patch, points, surface, lengths, {}, outline.taken);
+    EqualEdgeMesh mesh(patch, points, surface, lengths, {}, boundary.taken);
     mesh.equalise();
-    return meshed(mesh, outline.points);
+    return meshed(mesh, boundary.points);
 }
 
-std::optional<FirstSurface> near(const OpenOutline& outline, Meshed& equal, const SolverOptions& options,
+std::optional<FirstSurface> near(const OpenBoundary& boundary, Meshed& equal, const SolverOptions& options,
                                  const Progress& progress) {
     std::optional<Solution> solution =
-        solve_near(problem_on(outline, equal.patch, options), {equal.points, true}, progress);
+        solve_near(problem_on(boundary, equal.patch, options), {equal.points, true}, progress);
     if (!solution) return std::nullopt;
     return FirstSurface{std::move(equal.patch), std::move(*solution)};
 }
 
-FirstSurface on_equal_edges(const OpenOutline& outline, const FirstSurface& last, const SolverOptions& options,
+FirstSurface on_equal_edges(const OpenBoundary& boundary, const FirstSurface& last, const SolverOptions& options,
                             const Progress& progress) {
-    Meshed equal = with_equal_edges(outline, last.patch, last.solution.points, options);
-    std::optional<FirstSurface> found = near(outline, equal, options, progress.range(0.0, 0.3));
+    Meshed equal = with_equal_edges(boundary, last.patch, last.solution.points, options);
+    std::optional<FirstSurface> found = near(boundary, equal, options, progress.range(0.0, 0.3));
     if (found) return std::move(*found);
-    Problem problem = problem_on(outline, equal.patch, options);
+    Problem problem = problem_on(boundary, equal.patch, options);
     // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
     if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
     Solution solution = solve(problem, 0.0, progress.range(0.3, 1.0));
@@ -178,22 +178,22 @@ FirstSurface on_equal_edges(const OpenOutline& outline, const FirstSurface& last
 }
 
 // Where the surface bulges out so far that it is found from a ball only.
-std::optional<FirstSurface> from_ball(const OpenOutline& outline, const Meshed& flat, const SolverOptions& options,
+std::optional<FirstSurface> from_ball(const OpenBoundary& boundary, const Meshed& flat, const SolverOptions& options,
                                       const Progress& progress) {
     if (options.equation == Equation::soap_film) return std::nullopt;
-    const std::optional<Points> ball = ball_start(flat.patch, flat.points, outline.normals);
+    const std::optional<Points> ball = ball_start(flat.patch, flat.points, boundary.normals);
     if (!ball) return std::nullopt;
-    Meshed equal = with_equal_edges(outline, flat.patch, *ball, options);
-    return near(outline, equal, options, progress);
+    Meshed equal = with_equal_edges(boundary, flat.patch, *ball, options);
+    return near(boundary, equal, options, progress);
 }
 
-Meshed tube_mesh(const OpenOutline& outline, const SweptTube& swept, const SolverOptions& options) {
+Meshed tube_mesh(const OpenBoundary& boundary, const SweptTube& swept, const SolverOptions& options) {
     TubeMesh tube = tube_start(swept);
     const auto added = tube.points.cols();
-    Points points(3, added + outline.points.cols());
-    points << tube.points, outline.points;
+    Points points(3, added + boundary.points.cols());
+    points << tube.points, boundary.points;
     const Patch patch = made_patch(static_cast<int>(added), std::move(tube.triangles), points.cols());
-    return with_equal_edges(outline, patch, points, options);
+    return with_equal_edges(boundary, patch, points, options);
 }
 
 bool may_be_replaced(const SolverOptions& options) {
@@ -204,12 +204,12 @@ bool may_be_replaced(const SolverOptions& options) {
 // Where a tube bends so much that the flat mesh grows into something else. The harmonic surface, or that of least
 // variation where it has none. Where a wide bend has neither, a loft: other meshes found it no other surface,
 // in 4 to 15 s.
-std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOptions& options,
+std::optional<FirstSurface> from_tube(const OpenBoundary& boundary, const SolverOptions& options,
                                       const Progress& progress) {
-    const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals);
+    const auto swept = SweptTube::between(boundary.loops, boundary.points, boundary.normals);
     if (!swept) return std::nullopt;
-    Meshed equal = tube_mesh(outline, *swept, options);
-    const Problem problem = problem_on(outline, equal.patch, options);
+    Meshed equal = tube_mesh(boundary, *swept, options);
+    const Problem problem = problem_on(boundary, equal.patch, options);
     std::optional<Solution> solution;
     if (options.equation != Equation::least_variation)
         solution = solve_near(problem, {equal.points, true}, progress.range(0.0, 0.3));
@@ -221,24 +221,24 @@ std::optional<FirstSurface> from_tube(const OpenOutline& outline, const SolverOp
 }
 
 // From a coarse and flat mesh.
-FirstSurface from_flat(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
-    Meshed flat = first_mesh(outline, options.equation);
-    std::optional<FirstSurface> found = from_ball(outline, flat, options, progress.range(0.0, 0.2));
+FirstSurface from_flat(const OpenBoundary& boundary, const SolverOptions& options, const Progress& progress) {
+    Meshed flat = first_mesh(boundary, options.equation);
+    std::optional<FirstSurface> found = from_ball(boundary, flat, options, progress.range(0.0, 0.2));
     if (found) return std::move(*found);
-    Solution solution = solve(problem_on(outline, flat.patch, options), 0.0, progress.range(0.2, 1.0));
+    Solution solution = solve(problem_on(boundary, flat.patch, options), 0.0, progress.range(0.2, 1.0));
     return {std::move(flat.patch), std::move(solution)};
 }
 
-FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, const Progress& progress) {
-    std::optional<FirstSurface> begun = from_tube(outline, options, progress.range(0.0, 0.1));
-    FirstSurface result = begun ? std::move(*begun) : from_flat(outline, options, progress.range(0.1, 0.4));
+FirstSurface sought(const OpenBoundary& boundary, const SolverOptions& options, const Progress& progress) {
+    std::optional<FirstSurface> begun = from_tube(boundary, options, progress.range(0.0, 0.1));
+    FirstSurface result = begun ? std::move(*begun) : from_flat(boundary, options, progress.range(0.1, 0.4));
     for (int round = 0; round < most_rounds; ++round) {
         const bool converged = result.solution.termination == Termination::converged;
         if (!converged && (round > 0 || has_blown_up(result))) break;
         if (converged && result.solution.flaw == Flaw::absent && has_equal_edges(result)) break;
         if (converged && stands_in(result.solution.provenance)) break;  // solved on a mesh of its own
         const double begin = 0.4 + 0.15 * round;
-        FirstSurface next = on_equal_edges(outline, result, options, progress.range(begin, begin + 0.15));
+        FirstSurface next = on_equal_edges(boundary, result, options, progress.range(begin, begin + 0.15));
         if (converged && next.solution.termination != Termination::converged) break;
         result = std::move(next);
     }
@@ -246,25 +246,25 @@ FirstSurface sought(const OpenOutline& outline, const SolverOptions& options, co
 }
 
 // Joined by a loft over the mesh of a tube, or over the last mesh, if there is one.
-FirstSurface with_loft(const OpenOutline& outline, const SolverOptions& options, FirstSurface last,
+FirstSurface with_loft(const OpenBoundary& boundary, const SolverOptions& options, FirstSurface last,
                        const Progress& progress) {
-    if (const auto swept = SweptTube::between(outline.loops, outline.points, outline.normals)) {
-        Meshed equal = tube_mesh(outline, *swept, options);
-        if (auto loft = lofted(problem_on(outline, equal.patch, options), progress))
+    if (const auto swept = SweptTube::between(boundary.loops, boundary.points, boundary.normals)) {
+        Meshed equal = tube_mesh(boundary, *swept, options);
+        if (auto loft = lofted(problem_on(boundary, equal.patch, options), progress))
             return {std::move(equal.patch), std::move(*loft)};
     }
-    if (auto loft = lofted(problem_on(outline, last.patch, options), progress)) last.solution = std::move(*loft);
+    if (auto loft = lofted(problem_on(boundary, last.patch, options), progress)) last.solution = std::move(*loft);
     return last;
 }
 
 }  // namespace
 
-FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& asked, const Progress& progress) {
+FirstSurface first_surface(const OpenBoundary& boundary, const SolverOptions& asked, const Progress& progress) {
     SolverOptions options = asked;  // automatic chooses where the solution is sought
     if (asked.equation == Equation::automatic) options.equation = Equation::harmonic;
-    FirstSurface result = sought(outline, options, progress.range(0.0, 0.8));
-    if (has_converged(result) || !may_be_replaced(options) || outline.loops.size() < 2) return result;
-    return with_loft(outline, options, std::move(result), progress.range(0.8, 1.0));
+    FirstSurface result = sought(boundary, options, progress.range(0.0, 0.8));
+    if (has_converged(result) || !may_be_replaced(options) || boundary.loops.size() < 2) return result;
+    return with_loft(boundary, options, std::move(result), progress.range(0.8, 1.0));
 }
 
 }  // namespace fairing

@@ -9,7 +9,7 @@
 namespace fairing {
 
 // Boundary loops with the normals wanted there, in units of D.
-struct OpenOutline {
+struct OpenBoundary {
     Points points;               // 3 × vertices, all on the boundary
     Points normals;              // unit
     std::vector<Indices> loops;  // of vertices, the surface on their left
@@ -24,6 +24,6 @@ struct FirstSurface {
 
 // Some 300 free vertices or more, and the surface of the equation as `method` finds it there. Throws Cancelled,
 // SolverError, MeshError where no triangulation joins the boundary loops.
-FirstSurface first_surface(const OpenOutline& outline, const SolverOptions& options, const Progress& progress);
+FirstSurface first_surface(const OpenBoundary& boundary, const SolverOptions& options, const Progress& progress);
 
 }  // namespace fairing

@@ -14,12 +14,12 @@ namespace fairing {
 namespace {
 
 constexpr double pi = std::numbers::pi;  // half a turn, in radians
-// By how much a cell's outline turns to the left within the surface, at least. By Gauss and Bonnet it is 2π − ∫K: 2π if
-// it is flat, π in each quarter of a sphere, and 0 around a half sphere, at the end of a tube or at the rim of a hull,
-// where the wires go around an opening; −2π around the outside of a sheet.
+// By how much a cell's boundary turns to the left within the surface, at least. By Gauss and Bonnet it is 2π − ∫K: 2π
+// if it is flat, π in each quarter of a sphere, and 0 around a half sphere, at the end of a tube or at the rim of a
+// hull, where the wires go around an opening; −2π around the outside of a sheet.
 constexpr double least_turn = 0.5 * pi;
-constexpr double most_outside = -pi;             // the outline of a sheet turns by less: no opening on its other side
-constexpr double straight = pi * 150.0 / 180.0;  // corners from which on other wires end at the outline
+constexpr double most_outside = -pi;             // the boundary of a sheet turns by less: no opening on its other side
+constexpr double straight = pi * 150.0 / 180.0;  // corners from which on other wires end at the boundary
 
 // What lies on the left of some darts, one after the other.
 class Face {
@@ -52,7 +52,7 @@ public:
         return 2 * turning > static_cast<std::ptrdiff_t>(angles.size()) && turn() > least_turn;
     }
 
-    // By how much the outline turns to the left within the surface, corners included.
+    // By how much the boundary turns to the left within the surface, corners included.
     [[nodiscard]] double turn() const {
         double sum = 0.0;
         for (const int dart : darts_) sum += turn_along(dart);

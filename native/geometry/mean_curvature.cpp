@@ -20,18 +20,18 @@ double CurvatureFit::rise(const Vector3& normal, const Vector3& d) const {
 
 namespace {
 
-// Wedge of the outline from which on its normals count in full (radians); in part from the widest corner on.
+// Wedge of the boundary from which on its normals count in full (radians); in part from the widest corner on.
 constexpr double narrow = std::numbers::pi / 2.0;
 
-// Squared distance from which on points around a vertex of the outline tell its curvature.
+// Squared distance from which on points around a vertex of the boundary tell its curvature.
 double least_squared(const Vector3& centre, std::span<const Vector3> around) {
     double most = 0.0;
     for (const Vector3& p : around) most = std::max(most, (p - centre).squaredNorm());
     return least_reported * least_reported * most;
 }
 
-// The angle that the patch fills around a vertex of its outline, in the tangent plane there. A constant of the problem
-// where the vertex's neighbours on the outline and its normal are.
+// The angle that the patch fills around a vertex of its boundary, in the tangent plane there. A constant of the problem
+// where the vertex's neighbours on the boundary and its normal are.
 double wedge(const Patch& patch, const Points& points, const Points& normals, int vertex) {
     const auto ring = patch.ring(vertex).vertices;
     const Vector3 n = normals.col(vertex);
@@ -41,13 +41,13 @@ double wedge(const Patch& patch, const Points& points, const Points& normals, in
     return angle < 0.0 ? angle + 2.0 * std::numbers::pi : angle;
 }
 
-// Where the patch fills less than 90° around a vertex of its outline, curvatures in directions into the patch can't
+// Where the patch fills less than 90° around a vertex of its boundary, curvatures in directions into the patch can't
 // tell H: a neighbour in the middle of a wedge of angle ω, ω < 90°, has a negative weight, and the iteration runs away
-// from the solution there. The normals of the outline are data too: how they turn along it is II(t, t⊥). With these
-// rows all weights of a wedge are positive (they would be from weights of ½ on). Along smooth outlines they would only
-// add their own error.
-void add_outline_normals(const Patch& patch, const Points& points, const Points& normals, int vertex, double least,
-                         CurvatureLeastSquares& fit) {
+// from the solution there. The normals of the boundary are data too: how they turn along it is II(t, t⊥). With these
+// rows all weights of a wedge are positive (they would be from weights of ½ on). Along smooth boundaries they would
+// only add their own error.
+void add_boundary_normals(const Patch& patch, const Points& points, const Points& normals, int vertex, double least,
+                          CurvatureLeastSquares& fit) {
     const double s =
         std::clamp((widest_corner - wedge(patch, points, normals, vertex)) / (widest_corner - narrow), 0.0, 1.0);
     if (!(s > 0.0)) return;
@@ -72,9 +72,9 @@ CurvatureFit fit_curvature(const Vector3& centre, std::span<const Vector3> point
 
 namespace {
 
-// At a vertex of the outline.
-Vector3 form_at_outline(const Patch& patch, const Points& points, const Points& virtual_points, const Points& normals,
-                        NormalKind kind, int vertex) {
+// At a vertex of the boundary.
+Vector3 form_at_boundary(const Patch& patch, const Points& points, const Points& virtual_points, const Points& normals,
+                         NormalKind kind, int vertex) {
     OneRingBuffer buffer;
     CurvatureLeastSquares rows(normals.col(vertex));
     buffer.gather(patch, points, vertex);
@@ -85,7 +85,7 @@ Vector3 form_at_outline(const Patch& patch, const Points& points, const Points& 
         if (offset.squaredNorm() >= least) rows.add_point(offset);
     }
     if (kind == NormalKind::fitted && !patch.ring(vertex).closed()) {
-        add_outline_normals(patch, points, normals, vertex, least, rows);
+        add_boundary_normals(patch, points, normals, vertex, least, rows);
     }
     return rows.solve();
 }
@@ -115,7 +115,7 @@ PatchCurvature patch_curvature(const Patch& patch, const Points& points, FaceGeo
     });
     for_ranges(patch.vertex_count() - patch.free_count, fine_grain, [&](int begin, int end) {
         for (int i = patch.free_count + begin; i < patch.free_count + end; ++i) {
-            curvature.form.col(i) = form_at_outline(patch, points, virtual_points, normals, kind, i);
+            curvature.form.col(i) = form_at_boundary(patch, points, virtual_points, normals, kind, i);
         }
     });
     curvature.mean = 0.5 * (curvature.form.row(0) + curvature.form.row(2)).transpose();

@@ -19,7 +19,7 @@ constexpr double least_share = 0.5;
 constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
 // Of the moves along the normals, in units of D: beyond, slopes and curvatures say little about where the vertices will
-// be. Where steps have to shrink, over jagged outlines, coarser levels have come near already: of 78 regions of scans
+// be. Where steps have to shrink, over jagged boundaries, coarser levels have come near already: of 78 regions of scans
 // 26 ended nowhere that looked on from the first step, 30 that did from this length.
 constexpr double near_surface = 1e-3;
 constexpr double near_led_surface = 3e-2;

@@ -103,7 +103,7 @@ bool factorise_block(Block<Scalar> columns) {
     return true;
 }
 
-// The nodes in log s: the sum is within 2.3 % for eigenvalues from the least one to 4, which is about an outline's
+// The nodes in log s: the sum is within 2.3 % for eigenvalues from the least one to 4, which is about an boundary's
 // largest. Beyond `largest` a hundredth of the integral is left out; the last node lies half a cell below the least
 // one.
 constexpr double spacing = 3.0;

@@ -67,8 +67,8 @@ Indices steps_from(int start, const Twins& twins) {
     return steps;
 }
 
-// On the outline; any where there is none.
-Indices outline_triangles(const Twins& twins) {
+// On the boundary; any where there is none.
+Indices boundary_triangles(const Twins& twins) {
     Indices found;
     for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
         if (twins[s] == none) found.push_back(s / 3);
@@ -100,12 +100,12 @@ std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
 
 // The position of each triangle on the curve over the chart. Precondition: one piece.
 std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
-    const Indices outline = outline_triangles(twins);
-    const Indices east = steps_from(outline.front(), twins);
+    const Indices boundary = boundary_triangles(twins);
+    const Indices east = steps_from(boundary.front(), twins);
     const int farthest = *std::max_element(east.begin(), east.end());
     const auto off_half = [&](int t) { return std::abs(2 * east[t] - farthest); };
     const int aside =
-        *std::min_element(outline.begin(), outline.end(), [&](int a, int b) { return off_half(a) < off_half(b); });
+        *std::min_element(boundary.begin(), boundary.end(), [&](int a, int b) { return off_half(a) < off_half(b); });
     const Indices north = steps_from(aside, twins);
     std::vector<std::uint32_t> places;
     places.reserve(east.size());

@@ -188,8 +188,8 @@ Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, co
     return join_triangles(triangles, edges, cut);
 }
 
-// Those that move and have an edge of the outline.
-std::vector<char> outline_triangles(const Triangles& triangles, const VertexRoles& roles) {
+// Those that move and have an edge of the boundary.
+std::vector<char> boundary_triangles(const Triangles& triangles, const VertexRoles& roles) {
     std::vector<char> marks;
     for (const auto t : triangles.colwise()) {
         const auto fixed = std::count_if(t.begin(), t.end(), [&](int v) { return roles.fixed[v]; });
@@ -330,9 +330,9 @@ CutMesh cut_mesh(const Triangles& triangles, const EdgeTable& edges, const Indic
     mesh.input_triangle = input_triangle;
     mesh.input_vertex = std::move(fans.input_vertex);
     checkpoint();
-    // The outline's normals are meant for the triangles there, and continue what surrounds them.
-    const std::vector<char> along_outline = outline_triangles(triangles, roles);
-    mesh.flipped = minority_triangles(along_outline, windings.orientation);
+    // The boundary's normals are meant for the triangles there, and continue what surrounds them.
+    const std::vector<char> along_boundary = boundary_triangles(triangles, roles);
+    mesh.flipped = minority_triangles(along_boundary, windings.orientation);
     warn_of_windings(mesh, warnings);
     mesh.triangles.resize(3, triangles.cols());
     for (int c = 0; c < 3 * triangles.cols(); ++c) mesh.triangles(c % 3, c / 3) = fans.of_corner[c];

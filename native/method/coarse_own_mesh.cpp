@@ -20,7 +20,7 @@ bool begins_low_passed(const Problem& problem, const Traits& traits) {
 class CoarseOwnMesh final : public OnOwnMesh {
 public:
     CoarseOwnMesh(const Problem& problem, const CoarseStart& start, const Progress& progress)
-        : OnOwnMesh(problem, progress), start_(start), levels_(problem, Outlines::kept, coarsest_size) {}
+        : OnOwnMesh(problem, progress), start_(start), levels_(problem, Boundaries::kept, coarsest_size) {}
 
     [[nodiscard]] bool has_levels() const { return levels_.coarsest() > 0; }
     [[nodiscard]] Indices sizes() const { return levels_.sizes(); }
@@ -174,7 +174,7 @@ private:
 
 CoarseStart::CoarseStart(const Problem& problem, const Traits& traits, const Progress& progress) {
     if (!begins_low_passed(problem, traits)) return;
-    const Levels levels(traits.low_passed(), Outlines::kept, coarsest_size);
+    const Levels levels(traits.low_passed(), Boundaries::kept, coarsest_size);
     const Problem& coarsest = levels.problem(levels.coarsest());
     membrane = proxy_membrane(coarsest, progress);
     proxy.emplace(solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress));

@@ -34,7 +34,7 @@ Points settled(const Problem& problem, const Workspace& work, const Points& poin
     return placement.points;
 }
 
-// Of a surface that is only a start they have to tell no more than whether it meets its outline from behind, and fits
+// Of a surface that is only a start they have to tell no more than whether it meets its boundary from behind, and fits
 // take a quarter of its time.
 Points boundary_normals(const Problem& problem, const Points& points) {
     const Patch& patch = problem.patch;
@@ -50,7 +50,7 @@ struct Start {
     double fill_seconds = 0.0;
 };
 
-// The membrane depends on the outline's positions alone; the normals come in with the Willmore descent.
+// The membrane depends on the boundary's positions alone; the normals come in with the Willmore descent.
 Start make_start(const Problem& problem, Workspace& work, const Progress& progress) {
     const Stopwatch watch;
     Start start{membrane(problem, work), {}};
@@ -174,7 +174,7 @@ Solution with_spread_pins(const Problem& problem, double radius, Solution sharp,
     if (all.empty()) return sharp;
     if (end_of(sharp) != Termination::converged) return with_pins(std::move(sharp), Pins::no_surface);
     const Indices pins = pins_to_spread(problem);
-    if (pins.empty()) return with_pins(std::move(sharp), Pins::no_outline);
+    if (pins.empty()) return with_pins(std::move(sharp), Pins::no_boundary);
     const Stopwatch watch;
     Solution found = spread_from(problem, radius, sharp.points, progress);
     if (found.flaw != Flaw::absent) {

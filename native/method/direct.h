@@ -1,4 +1,4 @@
-// The solve on the user's mesh alone, from the outline.
+// The solve on the user's mesh alone, from the boundary.
 #pragma once
 
 #include "base/progress.h"

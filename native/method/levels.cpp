@@ -37,14 +37,14 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
     return points;
 }
 
-Levels::Levels(const Problem& problem, const Problem& below, Outlines outlines, int coarsest) {
+Levels::Levels(const Problem& problem, const Problem& below, Boundaries boundaries, int coarsest) {
     const Points points = with_fixed(problem.patch, below.fixed_points);
     const Points normals = with_fixed(problem.patch, below.fixed_normals);
-    const Points unknown = Points::Zero(3, points.cols());  // keeps an outline as it is
+    const Points unknown = Points::Zero(3, points.cols());  // keeps an boundary as it is
     const Shared<Lambda> weights = symmetric_weights(problem.weights);
-    const FixedPlaces outline{points, outlines == Outlines::thinned ? normals : unknown};
+    const FixedPlaces boundary{points, boundaries == Boundaries::thinned ? normals : unknown};
     coarse_ = with_edges(problem.patch, weights,
-                         [&](const InnerWeights& edges) { return coarsen(problem.patch, edges, outline, coarsest); });
+                         [&](const InnerWeights& edges) { return coarsen(problem.patch, edges, boundary, coarsest); });
     left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
     levels_.push_back({finest(problem), weights, problem.patch.free_count});
@@ -149,8 +149,8 @@ void Levels::set_up_tangential(std::size_t k, RingMatrix laplacian, const Progre
 }
 
 Levels levels_of(const Problem& problem, const Traits& traits, int coarsest) {
-    if (!traits.is_jagged) return {problem, Outlines::thinned, coarsest};
-    return {problem, traits.low_passed(), Outlines::thinned, coarsest};
+    if (!traits.is_jagged) return {problem, Boundaries::thinned, coarsest};
+    return {problem, traits.low_passed(), Boundaries::thinned, coarsest};
 }
 
 }  // namespace fairing

@@ -14,16 +14,17 @@ namespace fairing {
 // Steps within the surface on a level that begins where the coarser one has ended.
 inline constexpr int most_slides = 8;
 
-// Whether coarse levels keep all of the outline's vertices, or halve it where it is straight.
-enum class Outlines { thinned, kept };
+// Whether coarse levels keep all of the boundary's vertices, or halve it where it is straight.
+enum class Boundaries { thinned, kept };
 
 // Level 0 is the problem's patch, `coarsest()` the coarsest one. Refers to the problem.
 class Levels {
 public:
-    // Down to about `coarsest` free vertices. `below`: the problem whose outline the coarse levels have, on the same
+    // Down to about `coarsest` free vertices. `below`: the problem whose boundary the coarse levels have, on the same
     // patch.
-    Levels(const Problem& problem, Outlines outlines, int coarsest) : Levels(problem, problem, outlines, coarsest) {}
-    Levels(const Problem& problem, const Problem& below, Outlines outlines, int coarsest);
+    Levels(const Problem& problem, Boundaries boundaries, int coarsest)
+        : Levels(problem, problem, boundaries, coarsest) {}
+    Levels(const Problem& problem, const Problem& below, Boundaries boundaries, int coarsest);
     Levels(const Levels&) = delete;
     Levels& operator=(const Levels&) = delete;
     ~Levels() = default;
@@ -78,9 +79,9 @@ private:
     std::vector<Level> levels_;
 };
 
-// Levels as a solve from coarse to fine has them. No coarse mesh can show short waves of an outline: taken from every
+// Levels as a solve from coarse to fine has them. No coarse mesh can show short waves of an boundary: taken from every
 // second vertex of a jagged one they would be noise as large and twice as long. So coarse levels have the low-passed
-// boundary there; only the finest one meets the outline as it is.
+// boundary there; only the finest one meets the boundary as it is.
 Levels levels_of(const Problem& problem, const Traits& traits, int coarsest);
 
 // A value for all vertices of which only the fixed ones are known; 0 at free ones.

@@ -17,8 +17,8 @@ namespace fairing {
 
 namespace {
 
-// Over smooth outlines between which one surface fits so few tell it, and to solve them costs a third. Where they don't
-// the next level does, from the outlines alone.
+// Over smooth boundaries between which one surface fits so few tell it, and to solve them costs a third. Where they
+// don't the next level does, from the boundaries alone.
 constexpr int smallest_coarsest = 150;
 constexpr double small_tolerance = 7e-4;  // units of D, there: triangles are too large for more
 // Levels between are good enough as starts even where single poor triangles keep them from converging.
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    // From the outline alone.
+    // From the boundary alone.
     [[nodiscard]] Solution solved_alone(std::size_t k) const {
         Problem problem = levels_.problem(k);
         if (is_small(k)) {
@@ -136,9 +136,9 @@ private:
         return solution;
     }
 
-    // Of a level that was solved alone. Noise of the outline and single poor triangles keep it from converging, and the
-    // next level converges all the same. Regions of a bust went on from steps of 0.001 to 0.03, those of an ear, whose
-    // surface the coarsest mesh does not resolve, ended at 0.5 and more.
+    // Of a level that was solved alone. Noise of the boundary and single poor triangles keep it from converging, and
+    // the next level converges all the same. Regions of a bust went on from steps of 0.001 to 0.03, those of an ear,
+    // whose surface the coarsest mesh does not resolve, ended at 0.5 and more.
     [[nodiscard]] bool is_start(std::size_t k, const Solution& solution) const {
         constexpr double small_step = 0.04;  // units of D
         // A coarser mesh may lead from one surface to another.
@@ -262,7 +262,7 @@ std::optional<Solution> solve_nested(const Problem& problem, const Traits& trait
 
 Points first_surface(const Problem& problem, const Progress& progress) {
     std::optional<Points> points;
-    const Fineness fineness = joins_outlines(problem) ? with_limbs : usual;
+    const Fineness fineness = joins_boundaries(problem) ? with_limbs : usual;
     if (problem.patch.free_count > fineness.largest_direct) points = by_levels(problem, fineness.level, progress);
     if (!points) points = quick_surface(problem, progress);
     return points && points->allFinite() ? *points : as_before(problem);

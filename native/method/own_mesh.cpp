@@ -75,7 +75,7 @@ std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& 
 // where that leaves triangles torn and the rows that stay have fewer, these do.
 Points beside(const Patch& patch, const Points& offsets, const Points& placed) {
     Points followed = placed;
-    follow_outline(patch, offsets, followed);
+    follow_boundary(patch, offsets, followed);
     followed = untorn(patch, std::move(followed));
     const std::size_t torn = torn_triangles(patch, followed).size();
     if (torn == 0) return followed;

@@ -25,7 +25,7 @@ constexpr double largest_reached = 1e10;
 // Free vertices from which levels pay between smooth loops.
 constexpr int smallest_smooth = 500;
 
-OutlineData boundary_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
+BoundaryData boundary_of(const Problem& problem) { return {problem.fixed_points, problem.fixed_normals}; }
 
 // 3 × local vertices, of which the fixed ones count.
 Points fixed_alone(const Problem& problem) {
@@ -101,10 +101,10 @@ Traits::Traits(const Problem& problem)
     : is_large(problem.options.nested && problem.patch.free_count > smallest_large),
       is_tube(problem.patch.loop_count() == 2),
       is_between_tubes(fairing::is_between_tubes(problem.patch, fixed_alone(problem), problem.fixed_normals)),
-      has_old_shape(joins_outlines(problem) && problem.before->cols() == problem.patch.vertex_count()),
+      has_old_shape(joins_boundaries(problem) && problem.before->cols() == problem.patch.vertex_count()),
       poor_share_([&problem] { return share_of_poor_triangles(problem.patch, proxy_membrane(problem, Progress())); }),
       low_passed_([&problem] { return fairing::low_passed(problem); }) {
-    const double roughness = outline_variation(problem.patch, boundary_of(problem));
+    const double roughness = boundary_variation(problem.patch, boundary_of(problem));
     is_jagged = roughness > smallest_jagged;
     is_beyond_reach = roughness > largest_reached;
     begins_small = problem.patch.loop_count() <= 2 && !is_jagged && is_short(problem);
@@ -112,10 +112,10 @@ Traits::Traits(const Problem& problem)
 }
 
 Problem low_passed(const Problem& problem) {
-    const OutlineData outline = low_passed_boundary(problem.patch, boundary_of(problem), wave);
+    const BoundaryData boundary = low_passed_boundary(problem.patch, boundary_of(problem), wave);
     Problem result = problem;
-    result.fixed_points = outline.points;
-    result.fixed_normals = outline.normals;
+    result.fixed_points = boundary.points;
+    result.fixed_normals = boundary.normals;
     return result;
 }
 

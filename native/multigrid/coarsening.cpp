@@ -36,11 +36,11 @@ Removals collapse_level(CollapseMesh& mesh, int target) {
 
 }  // namespace
 
-std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& boundary,
                                  int coarsest) {
     std::deque<CoarseLevel> levels;        // stay where they are
     std::vector<BackgroundTask> patching;  // the rings of levels, while collapses go on; end before `levels`
-    CollapseMesh mesh(patch, weights, outline);
+    CollapseMesh mesh(patch, weights, boundary);
     Indices fine_local(patch.vertex_count());  // vertex of the patch → of the level above
     for (std::size_t v = 0; v < fine_local.size(); ++v) fine_local[v] = static_cast<int>(v);
     int fine_count = patch.vertex_count();

@@ -14,7 +14,7 @@ struct CoarseLevel {
 
 // Fine to coarse, each about a quarter of the one before, down to about `coarsest` free vertices; fewer levels where no
 // collapse is left.
-std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline,
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& boundary,
                                  int coarsest);
 
 }  // namespace fairing

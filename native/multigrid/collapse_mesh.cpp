@@ -27,8 +27,8 @@ void Removals::append(const Removals& more) {
     for (std::size_t k = 1; k < more.begin.size(); ++k) begin.push_back(offset + more.begin[k]);
 }
 
-CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline)
-    : outline_(outline),
+CollapseMesh::CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& boundary)
+    : boundary_(boundary),
       patch_free_count_(patch.free_count),
       free_count_(patch.free_count),
       pin_(patch.pin),

@@ -58,7 +58,7 @@ struct CoarseMesh {
 // which are large along short edges.
 class CollapseMesh {
 public:
-    CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& outline);
+    CollapseMesh(const Patch& patch, const InnerWeights& weights, const FixedPlaces& boundary);
 
     // Removes vertices, no two of them neighbours, and returns the free ones among them: about a quarter of the mesh.
     // Collapses keep the topology, valences between 4 and 9 where they were, and make no chord between fixed vertices.
@@ -99,7 +99,7 @@ private:
     [[nodiscard]] bool is_fixed(int v) const { return v >= patch_free_count_; }
     [[nodiscard]] double valence_penalty(int v, int valence) const;
 
-    const FixedPlaces& outline_;
+    const FixedPlaces& boundary_;
     int patch_free_count_;
     int free_count_;
     std::vector<char> pin_;

@@ -9,7 +9,7 @@ namespace {
 constexpr int largest_valence = 9;  // that a collapse may make
 constexpr int least_valence = 4;    // inside; three triangles around a vertex carry no curvature
 constexpr double weak = 3.0;        // what a collapse along an edge without weight costs, in units of (valence − 6)²
-constexpr double straight = 0.8;    // cosine of the turn that a thinned outline or its normals may make at a vertex
+constexpr double straight = 0.8;    // cosine of the turn that a thinned boundary or its normals may make at a vertex
 
 }  // namespace
 
@@ -44,11 +44,11 @@ bool CollapseMesh::may_thin(const Star& star, std::size_t k) const {
     const int b = star.vertices.back();
     const int kept = star.vertices[k];
     if (kept != a && kept != b) return false;
-    const auto& points = outline_.points;
+    const auto& points = boundary_.points;
     const Vector3 to = points.col(a) - points.col(v);
     const Vector3 from = points.col(v) - points.col(b);
     if (to.dot(from) < straight * to.norm() * from.norm()) return false;
-    const auto& normals = outline_.normals;
+    const auto& normals = boundary_.normals;
     return normals.col(a).dot(normals.col(b)) >= straight;
 }
 
@@ -70,8 +70,8 @@ bool CollapseMesh::is_legal(Star& star, std::size_t k) const {
     for (std::size_t j = 0; j < star.size(); ++j) {
         if (j == k || (left && j == star.after(k)) || (right && j == star.before(k))) continue;
         if (std::find(star.around.begin(), star.around.end(), star.vertices[j]) != star.around.end()) return false;
-        const bool along_outline = !star.closed && (j == 0 || j + 1 == star.size());
-        if (is_fixed(kept) && is_fixed(star.vertices[j]) && !along_outline) return false;
+        const bool along_boundary = !star.closed && (j == 0 || j + 1 == star.size());
+        if (is_fixed(kept) && is_fixed(star.vertices[j]) && !along_boundary) return false;
     }
     return true;
 }

@@ -6,8 +6,8 @@
 #include "base/progress.h"
 #include "linear/conjugate_gradients.h"
 #include "linear/sparse_cholesky.h"
+#include "operators/boundary_system.h"
 #include "operators/normal_operator.h"
-#include "operators/outline_system.h"
 
 namespace fairing {
 
@@ -56,11 +56,11 @@ private:
     [[nodiscard]] VectorX solve_column(const VectorX& rhs, const Accuracy& accuracy) const;
 
     LaplaceOperator laplace_;
-    OutlineSystem outline_;
-    OutlineCoupling coupling_;
+    BoundarySystem boundary_;
+    BoundaryCoupling coupling_;
     VectorX free_mass_;  // 4M
-    OutlineRow fixed_mass_;
-    FrontReach beside_outline_;
+    BoundaryRow fixed_mass_;
+    FrontReach beside_boundary_;
     mutable KnownDirections known_;  // of G
 };
 

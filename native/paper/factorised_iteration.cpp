@@ -127,7 +127,7 @@ private:
         return largest(update_.points(), before);
     }
 
-    // Smaller steps, where vertices alternate between positions (§7.5), mostly next to an outline that is much finer
+    // Smaller steps, where vertices alternate between positions (§7.5), mostly next to an boundary that is much finer
     // than the mesh inside. A surface that is lost begins again.
     void calm(bool lost) {
         damping_ *= 0.5;

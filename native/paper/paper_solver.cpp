@@ -83,7 +83,7 @@ private:
                 completed};
     }
 
-    // Coarse levels need not be more accurate than they differ from the next finer one. Their outline is much finer
+    // Coarse levels need not be more accurate than they differ from the next finer one. Their boundary is much finer
     // than they are inside, where without acceleration s above about ½ makes vertices alternate.
     [[nodiscard]] IterationLimits limits_of(int level) const {
         constexpr double coarse_damping = 0.55;  // of the caller's

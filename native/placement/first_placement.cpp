@@ -22,7 +22,7 @@ public:
         }
     }
 
-    // Breadth first: every vertex has a path to the outline.
+    // Breadth first: every vertex has a path to the boundary.
     std::vector<SurfacePoint> run() {
         std::size_t next = 0;
         while (next < placed_.size()) {
@@ -73,7 +73,7 @@ private:
     Indices placed_;                   // in their order
 };
 
-// V − E + F = 1 with the whole outline as its only fixed vertices.
+// V − E + F = 1 with the whole boundary as its only fixed vertices.
 bool is_disc(const Patch& patch) {
     const std::vector<Indices> loops = patch.loops();
     const int fixed = patch.vertex_count() - patch.free_count;
@@ -81,7 +81,7 @@ bool is_disc(const Patch& patch) {
            patch.vertex_count() - patch.edge_count() + patch.triangle_count() == 1;
 }
 
-// The outline on the unit circle, as far apart as its vertices are: 3 × fixed count, z = 0.
+// The boundary on the unit circle, as far apart as its vertices are: 3 × fixed count, z = 0.
 Points on_circle(const Problem& problem) {
     const Patch& patch = problem.patch;
     const Indices loop = patch.loops().front();

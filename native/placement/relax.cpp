@@ -64,7 +64,7 @@ private:
     Anderson anderson_;
 };
 
-// Of the neighbours one row nearer to the outline.
+// Of the neighbours one row nearer to the boundary.
 Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, int vertex) {
     Vector3 sum = Vector3::Zero();
     int count = 0;
@@ -149,7 +149,7 @@ void settle(const Problem& problem, const TangentialStep& tangential, const Targ
     relax(tangential, target, placement);
 }
 
-void follow_outline(const Patch& patch, const Points& offsets, Points& points) {
+void follow_boundary(const Patch& patch, const Points& offsets, Points& points) {
     const Points placed = points;
     Points moves = following(patch, offsets);
     while (true) {

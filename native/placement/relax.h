@@ -19,7 +19,7 @@ void settle(const Problem& problem, const TangentialStep& tangential, const Targ
 // The three rows next to the boundary move half as far as the mean of what they touch in the row before. `offsets`: of
 // the fixed vertices from the surface, 3 × fixed count; `points`: 3 × local vertices on it, the fixed ones leave it.
 // Vertices stay where triangles between free ones would turn over.
-void follow_outline(const Patch& patch, const Points& offsets, Points& points);
+void follow_boundary(const Patch& patch, const Points& offsets, Points& points);
 
 // The free vertices within `rings` edges of some triangles moved to where Σ |d x_v − Σ x_w|² over all vertices v, with
 // their d neighbours w, is least; the others stay. `points`: 3 × local vertices.

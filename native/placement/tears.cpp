@@ -254,8 +254,8 @@ Indices folded_triangles(const Problem& problem, const TargetSurface& target, co
 Indices folds_of_placement(const Problem& problem, const TargetSurface& target, const Placement& placement) {
     std::vector<char> folded = folded_mask(problem, target, placement);
     for (const int t : flipped_by_solution(problem.patch, placement.points)) {
-        const bool at_outline = problem.patch.triangles.col(t).maxCoeff() >= problem.patch.free_count;
-        if (!at_outline) folded[t] = 1;
+        const bool at_boundary = problem.patch.triangles.col(t).maxCoeff() >= problem.patch.free_count;
+        if (!at_boundary) folded[t] = 1;
     }
     return numbers(folded);
 }

@@ -68,7 +68,7 @@ struct Problem {
     Shared<Lambda> weights;
     SolverOptions options;
     std::size_t tolerated_folds = 0;  // as many triangles are turned over where the weights come from
-    // Of least_variation: the outline's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
+    // Of least_variation: the boundary's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
     // free. Empty: ∞. Pins count as 0.
     VectorX normal_weights = {};
     // Of the fixed vertices: an edge that is free to rise along its normals, for least variation. Empty: none is.

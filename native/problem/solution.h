@@ -18,12 +18,12 @@ enum class Flaw {
     poor_triangles,   // converged on triangles that can't carry the equation
     crossing,         // triangles pass through each other, and the surface does not
     folded,           // triangles are turned over
-    behind,           // most of the outline is met from the other side
+    behind,           // most of the boundary is met from the other side
     collapsed,        // no area is left
     not_converged,
 };
 
-// How a surface meets its outline. The last four: tangent, although a curvature was asked for.
+// How a surface meets its boundary. The last four: tangent, although a curvature was asked for.
 enum class Join {
     tangent,            // nothing else was asked for
     curvature,          // with the curvature prescribed
@@ -36,7 +36,7 @@ enum class Join {
 };
 
 // Whether pins have a radius (method/direct). The last five: not, although it was asked for.
-enum class Pins { absent, spread, no_surface, no_outline, too_close, not_found, curvature_met };
+enum class Pins { absent, spread, no_surface, no_boundary, too_close, not_found, curvature_met };
 
 // Where a surface comes from. Whoever makes a surface sets it, and nothing changes it afterwards. All but the first two
 // stand in for a surface that the problem's equation does not have (method/solve).

@@ -17,7 +17,7 @@ void SurfaceState::measure_faces(const Patch& patch) {
 }
 
 void SurfaceState::measure_curvature(const Problem& problem) {
-    // Without prescribed normals (G0) the outline's come from the surface itself.
+    // Without prescribed normals (G0) the boundary's come from the surface itself.
     const Points boundary = problem.options.equation == Equation::soap_film ? one_sided_normals(problem.patch, points)
                                                                             : problem.fixed_normals;
     normals = vertex_normals(problem.patch, points, faces, boundary, problem.options.normals);

@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double finest_growth = 0.15;   // of edge lengths per distance from the outline
+constexpr double finest_growth = 0.15;   // of edge lengths per distance from the boundary
 constexpr double longest_coarse = 0.15;  // units of D
 constexpr double longest_fine = 0.03;    // likewise
 
@@ -21,7 +21,7 @@ constexpr int soon = 8;
 
 bool is_small(int shown) { return shown <= smallest_large; }
 
-// Small patches with one outline nearly always have a solution, and all patience pays.
+// Small patches with one boundary nearly always have a solution, and all patience pays.
 bool pays_patience(const Problem& problem, int shown) { return problem.patch.loop_count() == 1 && is_small(shown); }
 
 // Limits are counted at the default tolerance, and steps shrink geometrically: tighter ones take as many again.
@@ -34,7 +34,7 @@ int most_iterations_to(double tolerance, int usual) {
 // Whether what a proxy comes to says what others would.
 bool tells(const Problem& problem, int shown) { return shown >= smallest_telling && problem.patch.loop_count() == 1; }
 
-// Of the regions of scans with one outline and 5,000 free vertices or more whose coarse proxy did not converge, those
+// Of the regions of scans with one boundary and 5,000 free vertices or more whose coarse proxy did not converge, those
 // with a step of 2e-5 to 3e-4 D were found on the fine one, those of 7e-4 to .3 were not. One of 2,800, whose coarse
 // proxy has 300, was found from 7e-3.
 CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
@@ -66,11 +66,11 @@ Workspace make_workspace(const Problem& problem, const Progress& progress) {
 
 struct Fineness {
     double growth;
-    double share_of_outline;  // longest edge of the fine proxy, in edges of the outline
+    double share_of_boundary;  // longest edge of the fine proxy, in edges of the boundary
 };
 
 // Between several loops the second one alone: others find 4 of 129 in as much time again as all else takes. The first
-// one is the most accurate: its interior is fine, whatever the outline. Of 153 patches it leads to a surface
+// one is the most accurate: its interior is fine, whatever the boundary. Of 153 patches it leads to a surface
 // on 104, the second one on these and eleven more, the third one on thirteen of the others.
 constexpr Fineness first_fineness{0.5, 0.0};
 constexpr Fineness second_fineness{0.5, 0.35};  // likewise
@@ -85,7 +85,7 @@ public:
         return solve_fine(ProxyMesh(problem_.patch, surface), fine_sizing(shown_), true);
     }
 
-    // Lengths that grow slowly need more vertices but resolve more. Where the outline is coarse, the needles between
+    // Lengths that grow slowly need more vertices but resolve more. Where the boundary is coarse, the needles between
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too. Meshes whose
     // edges grow alike begin with one coarse proxy. Where that ends nowhere the finest interior is left out: of 20
     // small patches it led on to a surface on seven, and so did the next one on these.
@@ -125,17 +125,17 @@ public:
 
     SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
         ProxyMesh mesh = std::move(coarse.surface.history);
-        lay_over_outline(mesh);
+        lay_over_boundary(mesh);
         const Sizing sizing{std::min(fineness.growth, finest_growth), longest_of(fineness), free_limit_};
         return solve_fine(std::move(mesh), sizing, coarse.end == CoarseEnd::converged);
     }
 
 private:
     [[nodiscard]] double longest_of(const Fineness& fineness) const {
-        return std::clamp(fineness.share_of_outline * mean_outline_edge(problem_), longest_fine, longest_coarse);
+        return std::clamp(fineness.share_of_boundary * mean_boundary_edge(problem_), longest_fine, longest_coarse);
     }
 
-    // Beside a fine outline the first two are the same mesh. Of large patches none needed another one, and each is
+    // Beside a fine boundary the first two are the same mesh. Of large patches none needed another one, and each is
     // dearer.
     [[nodiscard]] std::vector<Fineness> tried() const {
         if (problem_.patch.loop_count() != 1) return {second_fineness};
@@ -144,7 +144,7 @@ private:
         return {first_fineness, second_fineness, third_fineness};
     }
 
-    void lay_over_outline(ProxyMesh& mesh) const {
+    void lay_over_boundary(ProxyMesh& mesh) const {
         auto snapshot = mesh.snapshot();
         snapshot.points.rightCols(problem_.fixed_points.cols()) = problem_.fixed_points;
         mesh.read_back(snapshot.patch, snapshot.points);
@@ -213,7 +213,7 @@ int free_limit(int shown) {
 
 Sizing fine_sizing(int shown) { return {finest_growth, longest_fine, free_limit(shown)}; }
 
-double mean_outline_edge(const Problem& problem) {
+double mean_boundary_edge(const Problem& problem) {
     const auto place = [&](int v) { return problem.fixed_points.col(v - problem.patch.free_count); };
     double sum = 0.0;
     std::size_t count = 0;

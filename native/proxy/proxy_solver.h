@@ -51,7 +51,7 @@ int free_limit(int shown);
 Sizing fine_sizing(int shown);
 
 // Mean length of the boundary loops' edges; 0 without any.
-double mean_outline_edge(const Problem& problem);
+double mean_boundary_edge(const Problem& problem);
 
 // The membrane of the boundary by uniform weights, 3 × vertices of the problem's patch.
 Points proxy_membrane(const Problem& problem, const Progress& progress);

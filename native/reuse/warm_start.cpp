@@ -123,7 +123,7 @@ void WarmStart::remember(const Problem& problem, const Solution& solution, const
     hold(problem, progress);
     if (work_.history) history_ = std::move(work_.history);
     points_ = solution.points;
-    normals_ = outline_of(problem).normals;
+    normals_ = boundary_of(problem).normals;
     ready_ = true;
 }
 
@@ -140,9 +140,9 @@ Points WarmStart::continued(const Problem& problem, const Points& fixed_displace
 
 std::optional<Points> WarmStart::moved_along(const Problem& problem) const {
     const Eigen::Index count = problem.fixed_points.cols();
-    const Outline present = outline_of(problem);
+    const Boundary present = boundary_of(problem);
     if (present.points == points_.rightCols(count) && present.normals == normals_) return points_;
-    const Outline last{points_.rightCols(count), normals_};
+    const Boundary last{points_.rightCols(count), normals_};
     const auto rotation = small_rotation(last, present);
     if (!rotation) return std::nullopt;
     Points result = *rotation * points_;
@@ -171,7 +171,7 @@ Solution WarmStart::iterate_from(const Problem& problem, const Points& start, co
 }
 
 std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress& progress) {
-    // A minimal surface has another tangent plane at the outline: the last answer is a worse start than the outline.
+    // A minimal surface has another tangent plane at the boundary: the last answer is a worse start than the boundary.
     if (!ready_ || is_laplacian_ != (problem.options.equation == Equation::soap_film)) return std::nullopt;
     Stopwatch watch;
     if (!work_.keeps_factor && !factorise(problem, points_, progress.here())) return std::nullopt;
@@ -219,16 +219,16 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     return accepted(problem, std::move(solution), {"near", watch.seconds()});
 }
 
-Outline outline_of(const Problem& problem) {
+Boundary boundary_of(const Problem& problem) {
     const Patch& patch = problem.patch;
-    Outline result{problem.fixed_points, problem.fixed_normals};
+    Boundary result{problem.fixed_points, problem.fixed_normals};
     for (Eigen::Index k = 0; k < result.normals.cols(); ++k) {
         if (patch.pin[patch.free_count + static_cast<int>(k)]) result.normals.col(k).setZero();
     }
     return result;
 }
 
-std::optional<Eigen::Matrix3d> small_rotation(const Outline& last, const Outline& present) {
+std::optional<Eigen::Matrix3d> small_rotation(const Boundary& last, const Boundary& present) {
     const Eigen::Matrix3d rotation =
         best_rotation(placed_and_turned(last.points, last.normals), placed_and_turned(present.points, present.normals));
     if (!(largest_length(present.points - rotation * last.points) <= farthest_move)) return std::nullopt;

@@ -56,19 +56,19 @@ struct NearStart {
 };
 
 // The accepted surface that the iteration finds within a few steps from there; nothing where there is none, and the
-// outline alone has to decide. Throws Cancelled.
+// boundary alone has to decide. Throws Cancelled.
 std::optional<Solution> solve_near(const Problem& problem, const NearStart& start, const Progress& progress);
 
 // 3 × fixed count each, units of D; pins have no normal.
-struct Outline {
+struct Boundary {
     Points points;
     Points normals;
 };
 
-Outline outline_of(const Problem& problem);
+Boundary boundary_of(const Problem& problem);
 
-// The rotation that takes one outline nearest to a later one (Kabsch 1976). Nothing where a point is then more than
+// The rotation that takes one boundary nearest to a later one (Kabsch 1976). Nothing where a point is then more than
 // 0.05 D or a normal more than 45° away: the last answer says little about the next one.
-std::optional<Eigen::Matrix3d> small_rotation(const Outline& last, const Outline& present);
+std::optional<Eigen::Matrix3d> small_rotation(const Boundary& last, const Boundary& present);
 
 }  // namespace fairing

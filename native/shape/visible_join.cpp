@@ -17,19 +17,19 @@ namespace fairing {
 
 namespace {
 
-// An edge with one triangle on each side of the outline: sides (3 t + k) of the two lists.
-struct OutlineEdge {
+// An edge with one triangle on each side of the boundary: sides (3 t + k) of the two lists.
+struct BoundaryEdge {
     std::array<int, 2> ends;
     int inside;
     int outside;
 };
 
-std::vector<OutlineEdge> shared_edges(const EdgeTable& inside, const EdgeTable& outside) {
+std::vector<BoundaryEdge> shared_edges(const EdgeTable& inside, const EdgeTable& outside) {
     std::map<std::array<int, 2>, int> border;
     for (int e = 0; e < outside.size(); ++e) {
         if (outside.side_count(e) == 1) border[outside.ends[e]] = outside.side(e, 0);
     }
-    std::vector<OutlineEdge> shared;
+    std::vector<BoundaryEdge> shared;
     for (int e = 0; e < inside.size(); ++e) {
         const auto found = border.find(inside.ends[e]);
         if (inside.side_count(e) == 1 && found != border.end()) {
@@ -43,7 +43,7 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
     return direction(area_vector(points, triangles.col(side / 3)));
 }
 
-double angle_at(const Points& points, const JoinedMesh& mesh, const OutlineEdge& edge) {
+double angle_at(const Points& points, const JoinedMesh& mesh, const BoundaryEdge& edge) {
     const int opposite = mesh.outside((edge.outside % 3 + 2) % 3, edge.outside / 3);
     return dihedral_angle(normal_of(points, mesh.inside, edge.inside), normal_of(points, mesh.outside, edge.outside),
                           points.col(edge.ends[0]), points.col(opposite));
@@ -105,7 +105,7 @@ double mirrored_angle(const Triangles& triangles, const Points& points, int side
 
 }  // namespace
 
-VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
+VisibleJoin visible_join(const JoinedMesh& given, const Indices& boundary) {
     const JoinedMesh mesh{given.vertices, without_collapsed(given.inside), without_collapsed(given.outside),
                           given.before};
     const DihedralBands inside(mesh.vertices, mesh.inside);
@@ -113,8 +113,8 @@ VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
     DihedralBands::Walk walk_inside = inside.walk();
     DihedralBands::Walk walk_outside = outside.walk();
     EdgeMeans means(mesh.vertices.cols());
-    const std::vector<OutlineEdge> edges = shared_edges(inside.edges(), outside.edges());
-    for (const OutlineEdge& edge : edges) {
+    const std::vector<BoundaryEdge> edges = shared_edges(inside.edges(), outside.edges());
+    for (const BoundaryEdge& edge : edges) {
         const auto [a, b] = edge.ends;
         AngleRange usual = inside.usual(a, b, walk_inside);
         usual.include(outside.usual(a, b, walk_outside));
@@ -123,13 +123,13 @@ VisibleJoin visible_join(const JoinedMesh& given, const Indices& outline) {
                   (mesh.vertices.col(a) - mesh.vertices.col(b)).norm());
     }
     VisibleJoin join;
-    join.degrees.resize(static_cast<Eigen::Index>(outline.size()));
-    for (Eigen::Index k = 0; k < join.degrees.size(); ++k) join.degrees[k] = means[outline[static_cast<int>(k)]];
+    join.degrees.resize(static_cast<Eigen::Index>(boundary.size()));
+    for (Eigen::Index k = 0; k < join.degrees.size(); ++k) join.degrees[k] = means[boundary[static_cast<int>(k)]];
     join.limit = limit_among(outside, mesh.outside.cols());
     std::vector<std::array<int, 2>> ends;
     ends.reserve(edges.size());
-    for (const OutlineEdge& edge : edges) ends.push_back(edge.ends);
-    join.seen = seen_along(ends, outline, join.degrees, join.limit);
+    for (const BoundaryEdge& edge : edges) ends.push_back(edge.ends);
+    join.seen = seen_along(ends, boundary, join.degrees, join.limit);
     return join;
 }
 

@@ -1,11 +1,11 @@
-// How visible the join of a patch with its surroundings is: dihedral angles along the outline against those nearby.
+// How visible the join of a patch with its surroundings is: dihedral angles along the boundary against those nearby.
 #pragma once
 
 #include "mesh/patch.h"
 
 namespace fairing {
 
-// A mesh in two parts that meet in an outline; `before`: positions of all its vertices before the patch was faired.
+// A mesh in two parts that meet in an boundary; `before`: positions of all its vertices before the patch was faired.
 struct JoinedMesh {
     Points vertices;
     Triangles inside;
@@ -15,16 +15,16 @@ struct JoinedMesh {
 
 // How much a join shows, and where the eye finds a kink.
 struct VisibleJoin {
-    VectorX degrees;     // at each vertex of the outline
+    VectorX degrees;     // at each vertex of the boundary
     double limit = 0.0;  // from which a kink stands out among triangles that bend as those outside do (shape/limits)
-    Indices seen;        // places in the outline where one does, ascending
+    Indices seen;        // places in the boundary where one does, ascending
 };
 
-// Degrees: by how much the signed dihedral angles of the outline edges at a vertex exceed what is usual across their
+// Degrees: by how much the signed dihedral angles of the boundary edges at a vertex exceed what is usual across their
 // direction within three rings inside and outside, and what the same edge had before. The mean over these edges,
-// weighted by length; 0 where no outline edge ends. Triangles that name a vertex twice are left out. `outline`: each
+// weighted by length; 0 where no boundary edge ends. Triangles that name a vertex twice are left out. `boundary`: each
 // vertex once.
-VisibleJoin visible_join(const JoinedMesh& mesh, const Indices& outline);
+VisibleJoin visible_join(const JoinedMesh& mesh, const Indices& boundary);
 
 // The degrees from the patch's side alone, at its fixed vertices (local order): the surroundings are taken for the
 // patch's mirror image across the prescribed tangent planes.

@@ -149,7 +149,7 @@ std::optional<Solution> lofted(const Problem& problem, const Progress& progress)
 }
 
 std::optional<Solution> smoothed(const Problem& problem, const Progress& progress) {
-    if (!joins_outlines(problem)) return std::nullopt;
+    if (!joins_boundaries(problem)) return std::nullopt;
     auto shape = ShapeBefore::of(problem, progress);
     if (!shape) return std::nullopt;
     const auto points = smoothest(problem, *shape, BlemishFinder(problem, shape->points()), progress);

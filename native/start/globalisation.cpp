@@ -16,7 +16,7 @@ constexpr int most_fixed_point_steps = 12;  // then it is a descent's turn
 constexpr double tolerated_factor = 2.0;
 constexpr double tolerated_rise = 2.0;  // a hemisphere has 8 π
 // Beyond `coarsest_size` free vertices a descent ends that gains less than this share of the energy in so many steps:
-// over outlines of noisy scans it went on to the last step for the last hundredth.
+// over boundaries of noisy scans it went on to the last step for the last hundredth.
 constexpr double least_gain = 5e-3;
 constexpr std::size_t gain_window = 5;
 

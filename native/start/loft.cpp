@@ -28,7 +28,7 @@ double length_of(const Problem& problem, const Indices& loop) {
     return sum;
 }
 
-// 0 on the longest outline, 1 on the others.
+// 0 on the longest boundary, 1 on the others.
 Points levels(const Problem& problem, const std::vector<Indices>& loops) {
     const auto shorter = [&](const Indices& a, const Indices& b) {
         return length_of(problem, a) < length_of(problem, b);
@@ -69,7 +69,7 @@ Stiffness along_stream(const Patch& patch, const Stiffness& even, const Points& 
     return result;
 }
 
-// The lines' own derivatives at the outline, turned into the given tangent planes where these are believed.
+// The lines' own derivatives at the boundary, turned into the given tangent planes where these are believed.
 Points turned_into_planes(const Problem& problem, const Points& derivatives, const VectorX& trust) {
     const Points given = conormals(problem.patch, problem.fixed_points, problem.fixed_normals);
     Points result = derivatives;
@@ -82,10 +82,10 @@ Points turned_into_planes(const Problem& problem, const Points& derivatives, con
     return result;
 }
 
-constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an outline edge
+constexpr double trusted_turn = 30.0;  // degrees between the normals at the ends of an boundary edge
 constexpr double lost_turn = 60.0;     // likewise: no normal is trusted from here on
 
-// How often a loop comes back to a vertex of the input: two outlines joined by an edge are one loop that passes both
+// How often a loop comes back to a vertex of the input: two boundaries joined by an edge are one loop that passes both
 // ends of the edge twice.
 std::size_t touching(const Patch& patch, const std::vector<Indices>& loops) {
     std::size_t count = 0;
@@ -141,7 +141,7 @@ double squares_of(const std::vector<Loop>& loops) {
 
 std::optional<Loft> Loft::of(const Problem& problem, double roundness, const Progress& progress) {
     const Patch& patch = problem.patch;
-    if (!joins_outlines(problem)) return std::nullopt;
+    if (!joins_boundaries(problem)) return std::nullopt;
     Loft loft(patch);
     const auto across = harmonic_between(patch, levels(problem, patch.loops()), progress);
     if (!across) return std::nullopt;
@@ -178,7 +178,7 @@ bool may_fit_several(const Patch& patch, const Points& points) {
     return loops > 2 || (loops == 2 && straight_length_between(patch, points) > longest_single);
 }
 
-bool joins_outlines(const Problem& problem) {
+bool joins_boundaries(const Problem& problem) {
     const std::vector<Indices> loops = problem.patch.loops();
     return loops.size() + touching(problem.patch, loops) > 1 && !is_held_elsewhere(problem.patch, loops);
 }

@@ -32,7 +32,7 @@ private:
 
 // Whether the patch lies between several boundary loops, of which two joined by an edge are one loop, and nothing is
 // held elsewhere.
-bool joins_outlines(const Problem& problem);
+bool joins_boundaries(const Problem& problem);
 
 // Relative length of a patch between two boundary loops: the area of the straight tube between them over the sum of
 // their squared lengths, L / 4π for a pipe of L radii; 0 between more or fewer. `points`: 3 × local vertices, of which

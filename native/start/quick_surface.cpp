@@ -87,7 +87,7 @@ std::optional<Points> least_bent_fill(const Problem& given, const std::optional<
     const Problem problem = slopes ? with_slopes_of(given, *slopes) : given;
     Fills fills(problem, progress);
     fills.add(uniform_stiffness(problem.patch));
-    auto shape = joins_outlines(problem) ? ShapeBefore::of(problem, progress) : std::nullopt;
+    auto shape = joins_boundaries(problem) ? ShapeBefore::of(problem, progress) : std::nullopt;
     if (shape) {
         fills.add_low_passed(std::move(*shape));
     } else if (before) {
@@ -98,7 +98,7 @@ std::optional<Points> least_bent_fill(const Problem& given, const std::optional<
 
 // Weight of edge lengths beside ⟨n, e⟩²; small, so that a pipe of many radii does not sag.
 constexpr double length_weight = 1e-4;
-// Of the screening beside the valence: the field forgets its outline over about 1/(2 √0.05) = 2.2 edges. Without it,
+// Of the screening beside the valence: the field forgets its boundary over about 1/(2 √0.05) = 2.2 edges. Without it,
 // what is left of the normals of a long pipe in its middle would be the mean of its rims' normals, which irregular rims
 // have.
 constexpr double screening = 0.05;
@@ -184,8 +184,8 @@ bool is_usable(const Problem& problem) {
     return turned <= most_turned * patch.triangle_count();
 }
 
-// The shape before over the outline of today.
-std::optional<Points> over_outline(const Problem& problem, const Progress& progress) {
+// The shape before over the boundary of today.
+std::optional<Points> over_boundary(const Problem& problem, const Progress& progress) {
     const Patch& patch = problem.patch;
     const Points& before = *problem.before;
     Points moves = Points::Zero(3, patch.vertex_count());
@@ -239,7 +239,7 @@ Stiffness bounded_stiffness(const Patch& patch, const Points& points) {
 }
 
 std::optional<Points> shape_before(const Problem& problem, const Progress& progress) {
-    return is_usable(problem) ? over_outline(problem, progress) : std::nullopt;
+    return is_usable(problem) ? over_boundary(problem, progress) : std::nullopt;
 }
 
 std::optional<ShapeBefore> ShapeBefore::of(const Problem& problem, const Progress& progress) {

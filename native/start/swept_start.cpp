@@ -110,7 +110,7 @@ Points laid(const Problem& problem, const SweptTube& tube, const CylinderMap& ma
 
 }  // namespace
 
-std::vector<Indices> outline_loops(const Patch& patch) {
+std::vector<Indices> boundary_loops(const Patch& patch) {
     std::vector<Indices> loops = patch.loops();
     for (Indices& loop : loops) {
         for (int& v : loop) v -= patch.free_count;
@@ -119,7 +119,7 @@ std::vector<Indices> outline_loops(const Patch& patch) {
 }
 
 std::optional<SweptTube> tube_between(const Problem& problem) {
-    return SweptTube::between(outline_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
+    return SweptTube::between(boundary_loops(problem.patch), problem.fixed_points, problem.fixed_normals);
 }
 
 std::optional<Points> swept_start(const Problem& problem, const SweptTube& tube, const Progress& progress) {

@@ -8,7 +8,7 @@
 namespace fairing {
 
 // Boundary loops as columns of a problem's fixed points, the surface on their left.
-std::vector<Indices> outline_loops(const Patch& patch);
+std::vector<Indices> boundary_loops(const Patch& patch);
 
 // Nothing where the boundary loops don't face each other along one tube.
 std::optional<SweptTube> tube_between(const Problem& problem);

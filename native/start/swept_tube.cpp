@@ -42,7 +42,7 @@ std::optional<Rim> rim_at(const Indices& loop, const Points& points, const Point
     return rim;
 }
 
-// Nothing where two outlines don't face each other along one tube.
+// Nothing where two boundaries don't face each other along one tube.
 std::optional<TwoRims> two_rims(const std::vector<Indices>& loops, const Points& points, const Points& normals) {
     if (loops.size() != 2 || loops[0].size() + loops[1].size() != static_cast<std::size_t>(points.cols()))
         return std::nullopt;

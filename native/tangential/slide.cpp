@@ -10,7 +10,7 @@ namespace fairing {
 namespace {
 
 constexpr int depth = 3;                   // of the acceleration
-constexpr double stuck = 0.8;              // from one step to the next: vertices that the outline holds back
+constexpr double stuck = 0.8;              // from one step to the next: vertices that the boundary holds back
 constexpr double near_enough = 5e-4;       // units of D; the iteration does the rest
 constexpr double next_near_enough = 1e-4;  // of the step that would come next, by how the last two shrank
 

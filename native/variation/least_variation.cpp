@@ -19,9 +19,9 @@ namespace fairing {
 
 namespace {
 
-// Edges begin with the outline's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
+// Edges begin with the boundary's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
 // times a share of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
-// need not resolve the outline, only how the surface turns: their longest edges are those of loops of `most_around`.
+// need not resolve the boundary, only how the surface turns: their longest edges are those of loops of `most_around`.
 // On rougher coarse meshes, and coarser ones (coarse_edge), free slopes settle elsewhere.
 struct Fineness {
     double growth;
@@ -37,7 +37,7 @@ constexpr int most_coarse = 1200;        // free vertices
 constexpr int most_fine_steps = 100;     // most of those that converge take 30 at most, a thin U of 180° takes 85
 
 struct Beginning {
-    double share;    // of the outline's mean edge
+    double share;    // of the boundary's mean edge
     double damping;  // at first
 };
 constexpr Beginning rough_beginning{1.4, raised_damping};  // from any start
@@ -60,7 +60,7 @@ bool has_free_slopes(const Patch& patch) {
 // placement, and is null before.
 using UniformStep = std::unique_ptr<TangentialStep>;
 
-// A bulge that meets the outline's tangent planes, its collapsed tubes opened: arms that meet need it.
+// A bulge that meets the boundary's tangent planes, its collapsed tubes opened: arms that meet need it.
 Points start_of(const Problem& problem, UniformStep& within, const Progress& progress) {
     const Problem given = on_patch(problem, problem.patch);
     Workspace work = make_workspace(given, progress.here());
@@ -70,15 +70,15 @@ Points start_of(const Problem& problem, UniformStep& within, const Progress& pro
     return problem.patch.loop_count() > 1 ? inflated(uniform, fill, progress) : fill;
 }
 
-// The interior needs the outline's resolution only where it bends.
+// The interior needs the boundary's resolution only where it bends.
 Sizing sizing_of(double edge, const Fineness& fineness, int most) {
     return {fineness.growth, std::clamp(range_of_edges * edge, shortest, longest), most, fineness.turn, true};
 }
 
 double coarse_edge(const Problem& problem) {
-    if (has_free_slopes(problem.patch)) return mean_outline_edge(problem);
+    if (has_free_slopes(problem.patch)) return mean_boundary_edge(problem);
     const auto around = static_cast<double>(problem.fixed_points.cols()) / std::max(1, problem.patch.loop_count());
-    return mean_outline_edge(problem) * std::max(1.0, around / most_around);
+    return mean_boundary_edge(problem) * std::max(1.0, around / most_around);
 }
 
 // On a coarse mesh from a rough start; the mesh is made anew in between, for vertices move along normals only. Given up
@@ -115,7 +115,7 @@ struct FineStart {
 
 SolvedSheet solve_fine(ProxyMesh& mesh, const Problem& problem, const SolvedSheet& coarse, const FineStart& begin,
                        const Progress& progress) {
-    mesh.adapt(sizing_of(mean_outline_edge(problem), as_fine, free_limit(problem.patch.free_count)));
+    mesh.adapt(sizing_of(mean_boundary_edge(problem), as_fine, free_limit(problem.patch.free_count)));
     NewtonLimits limits{problem.options.tolerance, std::min(problem.options.max_iterations, begin.most_steps)};
     limits.damping = begin.damping;
     limits.most_merit = begin.most_merit;

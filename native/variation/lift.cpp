@@ -35,11 +35,11 @@ Motion fitted_motion(const SurfaceSample& sample, const Sheet& sheet, const Sten
     return matrix.ldlt().solve(rhs);
 }
 
-constexpr double share = 0.8;     // of the outline's spacing
+constexpr double share = 0.8;     // of the boundary's spacing
 constexpr double settled = 1e-3;  // units of D
 
 // Logarithms of the mean lengths of the two border edges at each fixed vertex, zero elsewhere.
-VectorX outline_lengths(const Problem& problem) {
+VectorX boundary_lengths(const Problem& problem) {
     const Patch& patch = problem.patch;
     VectorX logarithms = VectorX::Zero(patch.vertex_count());
     for (const Indices& loop : patch.loops()) {
@@ -59,7 +59,7 @@ public:
         : patch_(problem.patch), stiffness_(uniform_stiffness(problem.patch)), laplace_(problem.patch) {
         ready_ = laplace_.update(stiffness_, progress);
         if (!ready_) return;
-        VectorX logarithms = outline_lengths(problem);
+        VectorX logarithms = boundary_lengths(problem);
         const Eigen::RowVectorXd row = logarithms.transpose();
         logarithms.head(patch_.free_count) =
             -laplace_.solve(stiffness_.apply(patch_, row, patch_.free_count).transpose());

@@ -84,7 +84,7 @@ ElementSums VariationEnergy::sums(const Sheet& sheet) const {
 SheetMerit VariationEnergy::measured(const Sheet& sheet) const {
     const ElementSums present = sums(sheet);
     const double factor = measure_ == Measure::plain ? 1.0 : present.area;
-    return {present, factor * present.variation + outline_energy(sheet)};
+    return {present, factor * present.variation + boundary_energy(sheet)};
 }
 
 // d(V A) = A dV + V dA
@@ -104,7 +104,7 @@ void VariationEnergy::update(const Sheet& sheet, const SheetMerit& present, Quad
     const bool plain = measure_ == Measure::plain;
     model.area_factor = plain ? 0.0 : 2.0 * present.sums.variation / present.sums.area;
     add_elements(sheet, factors(present), model);
-    add_outline(sheet, model);
+    add_boundary(sheet, model);
 }
 
 VectorX VariationEnergy::gradient(const Sheet& sheet, const SheetMerit& present) const {
@@ -116,7 +116,7 @@ VectorX VariationEnergy::gradient(const Sheet& sheet, const SheetMerit& present)
     });
     VectorX result = VectorX::Zero(unknowns_.count());
     add_up(slopes, 1.0, result);
-    for_outline(sheet, [&](int unknown, double slope, double) { result[unknown] += slope; });
+    for_boundary(sheet, [&](int unknown, double slope, double) { result[unknown] += slope; });
     return result;
 }
 
@@ -151,7 +151,7 @@ void VariationEnergy::add(const ElementTerms& terms, int element, QuadraticModel
     }
 }
 
-double VariationEnergy::outline_energy(const Sheet& sheet) const {
+double VariationEnergy::boundary_energy(const Sheet& sheet) const {
     double sum = 0.0;
     for (Eigen::Index k = 0; k < problem_.fixed_points.cols(); ++k) {
         const double weight = normal_weight(problem_, k);
@@ -164,7 +164,7 @@ double VariationEnergy::outline_energy(const Sheet& sheet) const {
 
 // |n − n̂|² = 2 − 2 ⟨n, n̂⟩ with n turned by (a, b).
 template <typename Visit>
-void VariationEnergy::for_outline(const Sheet& sheet, const Visit& visit) const {
+void VariationEnergy::for_boundary(const Sheet& sheet, const Visit& visit) const {
     for (Eigen::Index k = 0; k < problem_.fixed_points.cols(); ++k) {
         const double weight = normal_weight(problem_, k);
         if (weight == 0.0 || !std::isfinite(weight)) continue;
@@ -178,8 +178,8 @@ void VariationEnergy::for_outline(const Sheet& sheet, const Visit& visit) const 
     }
 }
 
-void VariationEnergy::add_outline(const Sheet& sheet, QuadraticModel& model) const {
-    for_outline(sheet, [&](int unknown, double slope, double bend) {
+void VariationEnergy::add_boundary(const Sheet& sheet, QuadraticModel& model) const {
+    for_boundary(sheet, [&](int unknown, double slope, double bend) {
         model.gradient[unknown] += slope;
         model.stretching[unknowns_.slot(unknown, unknown, 0)] += bend;
     });

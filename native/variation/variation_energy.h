@@ -31,7 +31,7 @@ struct QuadraticModel {
     double area_factor = 0.0;
 };
 
-// Merit: V A (or V) + Σ_outline w_i |n_i − n̂_i|².
+// Merit: V A (or V) + Σ_boundary w_i |n_i − n̂_i|².
 class VariationEnergy {
 public:
     // `problem` must outlive this.
@@ -67,11 +67,11 @@ private:
     [[nodiscard]] ElementSums factors(const SheetMerit& present) const;
     // Of all elements, `factor` times.
     void add_up(const std::vector<ElementVector>& parts, double factor, VectorX& result) const;
-    // visit(unknown, derivative, second derivative) of the outline's normals.
+    // visit(unknown, derivative, second derivative) of the boundary's normals.
     template <typename Visit>
-    void for_outline(const Sheet& sheet, const Visit& visit) const;
-    void add_outline(const Sheet& sheet, QuadraticModel& model) const;
-    [[nodiscard]] double outline_energy(const Sheet& sheet) const;
+    void for_boundary(const Sheet& sheet, const Visit& visit) const;
+    void add_boundary(const Sheet& sheet, QuadraticModel& model) const;
+    [[nodiscard]] double boundary_energy(const Sheet& sheet) const;
 
     const Problem& problem_;
     Measure measure_;

@@ -72,7 +72,7 @@ Single single_patch(const Mesh& mesh, std::vector<char> given) {
     return single;
 }
 
-void push_beyond_outline(const Patch& patch, int count, Points& points) {
+void push_beyond_boundary(const Patch& patch, int count, Points& points) {
     std::vector<char> taken(static_cast<std::size_t>(patch.vertex_count()), 0);
     for (const auto corners : patch.triangles.colwise()) {
         const int first = corners.minCoeff();

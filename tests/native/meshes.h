@@ -32,8 +32,8 @@ struct Single {
 };
 Single single_patch(const Mesh& mesh, std::vector<char> given = {});
 
-// Moves so many free vertices, apart from each other, through an edge of the outline and half as far beyond.
-void push_beyond_outline(const Patch& patch, int count, Points& points);
+// Moves so many free vertices, apart from each other, through an edge of the boundary and half as far beyond.
+void push_beyond_boundary(const Patch& patch, int count, Points& points);
 
 Stiffness stiffness_of(const Single& single);
 // S, all vertices.

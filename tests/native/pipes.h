@@ -1,4 +1,4 @@
-// Round pipes between two outlines.
+// Round pipes between two boundaries.
 #pragma once
 
 #include <cmath>

@@ -75,7 +75,7 @@ TEST_CASE("few triangles beside a low-passed outline may be the outline's own fo
     for (const int folds : {1, 12}) {
         Solution solution;
         solution.points = single.points;
-        test::push_beyond_outline(patch, folds, solution.points);
+        test::push_beyond_boundary(patch, folds, solution.points);
         solution.boundary_normals = fixed;
         solution.mean_curvature = VectorX::Constant(patch.vertex_count(), -1.0);
         solution.termination = Termination::converged;

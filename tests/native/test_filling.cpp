@@ -218,7 +218,7 @@ TEST_CASE("a start that bulges out beyond its outline lies on the ball of the ou
             const Points local = (start->colwise() - away) / 5.0;
             CHECK((local.colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-12);
             CHECK((local.rightCols(normals.cols()) - disc.points.rightCols(normals.cols())).norm() < 1e-12);
-            CHECK((side * local.row(2)).maxCoeff() > 0.9);  // its far side, seen from the outline
+            CHECK((side * local.row(2)).maxCoeff() > 0.9);  // its far side, seen from the boundary
             FaceGeometry faces;
             faces.update(local, patch.triangles);
             CHECK(faces.areas.sum() > 0.9 * 2.0 * std::numbers::pi * (1.0 - std::cos(angle * degree)));

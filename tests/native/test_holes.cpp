@@ -6,7 +6,6 @@
 #include "api/fill.h"
 #include "base/errors.h"
 #include "base/parallel.h"
-#include "fill/loop_check.h"
 #include "fill/proportion.h"
 #include "fill/short_edges.h"
 #include "geometry/segments.h"

@@ -76,8 +76,8 @@ TEST_CASE("one outline, and vertices held elsewhere, have no loft") {
     std::vector<char> given(static_cast<std::size_t>(mesh.points.cols()), 0);
     given[5 * around] = 1;
     const test::Single held = test::single_patch(mesh, given);
-    const Points outline = held.points.rightCols(held.points.cols() - held.patch().free_count);
-    CHECK_FALSE(loft({held.patch(), outline, outline, uniform_weights(held.patch()), {}}, 0.6));
+    const Points boundary = held.points.rightCols(held.points.cols() - held.patch().free_count);
+    CHECK_FALSE(loft({held.patch(), boundary, boundary, uniform_weights(held.patch()), {}}, 0.6));
 }
 
 TEST_CASE("the least bent of the lofts is taken") {

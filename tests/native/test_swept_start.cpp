@@ -46,14 +46,14 @@ test::Mesh half_ring(unsigned seed, double begin, double twist = 0.0) {
     return mesh;
 }
 
-// A tube's outline with exact normals.
+// A tube's boundary with exact normals.
 Problem problem_of(const test::Single& single) {
     const Patch& patch = single.patch();
-    const Points outline = single.points.rightCols(patch.vertex_count() - patch.free_count);
-    Points normals = outline;
+    const Points boundary = single.points.rightCols(patch.vertex_count() - patch.free_count);
+    Points normals = boundary;
     for (auto normal : normals.colwise())
         normal = (normal - Vector3(normal.x(), normal.y(), 0.0).normalized()).normalized();
-    return {patch, outline, normals, uniform_weights(patch), {}};
+    return {patch, boundary, normals, uniform_weights(patch), {}};
 }
 
 }  // namespace

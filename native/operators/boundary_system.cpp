@@ -1,8 +1,8 @@
-#include "operators/outline_system.h"
+#include "operators/boundary_system.h"
 
 namespace fairing {
 
-OutlineSystem::OutlineSystem(const Patch& patch, const Points& fixed_points)
+BoundarySystem::BoundarySystem(const Patch& patch, const Points& fixed_points)
     : length_(VectorX::Zero(fixed_points.cols())) {
     for (const auto& [i, j] : patch.edge_ends) {
         if (patch.is_free(i) || patch.is_free(j)) continue;
@@ -16,8 +16,8 @@ OutlineSystem::OutlineSystem(const Patch& patch, const Points& fixed_points)
     }
 }
 
-// Means with the neighbours on the outline.
-VectorX OutlineSystem::even(VectorX values) const {
+// Means with the neighbours on the boundary.
+VectorX BoundarySystem::even(VectorX values) const {
     for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
         VectorX sum = 2.0 * values;
         VectorX count = VectorX::Constant(values.size(), 2.0);
@@ -32,7 +32,7 @@ VectorX OutlineSystem::even(VectorX values) const {
     return values;
 }
 
-bool OutlineSystem::update(const VectorX& quarter_mass) {
+bool BoundarySystem::update(const VectorX& quarter_mass) {
     const auto alone = (length_.array() <= 0.0);  // pins
     const VectorX length = alone.select(quarter_mass.cwiseSqrt(), length_);
     const VectorX c = even(quarter_mass).cwiseQuotient(even(length));
@@ -56,11 +56,11 @@ bool OutlineSystem::update(const VectorX& quarter_mass) {
     return half_order_.update(lower, least);
 }
 
-OutlineSystem::Row OutlineSystem::approximate_inverse(const Row& values) const {
+BoundarySystem::Row BoundarySystem::approximate_inverse(const Row& values) const {
     return half_order_.apply(values.cwiseProduct(scale_).transpose()).transpose().cwiseProduct(scale_);
 }
 
-OutlineCoupling::OutlineCoupling(const Patch& patch)
+BoundaryCoupling::BoundaryCoupling(const Patch& patch)
     : free_count_(patch.free_count), fixed_count_(patch.vertex_count() - patch.free_count) {
     for (int j = patch.free_count; j < patch.vertex_count(); ++j) {
         const RingView ring = patch.ring(j);
@@ -71,23 +71,23 @@ OutlineCoupling::OutlineCoupling(const Patch& patch)
     }
 }
 
-void OutlineCoupling::update(const Stiffness& stiffness) {
+void BoundaryCoupling::update(const Stiffness& stiffness) {
     for (Entry& entry : entries_) entry.weight = stiffness.weights[entry.edge];
 }
 
-VectorX OutlineCoupling::spread(const OutlineRow& outline) const {
+VectorX BoundaryCoupling::spread(const BoundaryRow& boundary) const {
     VectorX field = VectorX::Zero(free_count_);
-    for (const Entry& entry : entries_) field[entry.i] -= entry.weight * outline[entry.j];
+    for (const Entry& entry : entries_) field[entry.i] -= entry.weight * boundary[entry.j];
     return field;
 }
 
-OutlineRow OutlineCoupling::gather(const VectorX& field) const {
-    OutlineRow outline = OutlineRow::Zero(fixed_count_);
-    for (const Entry& entry : entries_) outline[entry.j] -= entry.weight * field[entry.i];
-    return outline;
+BoundaryRow BoundaryCoupling::gather(const VectorX& field) const {
+    BoundaryRow boundary = BoundaryRow::Zero(fixed_count_);
+    for (const Entry& entry : entries_) boundary[entry.j] -= entry.weight * field[entry.i];
+    return boundary;
 }
 
-Indices OutlineCoupling::beside() const {
+Indices BoundaryCoupling::beside() const {
     Indices vertices;
     for (const Entry& entry : entries_) vertices.push_back(entry.i);
     return vertices;

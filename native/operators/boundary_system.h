@@ -15,12 +15,12 @@ inline constexpr int smoothing_sweeps = 10;
 // about twice the size of a triangle, k the frequency. Let A be the Laplacian of the boundary by arc length
 // (eigenvalues k²) and f as HalfOrder has it. Then (ℓ c)^-½ f(c/2 A c/2) (c ℓ)^-½ is about the inverse. ℓ enters as it
 // is, since functions on the boundary are smooth in arc length; c enters smoothed.
-class OutlineSystem {
+class BoundarySystem {
 public:
     using Row = Eigen::RowVectorXd;  // a value for each fixed vertex
 
     // `fixed_points`: 3 × fixed vertices.
-    OutlineSystem(const Patch& patch, const Points& fixed_points);
+    BoundarySystem(const Patch& patch, const Points& fixed_points);
 
     // `quarter_mass`: 4M of the fixed vertices. False where nothing can be made of them.
     [[nodiscard]] bool update(const VectorX& quarter_mass);
@@ -44,18 +44,18 @@ private:
 };
 
 // A value for each fixed vertex, counted from the first one.
-using OutlineRow = Eigen::RowVectorXd;
+using BoundaryRow = Eigen::RowVectorXd;
 
-class OutlineCoupling {
+class BoundaryCoupling {
 public:
-    explicit OutlineCoupling(const Patch& patch);
+    explicit BoundaryCoupling(const Patch& patch);
 
     void update(const Stiffness& stiffness);
 
     // C b, a value for each free vertex.
-    [[nodiscard]] VectorX spread(const OutlineRow& outline) const;
+    [[nodiscard]] VectorX spread(const BoundaryRow& boundary) const;
     // Cᵀ a of a value for each free vertex.
-    [[nodiscard]] OutlineRow gather(const VectorX& field) const;
+    [[nodiscard]] BoundaryRow gather(const VectorX& field) const;
     // Free vertices beside the boundary, with repetitions.
     [[nodiscard]] Indices beside() const;
 

@@ -41,15 +41,15 @@ void bind_normals(py::module_& module) {
             return dict;
         });
     bind(module, "bad_outline", {"vertices", "outside", "outline"},
-         [](const Points& vertices, const Triangles& outside, const Indices& outline) {
-             Indices bad = bad_vertices(fit_surroundings(vertices, outside, outline));
-             for (int& place : bad) place = outline[place];
+         [](const Points& vertices, const Triangles& outside, const Indices& boundary) {
+             Indices bad = bad_vertices(fit_surroundings(vertices, outside, boundary));
+             for (int& place : bad) place = boundary[place];
              return bad;
          });
     bind(
         module, "mend_outline", {"vertices", "outside", "outline"},
-        [](const Points& vertices, const Triangles& outside, const Indices& outline) {
-            return fitted_boundary(vertices, outside, outline);
+        [](const Points& vertices, const Triangles& outside, const Indices& boundary) {
+            return fitted_boundary(vertices, outside, boundary);
         },
         [](const FittedBoundary& result) {
             py::dict dict = to_dict(result.normals);
@@ -63,7 +63,7 @@ void bind_normals(py::module_& module) {
 
 }  // namespace
 
-void bind_outline(py::module_& module) {
+void bind_boundary(py::module_& module) {
     bind_normals(module);
     bind(module, "hard_edges", {"vertices", "triangles", "marked"},
          [](const Points& vertices, const Triangles& triangles, const VertexPairs& marked) {

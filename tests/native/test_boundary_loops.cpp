@@ -80,7 +80,7 @@ TEST_CASE("a vertex far off its fit, or without one, is bad; one without triangl
 
 namespace {
 
-// The outline of a square grid bent into a disc, its vertices evenly round a circle.
+// The boundary of a square grid bent into a disc, its vertices evenly round a circle.
 struct Ring {
     test::Single single;
     Indices loop;  // fixed vertices from the first one on
@@ -92,9 +92,9 @@ struct Ring {
 
     // Radius r and height z by the angle, normals that lean outwards by 0.5.
     template <typename Radius, typename Height>
-    [[nodiscard]] OutlineData data(const Radius& r, const Height& z) const {
+    [[nodiscard]] BoundaryData data(const Radius& r, const Height& z) const {
         const auto count = static_cast<Eigen::Index>(loop.size());
-        OutlineData result{Points::Zero(3, count), Points::Zero(3, count)};
+        BoundaryData result{Points::Zero(3, count), Points::Zero(3, count)};
         for (Eigen::Index k = 0; k < count; ++k) {
             const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
             const Vector3 out(std::cos(angle), std::sin(angle), 0.0);
@@ -116,18 +116,18 @@ TEST_CASE(
     };
     const Ring coarse(8);
     const Ring fine(16);
-    const OutlineData circle = coarse.data([](double) { return 1.0; }, [](double) { return 0.0; });
-    CHECK(outline_variation(coarse.patch(), circle) < 1e-20);
+    const BoundaryData circle = coarse.data([](double) { return 1.0; }, [](double) { return 0.0; });
+    CHECK(boundary_variation(coarse.patch(), circle) < 1e-20);
     // ⟨n_i + n_j, e⟩ is 0.2 edges times 2 n_z, both ways, over the fourth power of nearly an edge; n of them.
     const double ratio =
-        outline_variation(fine.patch(), zigzag(fine)) / outline_variation(coarse.patch(), zigzag(coarse));
+        boundary_variation(fine.patch(), zigzag(fine)) / boundary_variation(coarse.patch(), zigzag(coarse));
     CHECK(ratio == doctest::Approx(8.0).epsilon(0.02));
-    OutlineData twins = circle;
+    BoundaryData twins = circle;
     twins.points.col(1) = twins.points.col(0);
     twins.points(2, 1) += 1e-6;
-    CHECK(outline_variation(coarse.patch(), twins) < 10.0);  // 36 / 1e-6² with what is between them
-    OutlineData scaled = zigzag(coarse);
+    CHECK(boundary_variation(coarse.patch(), twins) < 10.0);  // 36 / 1e-6² with what is between them
+    BoundaryData scaled = zigzag(coarse);
     scaled.points *= 2.0;
-    CHECK(outline_variation(coarse.patch(), scaled) ==
-          doctest::Approx(outline_variation(coarse.patch(), zigzag(coarse)) / 4.0));
+    CHECK(boundary_variation(coarse.patch(), scaled) ==
+          doctest::Approx(boundary_variation(coarse.patch(), zigzag(coarse)) / 4.0));
 }
