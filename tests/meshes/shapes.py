@@ -126,7 +126,7 @@ def linear_flux(
     n_free: int, style: Style | None = None, *, shape: Shape = "tube",
     span: tuple[float, float] = (0.0, 1.4), flux: float = 0.35,
 ) -> Patch:  # fmt: skip
-    """Surface of revolution with r H′ = flux (docs/dev/accuracy_log.md): harmonic, but not constant, H."""
+    """Surface of revolution with r H′ = flux: harmonic, but not constant, H."""
     profile = curves.linear_flux_profile(*span, flux)
     return _revolved(profile, shape, n_free, style, 2.0)
 
