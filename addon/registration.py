@@ -7,13 +7,11 @@ import bpy
 from . import file_owned, translations
 from .curves.operator import MESH_OT_fair_from_curves
 from .denoise.operator import MESH_OT_fair_denoise
-from .fair import brush_preview
 from .fair.brush import FairDab, MESH_OT_fair_brush
 from .fair.masked import MESH_OT_fair_masked
 from .fair.operator import MESH_OT_fair_region
 from .fair.strokes import MESH_OT_fair_stroke
 from .fill.operator import MESH_OT_fair_fill
-from .fillet import preview as fillet_preview
 from .fillet.operator import MESH_OT_fair_fillet
 from .host import handlers
 from .live import live
@@ -29,7 +27,7 @@ from .run.background import MESH_OT_fair_cancel
 from .run.redo import MESH_OT_fair_follow
 from .selection import watch
 from .selection.tools import MESH_OT_fair_select
-from .show import gizmos, marks, menus, tools, ui
+from .show import marks, menus, preview, tools, ui
 from .verdict.properties import FairCheck, FairProgress, FairReport
 
 _CLASSES: tuple[Any, ...] = (
@@ -57,7 +55,6 @@ _CLASSES: tuple[Any, ...] = (
     *menus.MENUS,
     MESH_OT_fair_stroke,
     *tools.MACROS,
-    *gizmos.GROUPS,
     MESH_OT_fair_select,
     MESH_OT_fair_again,
     watch.MESH_OT_fair_inspect,
@@ -78,8 +75,7 @@ _MODULES: tuple[Any, ...] = (
     handlers,
     watch,
     overlay,
-    fillet_preview,
-    brush_preview,
+    preview,
     live,
     marks,
     tools,

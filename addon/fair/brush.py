@@ -18,13 +18,13 @@ from ..host.polling import require
 from ..mesh import levels, painted
 from ..options.options import FairOptions
 from ..run.background import Watched
+from ..show.preview import show
 from ..translations import translated
 from ..words.words import said
-from .brush_preview import show
 from .outside import FairsOutside, Task, check_shown
 from .strokes import Stroke
 
-ABOVE = 0.01  # of the brush's reach, by which what is painted is shown above the surface
+FULL = 0.6  # opacity where all is painted
 
 
 class FairDab(bpy.types.PropertyGroup):
@@ -44,7 +44,6 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
     dabs: CollectionProperty(type=FairDab, options={"HIDDEN", "SKIP_SAVE"})
 
     _positions: Floats  # (n, 3), while the stroke is painted
-    _normals: Floats  # (n, 3)
     _triangles: Ints
     _weights: Floats
 
@@ -65,7 +64,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
             return {"CANCELLED"}
         self.dabs.clear()
         self._positions = painted.positions(obj.data)
-        self._normals, self._triangles = painted.shell(obj.data)
+        self._triangles = painted.triangles(obj.data)
         self._weights = np.zeros(len(self._positions))
         return self.begin_stroke(context, event)
 
@@ -73,7 +72,7 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         return Watched.modal(self, context, event) if self._run is not None else self.follow_stroke(context, event)
 
     def cancel(self, context: bpy.types.Context) -> None:
-        self._hide()
+        show([])
         Watched.cancel(self, context)
 
     def dab(self, context: bpy.types.Context, x: float, y: float) -> None:
@@ -88,13 +87,13 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         dab = self.dabs.add()
         dab.place, dab.reach = place, reach
         paint(self._weights, self._positions, np.array(place), reach)
-        places = (self._positions + ABOVE * reach * self._normals) @ matrix[:3, :3].T + matrix[:3, 3]
-        show(places, self._triangles[self._weights[self._triangles].any(axis=1)], self._weights)
-        context.area.tag_redraw()
+        places = self._positions @ matrix[:3, :3].T + matrix[:3, 3]
+        over = self._triangles[self._weights[self._triangles].any(axis=1)]
+        show([(places, over if np.linalg.det(matrix[:3, :3]) > 0.0 else over[:, ::-1], FULL * self._weights)])
 
     def let_go(self, context: bpy.types.Context) -> set[str]:
         """Fair, in the background where that takes a while."""
-        self._hide()
+        show([])
         if not len(self.dabs):
             self.report({"INFO"}, translated(said("no_face_there")))
             return {"CANCELLED"}
@@ -119,10 +118,6 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         if not len(faces):
             raise ValueError(said("brush_nothing"))
         return faces
-
-    @staticmethod
-    def _hide() -> None:
-        show(np.empty((0, 3)), np.empty((0, 3), dtype=np.int64), np.empty(0))
 
 
 INNER = 0.5  # of the radius, within which all is painted

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -29,6 +28,7 @@ from ..run.background import MOMENT, TICK, Watched, has_events
 from ..run.job import Refused, Task, each_of, read_for_new_faces, write_each
 from ..run.operator import InEditMode
 from ..run.runner import Run
+from ..show.preview import show
 from ..translations import translated
 from ..verdict.properties import store_word
 from ..verdict.verdict import UNUSABLE, NotUsable, worst
@@ -40,16 +40,6 @@ PROFILE_STEP = 0.1  # of the wheel
 PRECISE = 0.1  # of the mouse's way while Shift is held
 PATIENCE = 2.0  # seconds for a preview: a search that takes longer gives way to the next one
 SLOW = said("takes_longer")
-
-
-class _Handle:
-    """Where the last fillet can be pulled wider."""
-
-    flank: tuple[Floats, Floats] | None = None  # as _flank gives it
-
-
-handle = _Handle()
-previews: list[Callable[[list[Rounded]], None]] = []  # called with what a run by the mouse would write; [] at its end
 
 
 def read(context: bpy.types.Context, group: str) -> list[Task]:
@@ -74,18 +64,6 @@ def _length(task: Task) -> float:
     """Return that of all seams, in world space."""
     ends = task.mesh.positions[task.mesh.edges[task.about]] @ task.matrix[:3, :3].T
     return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
-
-
-def _flank(task: Task) -> tuple[Floats, Floats]:
-    """Return the middle (3,) of the middle seam in world space, and the unit direction away from it in one face."""
-    points = task.mesh.transformed(task.matrix).positions
-    edges = task.mesh.edges[task.about]
-    edge = edges[np.linalg.norm(points[edges].mean(axis=1) - _middle(task), axis=1).argmin()]
-    place, along = points[edge].mean(axis=0), points[edge[1]] - points[edge[0]]
-    triangle = task.mesh.triangles[np.isin(task.mesh.triangles, edge).sum(axis=1) == 2][0]
-    third = points[triangle[~np.isin(triangle, edge)][0]] - place
-    away = third - along * (third @ along) / (along @ along)
-    return place, away / np.linalg.norm(away)
 
 
 def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list[Rounded]:
@@ -117,7 +95,6 @@ class Asked(AskedInEditMode):
                 raise Refused(task.object_name, NotUsable(verdict, outcome.result))
         last_run.forget()  # there are no faces to fair again, and no two states to compare
         compare.forget()
-        handle.flank = _flank(self.tasks[0])
         written = write_each(context, zip(self.names, outcomes, strict=True), remeshed.write_edit_mesh)
         if not all(each.is_symmetric for each in written):
             say({"WARNING"}, translated(NOT_SYMMETRIC))
@@ -202,8 +179,7 @@ class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
         self._follow_no_more(context)
 
     def _follow_no_more(self, context: bpy.types.Context) -> None:
-        for preview in previews:
-            preview([])
+        show([])
         say(context, None)
         if self._timer is not None:
             context.window_manager.event_timer_remove(self._timer)
@@ -239,8 +215,7 @@ class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
                 self._reason = refusal.reason
             except fairing.Cancelled:
                 self._reason = SLOW
-            for preview in previews:
-                preview(self._found)
+            show([(*found.surface, np.ones(len(found.surface[0]))) for found in self._found])
         if self._wanted is not None:
             self._asked = replace(self._asked, options=self._wanted, begin=time.perf_counter())
             self._search, self._found, self._wanted = Run(self._asked.work), None, None

@@ -20,15 +20,17 @@ def edited_objects(context: bpy.types.Context) -> list[bpy.types.Object]:
     return list(found)
 
 
-def in_view(window: int, kind: str) -> dict[str, Any] | None:
-    """Return what `temp_override` is given for such a region of a 3D view of the window with this pointer; or None.
+def in_view(window: int) -> dict[str, Any] | None:
+    """Return what `temp_override` is given for the header of a 3D view of the window with this pointer; or None.
+
+    Not the 3D view itself: the end of a modal operator there ends what is pulled in it.
 
     A window may be gone by the time that a timer looks for it; then another one does.
     """
     windows = sorted(bpy.context.window_manager.windows, key=lambda each: each.as_pointer() != window)
     for each in windows:
         for area in each.screen.areas:
-            region = next((region for region in area.regions if region.type == kind), None)
+            region = next((region for region in area.regions if region.type == "HEADER"), None)
             if area.type == "VIEW_3D" and region is not None:
                 return {"window": each, "screen": each.screen, "area": area, "region": region}
     return None

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays.types import Floats, Ints
 from ..words.words import said
-from .columns import FACE_SET, SCULPT_MASK, faces_within, values, write_attribute
+from .columns import FACE_SET, SCULPT_MASK, faces_within, indices, values, write_attribute
 from .live_mesh import LAYER
 from .weights import group_weights
 
@@ -29,14 +29,10 @@ def masked_faces(mesh: bpy.types.Mesh) -> Ints:
     return np.empty(0, dtype=np.int64) if mask is None else faces_within(mesh, mask >= HALF)
 
 
-def shell(mesh: bpy.types.Mesh) -> tuple[Floats, Ints]:
-    """Return the unit normals (n, 3) of the vertices, and the triangles (t, 3) that Blender makes of the faces."""
-    normals = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("normal", normals)
+def triangles(mesh: bpy.types.Mesh) -> Ints:
+    """Return the triangles (t, 3) that Blender makes of the faces."""
     mesh.calc_loop_triangles()
-    corners = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
-    mesh.loop_triangles.foreach_get("vertices", corners)
-    return normals.reshape(-1, 3).astype(np.float64), corners.reshape(-1, 3).astype(np.int64)
+    return indices(mesh.loop_triangles, "vertices", 3)
 
 
 def protected(mesh: bpy.types.Mesh) -> Floats:

@@ -33,19 +33,6 @@ def surroundings(mesh: bpy.types.Mesh, vertex: int) -> tuple[Floats, Floats, flo
     return np.array(found.co), np.array(found.normal), float(np.mean(lengths)) if lengths else 0.0
 
 
-def middle(mesh: bpy.types.Mesh, faces: Ints) -> tuple[Floats, Floats, float]:
-    """Return centre and normal (3,) of the one of these faces in edit mode that is most in their middle; their area."""
-    bm = bmesh.from_edit_mesh(mesh)
-    bm.faces.ensure_lookup_table()
-    table: Any = bm.faces
-    chosen = [table[face] for face in faces.tolist()]
-    centres = np.array([face.calc_center_median() for face in chosen])
-    areas = np.array([face.calc_area() for face in chosen])
-    centre = (areas[:, None] * centres).sum(axis=0) / max(float(areas.sum()), 1e-300)
-    nearest = int(np.linalg.norm(centres - centre, axis=1).argmin())
-    return centres[nearest], np.array(chosen[nearest].normal), float(areas.sum())
-
-
 def select_faces(mesh: bpy.types.Mesh, faces: Ints) -> None:
     """Select exactly these faces, as far as they are visible. Needs face mode."""
     bm = bmesh.from_edit_mesh(mesh)

@@ -96,11 +96,6 @@ def is_improved_by(report: Report) -> bool:
     return standing(report) < _last.standing
 
 
-def regions() -> tuple[Region, ...]:
-    """Return what it was about; the same tuple until the next run."""
-    return _last.regions
-
-
 def has_regions() -> bool:
     return bool(_last.regions)
 
@@ -135,29 +130,10 @@ def worst_spot(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
     """Return where in world space the worst of the spots is, its normal, and how much around it is of interest."""
     region, mesh = next(pair for pair in _found(context, _last.regions or _last.seen) if len(pair[0].spots))
     place, normal, edge = selecting.surroundings(mesh, int(region.spots[0]))
-    place, normal, size = _in_world(context, region, place, normal)
-    return place, normal, SIGHT * edge * size
-
-
-def middle(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
-    """Return the middle (3,) of the first region in world space, its unit normal, and the radius of a disc as large.
-
-    Raises Changed.
-    """
-    region, mesh = _found(context, _last.regions)[0]
-    place, normal, area = selecting.middle(mesh, region.faces)
-    place, normal, size = _in_world(context, region, place, normal)
-    return place, normal / np.linalg.norm(normal), size * float(np.sqrt(area / np.pi))
-
-
-def _in_world(
-    context: bpy.types.Context, region: Region, place: Floats, normal: Floats
-) -> tuple[Floats, Floats, float]:
-    """Return a place and a normal (3,) of a region's object in world space, and how much longer lengths are there."""
     matrix = np.array(objects_in_mode(context)[region.object_name].matrix_world)
     linear = matrix[:3, :3]
     size = float(np.cbrt(abs(np.linalg.det(linear))))
-    return linear @ place + matrix[:3, 3], np.linalg.solve(linear.T, normal), size
+    return linear @ place + matrix[:3, 3], np.linalg.solve(linear.T, normal), SIGHT * edge * size
 
 
 def can_reselect(context: bpy.types.Context) -> bool:

@@ -176,9 +176,7 @@ def _watch() -> float | None:
         return None
     if not runner.call_off_all():
         return SOON
-    # Not the region of the 3D view itself: the end of a modal operator there ends what pulls an arrow, and Blender
-    # crashes at the next pull.
-    view = in_view(following.window, "HEADER")
+    view = in_view(following.window)
     if view is None:
         following.end()
         return None

@@ -182,13 +182,11 @@ def event(kind: str, value: str = "PRESS", at: tuple[int, int] = (0, 0), ascii: 
 
 
 @pytest.fixture
-def shown() -> Any:
+def shown(monkeypatch: pytest.MonkeyPatch) -> Any:
     """What previews were reported."""
     reported: list[Any] = []
-    fillet = module("fillet.operator")
-    fillet.previews.append(reported.append)
-    yield reported
-    fillet.previews.remove(reported.append)
+    monkeypatch.setattr(module("fillet.operator"), "show", reported.append)
+    return reported
 
 
 def dragged(operator: Any, way: int) -> None:
@@ -210,7 +208,7 @@ def test_the_mouse_moves_the_width_and_a_click_accepts(shown: Any) -> None:
     before = snapshot()
     dragged(operator, 30)
     assert operator.width == pytest.approx(WIDTH)
-    assert len(shown[-1][0].surface[1]) > 50
+    assert len(shown[-1][0][1]) > 50
     assert snapshot() == before
     assert operator.modal(bpy.context, event("LEFTMOUSE")) == {"FINISHED"}
     assert shown[-1] == []

@@ -329,33 +329,6 @@ def event(kind: str, value: str) -> Any:
     return SimpleNamespace(type=kind, value=value)
 
 
-def test_the_tools_arrows_wait_until_no_thread_is_left(region: Panel) -> None:
-    """One that searches for a live region, say: Blender crashes where it runs beside an operator of a timer."""
-    gizmos, run = module("show.gizmos"), module("run.runner").Run
-    region.change(shape="LEAST_VARIATION")
-    leave = threading.Event()
-    other = run(lambda _progress: leave.wait())
-    gizmos._wanted.append(bpy.context.window.as_pointer())
-    bpy.context.window_manager.operators[-1].properties.shape = "MINIMAL_ENERGY"
-    try:
-        for _ in range(5):
-            assert gizmos._run_again() == gizmos.SOON
-            region.open()
-            time.sleep(0.01)
-        assert other.cancelled
-        assert region.now == region.first
-    finally:
-        leave.set()
-    assert other.wait(STUCK)
-    end = time.perf_counter() + STUCK
-    while gizmos._run_again() is not None:
-        assert time.perf_counter() < end
-        time.sleep(0.01)
-    assert not region.threads()
-    region.is_open = True
-    check_one_step(region, shape="MINIMAL_ENERGY")
-
-
 def test_what_is_refused_after_another_selection_leaves_what_is_shown(region: Panel) -> None:
     region.change(**region.kind.refused)
     bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="SELECT")

@@ -64,8 +64,8 @@ def fillet_is_dragged() -> Story:
     fillet, said, shown = module("fillet.operator"), list[Any](), list[Any]()
     say = fillet.say
     fillet.say = lambda context, text: (said.append(text), say(context, text))
-    preview = shown.append
-    fillet.previews.append(preview)
+    show = fillet.show
+    fillet.show = lambda surfaces: (shown.append(surfaces), show(surfaces))
     try:
         yield from _drag()
         width = _running().width
@@ -85,7 +85,7 @@ def fillet_is_dragged() -> Story:
         assert scenes.contents() == before
         yield from _drag()
         assert abs(_running().width - width) < 0.01 * width, (_running().width, width)
-        new = len(shown[-1][0].result.vertices)
+        new = sum(len(each.result.vertices) for each in _running()._found)
         yield from click(x + FAR, y)
         yield from wait_until(_has_ended, 10.0)
         yield 1.0
@@ -101,4 +101,4 @@ def fillet_is_dragged() -> Story:
         assert np.isfinite(scenes.positions()).all()
     finally:
         fillet.say = say
-        fillet.previews.remove(preview)
+        fillet.show = show
