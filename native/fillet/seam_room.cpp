@@ -1,6 +1,5 @@
 #include "fillet/seam_room.h"
 
-#include <map>
 #include <set>
 
 #include "geometry/triangle.h"
@@ -12,7 +11,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();  // no seam, no limit
 constexpr double share = 0.2;                                         // of a side: what modellers begin with
 constexpr double most = 0.9;     // of the seams has longer sides than the one that counts: a narrow place is no measure
-constexpr double taken = 0.9;    // of the way to a wall: what is left of a face is wider than the new mesh's needles
+constexpr double taken = 0.9;    // of the way: what is left of a face is no narrower than the new edges are long
 constexpr double grazing = 0.3;  // cosine: sides that a way hardly meets are measured by their own ways
 constexpr double corner = 0.8;   // radians: where seams turn by more another piece begins
 
@@ -84,10 +83,9 @@ double usual_width(std::vector<std::pair<double, double>>& sides) {
 SeamRoom seam_room(const SeamMesh& mesh) {
     Sides of(mesh);
     std::vector<std::pair<double, double>> sides;  // and for how much of the seams
-    std::map<int, double> widest;
+    SeamRoom room{0.0, VectorX::Constant(mesh.points.cols(), infinite)};
     const auto limit = [&](int h, double width) {
-        double& known = widest.try_emplace(of.of.root(h), infinite).first->second;
-        known = std::min(known, width);
+        for (const int v : {mesh.tail(h), mesh.head(h)}) room.widest[v] = std::min(room.widest[v], taken * width);
     };
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || !(mesh.length[h] > 0.0)) continue;
@@ -95,17 +93,13 @@ SeamRoom seam_room(const SeamMesh& mesh) {
             const Way way = way_across(mesh, h, along);
             if (way.end == none || way.slope < grazing || of.meet(h, way.end)) continue;
             sides.emplace_back(way.length, mesh.length[h]);
-            if (mesh.seam[way.end] == none) limit(h, taken * way.length);
-            if (mesh.seam[way.end] == none) continue;
-            for (const int side : {h, way.end}) limit(side, way.slope / (1.0 + way.slope) * way.length);
+            const bool meets = mesh.seam[way.end] != none;
+            const double width = meets ? way.slope / (1.0 + way.slope) * way.length : way.length;
+            limit(h, width);
+            if (meets) limit(way.end, width);
         }
     }
-    SeamRoom room{usual_width(sides), VectorX::Constant(mesh.points.cols(), infinite)};
-    for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.seam[h] == none || !widest.contains(of.of.root(h))) continue;
-        for (const int v : {mesh.tail(h), mesh.head(h)})
-            room.widest[v] = std::min(room.widest[v], widest.at(of.of.root(h)));
-    }
+    room.usual = usual_width(sides);
     return room;
 }
 

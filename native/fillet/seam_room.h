@@ -8,11 +8,11 @@ namespace fairing {
 struct SeamRoom {
     double usual;  // a fifth of the shortest side beside the seams, but for a tenth of their length; 0 without seams
     VectorX
-        widest;  // of each vertex: so wide fillets from both sides meet, or nearly reach a wall; infinite off the seams
+        widest;  // of each vertex: so wide fillets from both sides nearly meet, or reach a wall; infinite without limit
 };
 
-// By ways square to the seams' edges straight on over the surface to the next seam, wall or border. A side of a face,
-// from corner to corner, has one `widest`; sides that meet in a corner do not limit each other.
+// By ways square to the seams' edges straight on over the surface to the next seam, wall or border. Sides of a face
+// that meet in a corner do not limit each other.
 SeamRoom seam_room(const SeamMesh& mesh);
 
 }  // namespace fairing

@@ -6,6 +6,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+import fairing
+
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 Surface = tuple[FloatArray, IntArray]
@@ -151,3 +153,9 @@ def _single_fans(triangles: IntArray) -> bool:
     match = forward[order][place] == backward
     graph = coo_array((np.ones(match.sum()), (corner[match], order[place[match]])), shape=(len(corner),) * 2)
     return int(connected_components(graph)[0]) == len(np.unique(vertex))
+
+
+def with_fillet(vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult) -> Surface:
+    """The mesh with its fillet."""
+    kept = np.delete(np.asarray(triangles), result.gone, axis=0)
+    return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])

@@ -152,3 +152,14 @@ def hard_edges(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, marked: npt
     points, faces = arguments.mesh(vertices, triangles)
     pairs = arguments.vertices_of("marked", marked, len(points), 2)
     return _core.hard_edges(points, arguments.finite_triangles(points, faces), pairs)
+
+
+def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
+    """(k,) the nearest of the ends (s, 3), in blocks of places."""
+    block = max(1, 2_000_000 // max(1, len(ends)))
+    found = [
+        ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
+        for part in np.array_split(places, range(block, len(places), block))
+    ]
+    result: IntArray = np.concatenate(found)
+    return result

@@ -7,19 +7,12 @@ import pytest
 from numpy.typing import NDArray
 
 import fairing
+import measures
 import solids
 import wedges
 from wedges import FloatArray, IntArray
 
 WIDTH = 0.3
-
-
-def whole(
-    vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult
-) -> tuple[FloatArray, IntArray]:
-    """The mesh with its fillet."""
-    kept = np.delete(np.asarray(triangles), result.gone, axis=0)
-    return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
 
 
 def middle(result: fairing.results.FilletResult, reach: float = 0.7) -> FloatArray:
@@ -30,11 +23,6 @@ def middle(result: fairing.results.FilletResult, reach: float = 0.7) -> FloatArr
 def areas(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     a, b, c = (vertices[triangles[:, k]] for k in range(3))
     return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-
-
-def euler(triangles: IntArray) -> int:
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return len(np.unique(triangles)) - len(np.unique(sides, axis=0)) + len(triangles)
 
 
 @pytest.mark.parametrize("rows", [1, 7])
@@ -96,7 +84,7 @@ def test_the_profile_is_the_drawn_beam(profile: float) -> None:
 def test_it_ends_on_straight_lines_beside_straight_edges(rows: int) -> None:
     vertices, triangles = solids.box(rows)
     result = fairing.fillet(vertices, triangles, width=0.2, spacing=0.1)
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     ends = points[np.unique(result.line)]
     across = np.sort(np.abs(ends), axis=1)
     assert abs(across[:, 2] - 1).max() < 1e-12
@@ -105,7 +93,7 @@ def test_it_ends_on_straight_lines_beside_straight_edges(rows: int) -> None:
     kept = np.delete(triangles, result.gone, axis=0)
     assert abs(areas(points, pieces).sum() + areas(points, kept).sum() - 6 * 1.6**2) < 1e-10
     assert areas(points, pieces).min() > 0
-    assert euler(faces) == 2
+    assert measures.euler_number(faces) == 2
     assert fairing.boundary_loops(faces) == []
 
 
@@ -136,20 +124,15 @@ def test_the_line_closes_around_the_ends_of_a_seam(count: int) -> None:
 
 def test_pieces_outside_stay_in_their_planes_and_all_else_stays() -> None:
     vertices, triangles = solids.sphere(24, 12)
-    ring = np.array([[a, b] for a, b in _edges(triangles) if abs(vertices[[a, b], 2]).max() < 1e-9])
+    ring = np.array([[a, b] for a, b in measures.edges(triangles) if abs(vertices[[a, b], 2]).max() < 1e-9])
     result = fairing.fillet(vertices, triangles, ring, width=0.4)
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     for t, parent in zip(result.triangles[: result.outside], result.parent[: result.outside], strict=True):
         a, b, c = vertices[triangles[parent]]
         normal = np.cross(b - a, c - a)
         assert np.abs((points[t] - a) @ normal / np.linalg.norm(normal)).max() < 1e-14
-    assert euler(faces) == 2
+    assert measures.euler_number(faces) == 2
     assert fairing.boundary_loops(faces) == []
-
-
-def _edges(triangles: IntArray) -> IntArray:
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    return np.unique(sides, axis=0)
 
 
 def test_widths_differ_on_both_sides() -> None:
@@ -238,12 +221,28 @@ def test_a_clamped_width_fits_and_says_where() -> None:
     assert 0.4 < warning.figures["widest"] < 0.5
     assert result.converged
     assert result.vertices[:, 2].max() <= 2.0 + 1e-6
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
     assert len(fairing.self_intersections(points, faces)) == 0
     same = fairing.fillet(vertices, triangles, width=0.4, clamp=True)
     np.testing.assert_array_equal(same.vertices, fairing.fillet(vertices, triangles, width=0.4, clamp=False).vertices)
     assert same.warnings == ()
+
+
+def test_clamped_widths_taper() -> None:
+    """Beyond a wall that ends the fillet becomes wider by a quarter of the way along the seam, not at once."""
+    vertices, triangles = solids.box(16)
+    hard, edges = fairing.hard_edges(vertices, triangles), measures.edges(triangles)
+    x, y, z = np.moveaxis(vertices[edges], 2, 0)
+    wall = edges[(abs(x + 0.75).max(axis=1) < 1e-9) & (abs(y).max(axis=1) < 0.3) & (z.min(axis=1) > 1.0 - 1e-9)]
+    seam = hard[(vertices[hard, 0].max(axis=1) < -1.0 + 1e-9) & (vertices[hard, 2].min(axis=1) > 1.0 - 1e-9)]
+    result = fairing.fillet(vertices, triangles, seam, width=0.4, clamp=True, walls=np.concatenate([hard, wall]))
+    points = np.concatenate([vertices, result.vertices])
+    ends = points[np.unique(result.line)]
+    ends = ends[ends[:, 2] > 1.0 - 1e-9]
+    along, reach = ends[np.argsort(ends[:, 1])][:, 1::-1].T
+    assert ((reach + 1.0).min(), (reach + 1.0).max()) == pytest.approx((0.225, 0.4), abs=1e-3)
+    assert abs(np.diff(reach) / np.diff(along)).max() < 0.3
 
 
 def test_a_vertex_on_an_edge_is_named() -> None:
@@ -285,14 +284,14 @@ def test_a_fillet_stops_at_walls_and_is_tangent_to_its_own_side_there() -> None:
     vertices, triangles = solids.box(1)
     tall = vertices * [1.0, 1.0, 0.03]
     top = np.array(
-        [[a, b] for a, b in _edges(triangles) if (tall[[a, b], 2] > 0).all() and (tall[[a, b], 0] > 0).all()]
+        [[a, b] for a, b in measures.edges(triangles) if (tall[[a, b], 2] > 0).all() and (tall[[a, b], 0] > 0).all()]
     )
     seam = top[np.abs(tall[top][:, :, 0] - 1).max(axis=1) < 1e-9]
     result = fairing.fillet(tall, triangles, seam, width=0.3)
     assert result.converged
     assert result.vertices[:, 2].min() >= -0.03 - 1e-9
-    _, faces = whole(tall, triangles, result)
-    assert euler(faces) == 2
+    _, faces = measures.with_fillet(tall, triangles, result)
+    assert measures.euler_number(faces) == 2
     assert fairing.boundary_loops(faces) == []
 
 
@@ -329,14 +328,14 @@ def is_round(vertices: FloatArray, triangles: IntArray, result: fairing.results.
     near = near[(near[:, :2] > 0.8 - 1e-9).all(axis=1)]
     off = abs(np.hypot(near[:, 0] - 0.8, near[:, 1] - 0.8) - 0.2) / 0.2
     assert off.max() < 5e-3
-    _, faces = whole(vertices, triangles, result)
+    _, faces = measures.with_fillet(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
 
 
 def test_a_triangle_without_area_in_a_seam_is_got_over() -> None:
     """As booleans leave them: the seam has a vertex on one side only, and so a triangle without area in it."""
     vertices, triangles = solids.box(2)
-    edge = _edges(triangles)
+    edge = measures.edges(triangles)
     along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
     a, b = along[0].tolist()
     beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))
@@ -355,7 +354,7 @@ def test_a_triangle_without_area_in_a_seam_is_got_over() -> None:
 def test_edges_without_length_in_a_seam_are_got_over(count: int) -> None:
     """As booleans leave them. Points of the line lie in one place, and seemed to be before each other for ever."""
     vertices, triangles = solids.box(2)
-    edge = _edges(triangles)
+    edge = measures.edges(triangles)
     along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
     a, b = along[0].tolist()
     doubled = list(range(len(vertices), len(vertices) + count))
@@ -411,7 +410,7 @@ def test_a_fillet_goes_on_through_the_faces_at_its_ends(shear: float) -> None:
     walls = hard[np.ptp(vertices[hard][:, :, 2], axis=1) < 1e-9]
     vertices = vertices + shear * vertices[:, 2:] * (1.0, 0.0, 0.0)
     result = fairing.fillet(vertices, triangles, seam, width=width, walls=walls)
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     assert (result.converged, fairing.boundary_loops(faces)) == (True, [])
     assert len(fairing.self_intersections(points, faces)) == 0
     used = points[np.unique(faces)]
@@ -436,7 +435,7 @@ def test_a_fillet_fills_the_corners_of_a_pocket_up_to_its_mouth() -> None:
     triangles = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
     seam = np.array([(8 + k, 12 + k) for k in range(4)])
     result = fairing.fillet(vertices, triangles, seam, width=width)
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     assert (result.converged, result.warnings, fairing.boundary_loops(faces)) == (True, (), [])
     assert len(fairing.self_intersections(points, faces)) == 0
     assert volume(points, faces) == pytest.approx(44.0 + (4.0 - np.pi) * width**2, rel=1e-4)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import fairing
+import measures
 import solids
 import wedges
 from fairing import _core
@@ -21,7 +22,7 @@ def sides_of(faces: IntArray) -> IntArray:
 
 def without_diagonals(vertices: FloatArray, triangles: IntArray, axes: int = 1) -> IntArray:
     """The edges that are parallel to axes, or lie in a plane of two of them."""
-    edges = np.unique(np.sort(sides_of(triangles), axis=1), axis=0)
+    edges = measures.edges(triangles)
     along = np.abs(vertices[edges[:, 0]] - vertices[edges[:, 1]]) > 1e-9
     return edges[along.sum(axis=1) <= axes]
 
@@ -31,13 +32,6 @@ def angles(points: FloatArray, quads: IntArray) -> FloatArray:
     ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     sizes = np.linalg.norm(ahead, axis=2) * np.linalg.norm(back, axis=2)
     return np.degrees(np.arccos((ahead * back).sum(axis=2) / sizes))
-
-
-def whole(
-    vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult
-) -> tuple[FloatArray, IntArray]:
-    kept = np.delete(np.asarray(triangles), result.gone, axis=0)
-    return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
 
 
 def valences(result: fairing.results.FilletResult) -> Counter[int]:
@@ -53,10 +47,9 @@ def check_closed(vertices: FloatArray, triangles: IntArray, result: fairing.resu
     """The mesh with its fillet is closed, as it was, and only quads are new."""
     assert result.quads is not None
     assert len(result.quads.triangles) == result.outside  # the pieces of cut triangles
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
-    edges = np.unique(np.sort(sides_of(faces), axis=1), axis=0)
-    assert len(np.unique(faces)) - len(edges) + len(faces) == 2
+    assert measures.euler_number(faces) == 2
     new = angles(points, result.quads.quads)
     assert ((new > 50) & (new < 130)).mean() >= 0.95
 
@@ -80,7 +73,7 @@ def test_a_ring_has_a_column_for_each_edge_that_comes_to_it() -> None:
     """24 edges of a cylinder's wall; those of its lids go to the middle. Nothing else meets the line."""
     count = 24
     vertices, triangles = solids.cylinder(count, 5, 2.0)
-    edges = np.unique(np.sort(sides_of(triangles), axis=1), axis=0)
+    edges = measures.edges(triangles)
     turn = np.arctan2(vertices[:, 1], vertices[:, 0])
     way = np.abs(np.angle(np.exp(1j * (turn[edges[:, 0]] - turn[edges[:, 1]]))))
     flat = vertices[edges[:, 0], 2] == vertices[edges[:, 1], 2]
@@ -137,7 +130,7 @@ def test_a_seam_that_fades_out_has_rows_between_triangles() -> None:
     assert result.quads is not None
     assert len(result.quads.quads) >= 2 * ROWS
     assert len(result.quads.triangles) > result.outside
-    points, faces = whole(vertices, triangles, result)
+    points, faces = measures.with_fillet(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
     assert len(fairing.self_intersections(points, faces)) == 0
     new = angles(points, result.quads.quads)
@@ -148,13 +141,13 @@ def test_diagonals_get_no_vertices() -> None:
     """Where they cross the line, the pieces outside are meshed anew."""
     vertices, triangles, seam = wedges.wedge(90, rows=3)
     counted = without_diagonals(vertices, triangles, 2)
-    edges = np.unique(np.sort(sides_of(triangles), axis=1), axis=0)
+    edges = measures.edges(triangles)
     diagonals = edges[~(edges[:, None] == counted).all(axis=2).any(axis=1)]
     start, way = vertices[diagonals[:, 0]], vertices[diagonals[:, 1]] - vertices[diagonals[:, 0]]
     crossings = []
     for edges_that_count in (counted, None):
         result = fairing.fillet(vertices, triangles, seam, width=WIDTH, faces="quads", neighbours=edges_that_count)
-        points, faces = whole(vertices, triangles, result)
+        points, faces = measures.with_fillet(vertices, triangles, result)
         off = np.linalg.norm(np.cross(points[np.unique(result.line)][:, None] - start, way), axis=2)
         crossings.append((off < 1e-9).any(axis=1).sum())
         corners = points[result.triangles[: result.outside]]
@@ -202,5 +195,5 @@ def test_where_fillets_run_into_each_other_triangles_stay_and_that_is_said() -> 
     assert warning.figures["seams"] == 1.0
     assert result.quads is not None
     assert len(result.quads.quads) == 0
-    _, faces = whole(vertices, triangles, result)
+    _, faces = measures.with_fillet(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing.filleting.rounded import Given, Made, Wishes, in_rows, nearest, result_of, solved
-from fairing.measure import edges_with_uses, hard_edges
+from fairing.filleting.rounded import Given, Made, Wishes, in_rows, result_of, solved
+from fairing.measure import edges_with_uses, hard_edges, nearest
 from fairing.meshing.patch import Limit, Progress, Watch, refuse_made_here
 from fairing.meshing.quads import FACES, quads_of
 from fairing.options import arguments
@@ -142,9 +142,9 @@ def fillet(
         together without seams and walls, ``width_2`` that of the smaller one. Where both are one, or of one size,
         ``width`` lies on the left of the first edge given, and of those that follow each other from there.
     clamp : bool
-        Make fillets no wider than there is room: each piece of a seam at most so wide that it meets the next one in the
-        middle, or nearly reaches a wall, and leaves something of each face between seams. WIDTH_TOO_LARGE is then a
-        warning that names the vertices, with the least width; without it such widths are refused.
+        Make fillets no wider than there is room: at most nine tenths of the way to a wall or the middle between seams,
+        and less where nothing would be left of a face; widths taper. WIDTH_TOO_LARGE is then a warning that names the
+        vertices, with the least width; without it such widths are refused.
     walls : (w, 2) int
         Edges that a fillet does not reach over: it ends there, tangent to its own side. Default: the other hard edges.
         Open borders always are walls.
@@ -201,22 +201,29 @@ def fillet(
     finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
     wishes = Wishes(finer, shape, both, ends, given, watch, wants_rows)
     mesh = Given(points, corners, seams)
-    widest = room[1].copy() if clamp else None
+    widest = room[1].copy() if clamp else np.full(len(points), np.inf)
     for _ in range(_ROUNDS):
-        cut, wishes = _cut(mesh, wishes, widest)
-        refuse_vertices_on_edges(points, corners, cut["parent"])
-        watch.lap("cut")
-        try:
-            made = solved(mesh, cut, wishes)
-        except MeshError as error:
-            raise _named(error, len(points)) from error
-        near = _outside(mesh, made, wishes)
-        if not len(near) or widest is None:
+        wishes = _tapered(mesh, wishes, widest)
+        cut = mesh.cut(wishes, watch.part(0, 0.2))
+        bad: list[tuple[IntArray, Any]] = [part[:2] for part in cut["eaten"] if not part[2]]
+        what = "nothing would be left of a part between seams"
+        if not bad:
+            refuse_vertices_on_edges(points, corners, cut["parent"])
+            watch.lap("cut")
+            try:
+                made = solved(mesh, cut, wishes)
+            except MeshError as error:
+                raise _named(error, len(points)) from error
+            near = _outside(mesh, made, wishes)
+            bad = [(near, np.minimum(np.maximum(*wishes.widths), room[1])[near])] if len(near) else []
+            what = "the fillet would leave the shape that it rounds"
+        if not bad or not clamp:
             break
-        widest[near] = _NARROWER * np.maximum(*wishes.widths)[near]
-    if len(near):
-        what = "the fillet would leave the shape that it rounds"
-        raise _too_wide(what, near, wishes, seams, float(room[1][near].min()))
+        for vertices, most in bad:
+            widest[vertices] = np.minimum(widest[vertices], _NARROWER * most)
+    if bad:
+        where = np.unique(np.concatenate([vertices for vertices, _ in bad]))
+        raise _too_wide(what, where, wishes, seams, min(float(np.min(most)) for _, most in bad))
     clamped = _clamped(both, wishes.widths, seams)
     made = replace(made, values={**made.values, "warnings": (*clamped, *made.values["warnings"])})
     if not wants_rows:
@@ -250,28 +257,21 @@ def _widths(given: tuple[Any, Any], seams: IntArray, usual: float, count: int) -
     return one, one if second is None else width_of("width_2", second, seams, count)
 
 
-_ROUNDS = 5  # of narrower widths, each of which may leave another part with nothing
-_LEFT = 0.9  # of the width that takes a part whole: a strip is left
-_NARROWER = 0.9  # of the width where a surface leaves the shape
+_ROUNDS = 6  # of narrower widths, each of which may leave another part with nothing
+_NARROWER = 0.9  # of the width that takes a part whole, or where a surface leaves the shape
+_TAPER = 0.25  # of the way along a seam: so much widths change
 
 
-def _cut(mesh: Given, wishes: Wishes, widest: FloatArray | None) -> tuple[dict[str, Any], Wishes]:
-    """The cut mesh, and the wishes with widths that fit: at most `widest` (n,), unless that is None; or MeshError."""
-    for _ in range(_ROUNDS):
-        if widest is not None:
-            one, other = (np.minimum(side, widest) for side in wishes.widths)
-            wishes = replace(wishes, widths=(one, other))
-        cut = mesh.cut(wishes, wishes.watch.part(0, 0.2))
-        eaten = [part for part in cut["eaten"] if not part[2]]
-        if not eaten:
-            return cut, wishes
-        if widest is None:
-            break
-        for vertices, most, _ in eaten:
-            widest[vertices] = np.minimum(widest[vertices], _LEFT * most)
-    vertices = np.unique(np.concatenate([part[0] for part in eaten]))
-    what = "nothing would be left of a part between seams"
-    raise _too_wide(what, vertices, wishes, mesh.seams, min(part[1] for part in eaten))
+def _tapered(mesh: Given, wishes: Wishes, widest: FloatArray) -> Wishes:
+    """With widths of at most `widest` (n,), which becomes less beside narrow places."""
+    ends = mesh.seams
+    steps = _TAPER * np.linalg.norm(mesh.points[ends[:, 0]] - mesh.points[ends[:, 1]], axis=1)
+    before = np.zeros_like(widest)
+    while (widest != before).any():
+        before = widest.copy()
+        np.minimum.at(widest, ends, before[ends[:, ::-1]] + steps[:, None])
+    one, other = (np.minimum(side, widest) for side in wishes.widths)
+    return replace(wishes, widths=(one, other))
 
 
 def _clamped(
@@ -336,8 +336,6 @@ def _outside(mesh: Given, made: Made, wishes: Wishes) -> IntArray:
     widest = max(float(side[mesh.seams].max()) for side in wishes.widths)
     after = made.vertices[count:][used]
     wrong = _core.on_wrong_side(mesh.points, mesh.triangles, edges, widest, before[used], after, None)
-    if not len(wrong):
-        return wrong
     ends = np.unique(mesh.seams)
     near: IntArray = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
     return near

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from fairing import _core
 from fairing.maps import interpolate
-from fairing.measure import boundary_loops
+from fairing.measure import boundary_loops, nearest
 from fairing.meshing.patch import Patch, Progress, Spacing, Watch
 from fairing.meshing.quads import halves_of
 from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, read_only, report_fields
@@ -157,17 +157,6 @@ def _drawn(fair: Patch, before: FloatArray, seams: IntArray, wishes: Wishes) -> 
     pull = np.zeros(len(at))
     pull[used] = (4 * profile / ((1 - profile) * width)) ** 4
     return _core.drawn_to(at, fair.triangles, fair.fixed, target, pull)
-
-
-def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
-    """(k,) the nearest of the ends (s, 3), in blocks of places."""
-    block = max(1, 2_000_000 // max(1, len(ends)))
-    found = [
-        ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
-        for part in np.array_split(places, range(block, len(places), block))
-    ]
-    result: IntArray = np.concatenate(found)
-    return result
 
 
 def _is_gone(cut: dict[str, Any], inside: Mask, triangles: IntArray) -> Mask:

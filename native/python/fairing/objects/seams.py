@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fairing.filleting.rounded import nearest
+from fairing.measure import nearest
 from fairing.objects.data import is_normal, mixed, mixes, spread
 from fairing.objects.parts import PLACE, Data, Parts, Polygons, alike
 from fairing.results import FilletResult, FloatArray, IntArray, NewMeshResult, SolverError
