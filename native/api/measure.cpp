@@ -7,11 +7,13 @@
 #include "base/columns.h"
 #include "base/errors.h"
 #include "fairness/harmonic_values.h"
+#include "fairness/inner_weights.h"
 #include "geometry/flips.h"
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring.h"
 #include "geometry/surface_fit.h"
 #include "mesh/pieces.h"
+#include "multigrid/coarsening.h"
 
 namespace fairing {
 
@@ -122,6 +124,33 @@ Indices component_of_triangles(const Triangles& triangles, const std::optional<I
     Indices result(static_cast<int>(triangles.cols()), none);
     for (std::size_t t = 0; t < mesh.cut.piece.size(); ++t) {
         result[mesh.cut.input_triangle[t]] = number[mesh.cut.piece[t]];
+    }
+    return result;
+}
+
+std::vector<Triangles> mesh_levels(const MeshInput& input, int most) {
+    const CheckedMesh mesh = check_mesh(input);
+    std::vector<std::vector<Triangles>> pieces;
+    std::size_t depth = 1;
+    for_each_piece(mesh.cut, mesh.roles, input.vertices, [&](const Patch& patch, const Points&) {
+        const auto numbered = [&](const Triangles& of) {
+            return of.unaryExpr([&](int v) { return patch.to_input[v]; });
+        };
+        std::vector<Triangles>& levels = pieces.emplace_back();
+        levels.emplace_back(numbered(patch.triangles));
+        for (const CoarseLevel& level : coarsen(patch, uniform_weights(patch))) {
+            const Indices& in_patch = level.patch.to_input;
+            levels.emplace_back(numbered(level.patch.triangles.unaryExpr([&](int v) { return in_patch[v]; })));
+        }
+        depth = std::max(depth, levels.size());
+    });
+    std::vector<Triangles> result(most > 0 ? std::min(depth, static_cast<std::size_t>(most)) : depth, Triangles(3, 0));
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        for (const std::vector<Triangles>& levels : pieces) {
+            const Triangles& own = levels[std::min(k, levels.size() - 1)];
+            result[k].conservativeResize(3, result[k].cols() + own.cols());
+            result[k].rightCols(own.cols()) = own;
+        }
     }
     return result;
 }

@@ -21,6 +21,10 @@ VectorX mean_curvature(std::span<const Patch> pieces, const FixedNormals& normal
 // and for triangles that name a vertex twice. The components are those that fair() solves, closed ones among them.
 Indices component_of_triangles(const Triangles& triangles, const std::optional<Indices>& fixed, int vertex_count);
 
+// The mesh and the levels of multigrid below it (multigrid/coarsening), `most` in all or 0 for as many as there are,
+// fine to coarse. Vertices of curves and borders are on all; a component without coarser levels stays as it is.
+std::vector<Triangles> mesh_levels(const MeshInput& input, int most);
+
 // H of a mesh; normals of fixed vertices that are not prescribed are one-sided fits.
 VectorX mean_curvature(const MeshInput& input, NormalKind kind);
 

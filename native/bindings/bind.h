@@ -2,6 +2,7 @@
 // between runs without, can be cancelled, and throws what convert.h translates.
 #pragma once
 
+#include "api/fair.h"
 #include "bindings/convert.h"
 #include "bindings/python_run.h"
 
@@ -9,6 +10,7 @@ namespace fairing::bindings {
 
 using MaybeIndices = std::optional<Indices>;
 using MaybePoints = std::optional<Points>;
+using MaybeNumbers = std::optional<VectorX>;
 
 // A result as convert.h and pybind11 have it; others are shown by a function of their own, with the GIL held.
 struct AsItIs {
@@ -18,9 +20,32 @@ struct AsItIs {
     }
 };
 
+// What the object of a class is made of, by py::init.
+struct ForInit {
+    template <typename Object>
+    Object operator()(Object&& object) const {
+        return std::forward<Object>(object);
+    }
+};
+
+// What is kept for an argument during a call.
+template <typename Argument>
+struct Kept {
+    using Type = Argument;
+};
+template <typename Matrix>
+struct Kept<View<Matrix>> {
+    using Type = Matrix;
+};
+template <typename Argument>
+using KeptFor = typename Kept<std::decay_t<Argument>>::Type;
+
+template <typename Function>
+struct Signature {};
+
 template <typename Work, typename Show, typename Result, typename... Arguments>
-auto in_run(Work work, Show show, Result (Work::* /*of*/)(Arguments...) const) {
-    return [=](const std::decay_t<Arguments>&... arguments) {
+auto in_run(Work work, Show show, Signature<std::function<Result(Arguments...)>> /*of*/) {
+    return [=](const KeptFor<Arguments>&... arguments) {
         PythonRun run;
         return show(run.without_gil([&](const ProgressCallback&) { return work(arguments...); }));
     };
@@ -28,20 +53,34 @@ auto in_run(Work work, Show show, Result (Work::* /*of*/)(Arguments...) const) {
 
 // Work that tells its progress: Python's callback comes last.
 template <typename Work, typename Show, typename Result, typename... Arguments>
-auto in_run(Work work, Show show, Result (Work::* /*of*/)(const ProgressCallback&, Arguments...) const) {
-    return [=](const std::decay_t<Arguments>&... arguments, const py::object& callback) {
+auto in_run(Work work, Show show, Signature<std::function<Result(const ProgressCallback&, Arguments...)>> /*of*/) {
+    return [=](const KeptFor<Arguments>&... arguments, const py::object& callback) {
         PythonRun run(callback);
         return show(run.without_gil([&](const ProgressCallback& progress) { return work(progress, arguments...); }));
     };
 }
 
-// `names`: of the arguments.
-template <std::size_t Count, typename Work, typename Show = AsItIs>
-void bind(py::module_& module, const char* name, const char* const (&names)[Count],  // NOLINT: a list in braces
-          Work work, Show show = {}) {
-    [&]<std::size_t... K>(std::index_sequence<K...>) {
-        module.def(name, in_run(work, show, &Work::operator()), py::arg(names[K])...);
-    }(std::make_index_sequence<Count>{});
+// Work that also shows a first surface: behind the callback comes what is shown it, or None.
+template <typename Work, typename Show, typename Result, typename... Arguments>
+auto in_run(Work work, Show show,
+            Signature<std::function<Result(const ProgressCallback&, const Preview&, Arguments...)>> /*of*/) {
+    return [=](const KeptFor<Arguments>&... arguments, const py::object& callback, const py::object& receiver) {
+        PythonRun run(callback);
+        Preview preview;
+        if (!receiver.is_none()) preview = [&](const Points& vertices) { run.give(receiver, vertices); };
+        return show(
+            run.without_gil([&](const ProgressCallback& progress) { return work(progress, preview, arguments...); }));
+    };
+}
+
+template <typename Work, typename Show = AsItIs>
+auto in_run(Work work, Show show = {}) {
+    return in_run(work, show, Signature<decltype(std::function(work))>{});
+}
+
+template <typename Work, typename Show = AsItIs>
+void bind(py::module_& module, const char* name, Work work, Show show = {}) {
+    module.def(name, in_run(work, show));
 }
 
 }  // namespace fairing::bindings

@@ -22,14 +22,9 @@ py::dict to_dict(const SurroundingNormals& result) {
 }
 
 void bind_normals(py::module_& module) {
+    bind(module, "surrounding_normals", &surrounding_normals, &to_dict);
     bind(
-        module, "surrounding_normals", {"vertices", "triangles", "at", "creases"},
-        [](const Points& vertices, const Triangles& triangles, const Indices& at, const VertexPairs& creases) {
-            return surrounding_normals(vertices, triangles, at, creases);
-        },
-        &to_dict);
-    bind(
-        module, "boundary_normals", {"vertices", "inside", "outside", "at", "creases", "all_inside"},
+        module, "boundary_normals",
         [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& at,
            const VertexPairs& creases, bool all_inside) {
             return boundary_normals({vertices, inside, outside}, at, creases,
@@ -40,40 +35,29 @@ void bind_normals(py::module_& module) {
             dict["from_inside"] = found.from_inside;
             return dict;
         });
-    bind(module, "bad_outline", {"vertices", "outside", "outline"},
-         [](const Points& vertices, const Triangles& outside, const Indices& boundary) {
-             Indices bad = bad_vertices(fit_surroundings(vertices, outside, boundary));
-             for (int& place : bad) place = boundary[place];
-             return bad;
-         });
-    bind(
-        module, "mend_outline", {"vertices", "outside", "outline"},
-        [](const Points& vertices, const Triangles& outside, const Indices& boundary) {
-            return fitted_boundary(vertices, outside, boundary);
-        },
-        [](const FittedBoundary& result) {
-            py::dict dict = to_dict(result.normals);
-            dict["vertices"] = result.vertices;
-            dict["moved"] = result.moved;
-            dict["held"] = result.held;
-            dict["noise"] = result.noise;
-            return dict;
-        });
+    bind(module, "bad_outline", [](const Points& vertices, const Triangles& outside, const Indices& boundary) {
+        Indices bad = bad_vertices(fit_surroundings(vertices, outside, boundary));
+        for (int& place : bad) place = boundary[place];
+        return bad;
+    });
+    bind(module, "mend_outline", &fitted_boundary, [](const FittedBoundary& result) {
+        py::dict dict = to_dict(result.normals);
+        dict["vertices"] = result.vertices;
+        dict["moved"] = result.moved;
+        dict["held"] = result.held;
+        dict["noise"] = result.noise;
+        return dict;
+    });
 }
 
 }  // namespace
 
 void bind_boundary(py::module_& module) {
     bind_normals(module);
-    bind(module, "hard_edges", {"vertices", "triangles", "marked"},
-         [](const Points& vertices, const Triangles& triangles, const VertexPairs& marked) {
-             return hard_edges(vertices, triangles, marked);
-         });
-    bind(module, "feather_weights", {"vertices", "inside", "outside", "width", "stops"},
-         [](const Points& vertices, const Triangles& inside, const Triangles& outside, double width,
-            const Indices& stops) { return feather_weights(vertices, inside, outside, width, stops); });
+    bind(module, "hard_edges", &hard_edges);
+    bind(module, "feather_weights", &feather_weights);
     bind(
-        module, "soft_base", {"vertices", "triangles", "fixed", "base", "faired", "sizes", "threads", "progress"},
+        module, "soft_base",
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles, const Indices& fixed,
            const Points& base, const std::vector<char>& faired, const std::tuple<double, double, double>& sizes,
            int threads) {
@@ -83,21 +67,18 @@ void bind_boundary(py::module_& module) {
             return soft_base({mesh, base, faired}, {detail, diameter, width}, progress);
         },
         [](const SoftBase& result) { return py::make_tuple(result.base, result.soft); });
-    bind(module, "denoised", {"vertices", "triangles", "fixed", "sizes", "threads", "progress"},
+    bind(module, "denoised",
          [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles, const Indices& fixed,
             const VectorX& sizes, int threads) {
              const Threads team(threads);
              return denoised({vertices, triangles, fixed}, sizes, Progress(progress));
          });
     // Positions and directions: rows of the beginning and the end.
-    bind(module, "fair_curve", {"places", "directions", "shares"},
-         [](const Points& places, const Points& directions, const VectorX& shares) {
-             return least_variation_curve({places.col(0), directions.col(0)}, {places.col(1), directions.col(1)},
-                                          shares);
-         });
-    bind(
-        module, "chain_end", {"chain"}, [](const Points& chain) { return end_of_chain(chain); },
-        [](const ChainEnd& end) { return py::make_tuple(Points(end.direction), Points(end.curvature)); });
+    bind(module, "fair_curve", [](const Points& places, const Points& directions, const VectorX& shares) {
+        return least_variation_curve({places.col(0), directions.col(0)}, {places.col(1), directions.col(1)}, shares);
+    });
+    bind(module, "chain_end", &end_of_chain,
+         [](const ChainEnd& end) { return py::make_tuple(Points(end.direction), Points(end.curvature)); });
 }
 
 }  // namespace fairing::bindings

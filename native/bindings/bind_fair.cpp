@@ -54,61 +54,51 @@ void set_paper(Options& options, const PaperOptions& paper) {
     options.fair.solver.nested = paper.levels != 1;
 }
 
-Preview shown_by(PythonRun& run, const py::object& preview) {
-    if (preview.is_none()) return {};
-    return [&](const Points& vertices) { run.give(preview, [&] { return py::cast(vertices); }); };
-}
-
-py::dict fair_arrays(const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed,
-                     const MaybePoints& fixed_normals, const std::optional<VectorX>& fixed_curvatures,
-                     const MaybePoints& reference, const std::optional<Triangles>& outside, const Options& options,
-                     const py::object& callback, const py::object& preview) {
-    PythonRun run(callback);
-    return to_dict(run.without_gil([&](const ProgressCallback& progress) {
-        MeshInput input{vertices,      triangles,        fixed,
-                        fixed_normals, fixed_curvatures, outside.value_or(Triangles(3, 0)),
-                        options.held};
-        const std::optional<View<Points>> m0 = reference ? std::optional<View<Points>>(*reference) : std::nullopt;
-        return fair(std::move(input), m0, options.fair, progress, shown_by(run, preview));
-    }));
+std::optional<View<Points>> viewed(const MaybePoints& points) {
+    return points ? std::optional<View<Points>>(*points) : std::nullopt;
 }
 
 // fairing.Solver's engine. A second call while one is running (from another thread, or from `progress`) is refused.
-class PythonSolver {
-public:
+struct PythonSolver {
+    FairSolver solver;
+    std::atomic<bool> busy = false;
+
     PythonSolver(const Triangles& triangles, const MaybeIndices& fixed, const Options& options)
-        : solver_(triangles, fixed, options.held, options.fair) {}
-
-    void change(const Options& options) {
-        const Hold hold(busy_);
-        solver_.change(options.fair);
-    }
-
-    py::dict solve(const Points& vertices, const MaybePoints& fixed_normals,
-                   const std::optional<VectorX>& fixed_curvatures, const MaybePoints& reference,
-                   const py::object& callback, const py::object& preview) {
-        PythonRun run(callback);
-        const Hold hold(busy_);
-        return to_dict(run.without_gil([&](const ProgressCallback& progress) {
-            const std::optional<View<Points>> m0 = reference ? std::optional<View<Points>>(*reference) : std::nullopt;
-            return solver_.solve(vertices, fixed_normals, fixed_curvatures, m0, progress, shown_by(run, preview));
-        }));
-    }
-
-private:
-    struct Hold {
-        std::atomic<bool>& busy;
-        explicit Hold(std::atomic<bool>& flag) : busy(flag) {
-            if (busy.exchange(true)) throw std::runtime_error("this Solver is solving already: one call at a time");
-        }
-        Hold(const Hold&) = delete;
-        Hold& operator=(const Hold&) = delete;
-        ~Hold() { busy = false; }
-    };
-
-    FairSolver solver_;
-    std::atomic<bool> busy_ = false;
+        : solver(triangles, fixed, options.held, options.fair) {}
 };
+
+struct Hold {
+    PythonSolver& solver;
+    explicit Hold(PythonSolver& held) : solver(held) {
+        if (solver.busy.exchange(true)) throw std::runtime_error("this Solver is solving already: one call at a time");
+    }
+    Hold(const Hold&) = delete;
+    Hold& operator=(const Hold&) = delete;
+    ~Hold() { solver.busy = false; }
+};
+
+void bind_solver(py::module_& module) {
+    // Calls change what they are given: a pointer stays one.
+    py::class_<PythonSolver>(module, "Solver", py::module_local())
+        .def(py::init(
+            in_run([](const Triangles& triangles, const MaybeIndices& fixed,
+                      const Options& options) { return std::make_unique<PythonSolver>(triangles, fixed, options); },
+                   ForInit{})))
+        .def("change", in_run([](PythonSolver* of, const Options& options) {
+                 const Hold hold(*of);
+                 of->solver.change(options.fair);
+                 return true;
+             }))
+        .def("solve", in_run(
+                          [](const ProgressCallback& progress, const Preview& preview, PythonSolver* of,
+                             const Points& vertices, const MaybePoints& fixed_normals,
+                             const MaybeNumbers& fixed_curvatures, const MaybePoints& reference) {
+                              const Hold hold(*of);
+                              return of->solver.solve(vertices, fixed_normals, fixed_curvatures, viewed(reference),
+                                                      progress, preview);
+                          },
+                          &to_dict));
+}
 
 // An attribute whose values are words.
 template <typename Enum, std::size_t N>
@@ -198,15 +188,17 @@ void bind_fair(py::module_& module) {
     module.attr("WORDS") = all_words();
     bind_paper_options(module);
     bind_options(module);
-    py::class_<PythonSolver>(module, "Solver", py::module_local())
-        .def(py::init<const Triangles&, const MaybeIndices&, const Options&>(), py::arg("triangles"), py::arg("fixed"),
-             py::arg("options"))
-        .def("change", &PythonSolver::change, py::arg("options"))
-        .def("solve", &PythonSolver::solve, py::arg("vertices"), py::arg("fixed_normals"), py::arg("fixed_curvatures"),
-             py::arg("reference"), py::arg("progress"), py::arg("preview"));
-    module.def("fair", &fair_arrays, py::arg("vertices"), py::arg("triangles"), py::arg("fixed"),
-               py::arg("fixed_normals"), py::arg("fixed_curvatures"), py::arg("reference"), py::arg("outside"),
-               py::arg("options"), py::arg("progress"), py::arg("preview"));
+    bind_solver(module);
+    bind(
+        module, "fair",
+        [](const ProgressCallback& progress, const Preview& preview, const Points& vertices, const Triangles& triangles,
+           const MaybeIndices& fixed, const MaybePoints& fixed_normals, const MaybeNumbers& fixed_curvatures,
+           const MaybePoints& reference, const std::optional<Triangles>& outside, const Options& options) {
+            return fair({vertices, triangles, fixed, fixed_normals, fixed_curvatures, outside.value_or(Triangles(3, 0)),
+                         options.held},
+                        viewed(reference), options.fair, progress, preview);
+        },
+        &to_dict);
 }
 
 }  // namespace fairing::bindings

@@ -29,7 +29,6 @@ using FreeSlopes = std::pair<Indices, Indices>;
 void bind_meshes(py::module_& module) {
     bind(
         module, "remesh",
-        {"vertices", "triangles", "fixed", "fixed_normals", "free_slopes", "kept", "wanted", "threads", "progress"},
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles,
            const MaybeIndices& fixed, const MaybePoints& fixed_normals, const FreeSlopes& free_slopes,
            const VertexPairs& kept, const Wanted& wanted, int threads) {
@@ -41,7 +40,7 @@ void bind_meshes(py::module_& module) {
             return py::dict("vertices"_a = mesh.vertices, "normals"_a = mesh.normals, "triangles"_a = mesh.triangles,
                             "triangle"_a = mesh.triangle, "weights"_a = mesh.weights, "old"_a = mesh.old);
         });
-    bind(module, "expected_count", {"vertices", "triangles", "fixed", "fixed_normals", "wanted"},
+    bind(module, "expected_count",
          [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed,
             const MaybePoints& fixed_normals, const Wanted& wanted) {
              return expected_remesh_count({vertices, triangles, fixed, fixed_normals}, to_lengths(wanted));
@@ -52,7 +51,7 @@ void bind_meshes(py::module_& module) {
 
 void bind_fill(py::module_& module) {
     bind(
-        module, "fill_loops", {"vertices", "loops", "normals", "bridge", "equation", "progress"},
+        module, "fill_loops",
         [](const ProgressCallback& progress, const Points& vertices, const std::vector<Indices>& loops,
            const std::vector<Points>& normals, bool bridge, const std::string& equation) {
             SolverOptions options;
@@ -63,20 +62,10 @@ void bind_fill(py::module_& module) {
             return py::dict("vertices"_a = surface.vertices, "triangles"_a = surface.triangles,
                             "converged"_a = surface.converged);
         });
-    bind(module, "conformal_map", {"vertices", "triangles", "fixed", "places"},
-         [](const Points& vertices, const Triangles& triangles, const Indices& fixed, const Eigen::MatrixXd& places) {
-             return conformal_map(vertices, triangles, fixed, places);
-         });
-    bind(module, "triangulated", {"vertices", "corners", "sizes"},
-         [](const Points& vertices, const Indices& corners, const Indices& sizes) {
-             return triangulated_faces(vertices, corners, sizes);
-         });
-    bind(
-        module, "paired_quads", {"vertices", "triangles", "kept"},
-        [](const Points& vertices, const Triangles& triangles, const VertexPairs& kept) {
-            return paired_quads(vertices, triangles, kept);
-        },
-        [](const PairedQuads& paired) { return py::make_tuple(paired.quads, paired.pairs, paired.rest); });
+    bind(module, "conformal_map", &conformal_map);
+    bind(module, "triangulated", &triangulated_faces);
+    bind(module, "paired_quads", &paired_quads,
+         [](const PairedQuads& paired) { return py::make_tuple(paired.quads, paired.pairs, paired.rest); });
     bind_meshes(module);
 }
 

@@ -47,25 +47,22 @@ using Surface = std::tuple<Points, Triangles, Indices, Points, Points, std::vect
 void bind_fillet(py::module_& module) {
     // The usual width, and of each vertex the widest.
     bind(
-        module, "seam_room", {"vertices", "triangles", "edges"},
+        module, "seam_room",
         [](const Points& vertices, const Triangles& triangles, const Edges& edges) {
             return seam_room(SeamMesh(vertices, triangles, std::get<0>(edges), std::get<1>(edges)));
         },
         [](const SeamRoom& room) { return py::make_tuple(room.usual, room.widest); });
-    bind(module, "on_wrong_side", {"vertices", "triangles", "edges", "width", "before", "after", "progress"},
+    bind(module, "on_wrong_side",
          [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles,
             const VertexPairs& edges, double width, const Points& before, const Points& after) {
              const Progress reported(progress);
              const Checkpoints checkpoints(reported);
              return on_wrong_side(vertices, triangles, edges, width, {before, after});
          });
-    bind(module, "drawn_to", {"points", "triangles", "fixed", "target", "pull"},
-         [](const Points& points, const Triangles& triangles, const Indices& fixed, const Points& target,
-            const VectorX& pull) { return drawn_to(points, triangles, fixed, target, pull); });
+    bind(module, "drawn_to", &drawn_to);
     // None where no rows fit.
     bind(
         module, "fillet_rows",
-        {"vertices", "triangles", "edges", "widths", "spacings", "counted", "surface", "progress"},
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles, const Edges& edges,
            const Widths& widths, const std::tuple<double, double>& spacings, const std::optional<VertexPairs>& counted,
            const Surface& surface) {
@@ -76,7 +73,7 @@ void bind_fillet(py::module_& module) {
         },
         &from_rows);
     bind(
-        module, "cut_fillet", {"vertices", "triangles", "edges", "widths", "spacing", "through", "progress"},
+        module, "cut_fillet",
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles, const Edges& edges,
            const Widths& widths, double spacing, bool through) {
             return cut_fillet(input_of(vertices, triangles, edges, widths, spacing, through), progress);

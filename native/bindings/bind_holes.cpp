@@ -37,86 +37,72 @@ py::tuple from_filled(const FilledHole& hole) {
 using Wishes = std::tuple<bool, bool, bool, double, bool, int>;
 
 // The holes of a mesh, kept between finding and filling them.
-class PythonHoles {
-public:
-    PythonHoles(Points vertices, const Triangles& triangles, const VertexPairs& hard, const Named& named, bool bridge,
-                int threads)
-        : vertices_(std::move(vertices)) {
-        PythonRun run;
-        run.without_gil([&](const ProgressCallback&) {
-            const Threads team(threads);
-            mesh_.emplace(BorderedMesh{vertices_, triangles, hard});
-            found_ = find_holes(*mesh_, made_of<NamedLoops>(named), bridge);
-            return 0;
-        });
-    }
+struct PythonHoles {
+    Points vertices;
+    HoledMesh mesh;
+    Holes found;
 
-    [[nodiscard]] py::list loops() const {
-        py::list result;
-        for (const Hole& hole : found_.holes) {
-            py::list loops;
-            for (const BoundaryLoop& loop : hole.loops) loops.append(loop.vertices);
-            result.append(loops);
-        }
-        return result;
-    }
-
-    // Normals of lone loops, and whether edges may continue through them: not where one face closes the loop, nor where
-    // the border passes a vertex several times, since an edge could end at either pass.
-    [[nodiscard]] py::list slopes(double spacing) const {
-        py::list result;
-        for (const Hole& hole : found_.holes) {
-            const BoundaryLoop& loop = hole.loops[0];
-            const bool may = !loop.is_pinched && !takes_no_vertex(loop.shape, spacing);
-            result.append(py::make_tuple(loop.shape.normals, may));
-        }
-        return result;
-    }
-
-    [[nodiscard]] py::list left() const {
-        py::list result;
-        for (const LeftOpen& each : found_.left) result.append(py::make_tuple(each.loop, each.reason, each.is_outer));
-        return result;
-    }
-
-    // The warning about outer borders that stay open, if there are any.
-    [[nodiscard]] py::object outer() const {
-        std::vector<Indices> loops;
-        for (const LeftOpen& each : found_.left) {
-            if (each.is_outer) loops.push_back(each.loop);
-        }
-        return loops.empty() ? py::none() : from_diagnostic(outer_borders_left(loops));
-    }
-
-    // Vertices of the mesh, ascending, and the triangles around a hole in numbers of these.
-    [[nodiscard]] py::tuple around(std::size_t hole) const {
-        const LocalMesh local = mesh_->around(found_.holes.at(hole).loops[0].vertices);
-        return py::make_tuple(local.to_mesh, local.triangles);
-    }
-
-    [[nodiscard]] py::list fill(const std::vector<std::optional<Through>>& through, const Wishes& wishes,
-                                const Options& given, const py::object& callback) const {
-        PythonRun run(callback);
-        const auto& [bridge, in_rows, joins, spacing, is_even, most] = wishes;
-        FillOptions options{
-            given.fair, given.held, joins, bridge, in_rows, spacing, is_even ? Spread::equal : Spread::boundary, most};
-        std::vector<std::optional<CurvesThrough>> curves(through.size());
-        for (std::size_t k = 0; k < through.size(); ++k) {
-            if (through[k]) curves[k] = made_of<CurvesThrough>(*through[k]);
-        }
-        const std::vector<FilledHole> filled = run.without_gil([&](const ProgressCallback& progress) {
-            return fairing::fill(*mesh_, found_.holes, curves, options, progress);
-        });
-        py::list result;
-        for (const FilledHole& hole : filled) result.append(from_filled(hole));
-        return result;
-    }
-
-private:
-    Points vertices_;
-    std::optional<HoledMesh> mesh_;
-    Holes found_;
+    PythonHoles(Points points, const Triangles& triangles, const VertexPairs& hard, const Named& named, bool bridge)
+        : vertices(std::move(points)),
+          mesh(BorderedMesh{vertices, triangles, hard}),
+          found(find_holes(mesh, made_of<NamedLoops>(named), bridge)) {}
 };
+
+py::list loops_of(const PythonHoles& of) {
+    py::list result;
+    for (const Hole& hole : of.found.holes) {
+        py::list loops;
+        for (const BoundaryLoop& loop : hole.loops) loops.append(loop.vertices);
+        result.append(loops);
+    }
+    return result;
+}
+
+// Normals of lone loops, and whether edges may continue through them: not where one face closes the loop, nor where
+// the border passes a vertex several times, since an edge could end at either pass.
+py::list slopes(const PythonHoles& of, double spacing) {
+    py::list result;
+    for (const Hole& hole : of.found.holes) {
+        const BoundaryLoop& loop = hole.loops[0];
+        const bool may = !loop.is_pinched && !takes_no_vertex(loop.shape, spacing);
+        result.append(py::make_tuple(loop.shape.normals, may));
+    }
+    return result;
+}
+
+py::list left_open(const PythonHoles& of) {
+    py::list result;
+    for (const LeftOpen& each : of.found.left) result.append(py::make_tuple(each.loop, each.reason, each.is_outer));
+    return result;
+}
+
+// The warning about outer borders that stay open, if there are any.
+std::optional<Diagnostic> outer_left(const PythonHoles& of) {
+    std::vector<Indices> loops;
+    for (const LeftOpen& each : of.found.left) {
+        if (each.is_outer) loops.push_back(each.loop);
+    }
+    return loops.empty() ? std::nullopt : std::optional(outer_borders_left(loops));
+}
+
+std::vector<FilledHole> filled(const ProgressCallback& progress, const PythonHoles* of,
+                               const std::vector<std::optional<Through>>& through, const Wishes& wishes,
+                               const Options& given) {
+    const auto& [bridge, in_rows, joins, spacing, is_even, most] = wishes;
+    const FillOptions options{
+        given.fair, given.held, joins, bridge, in_rows, spacing, is_even ? Spread::equal : Spread::boundary, most};
+    std::vector<std::optional<CurvesThrough>> curves(through.size());
+    for (std::size_t k = 0; k < through.size(); ++k) {
+        if (through[k]) curves[k] = made_of<CurvesThrough>(*through[k]);
+    }
+    return fill(of->mesh, of->found.holes, curves, options, progress);
+}
+
+py::list all_filled(const std::vector<FilledHole>& holes) {
+    py::list result;
+    for (const FilledHole& hole : holes) result.append(from_filled(hole));
+    return result;
+}
 
 std::vector<LoopShape> shapes_of(const Points& vertices, const Triangles& triangles,
                                  const std::vector<Indices>& loops) {
@@ -128,31 +114,39 @@ std::vector<LoopShape> shapes_of(const Points& vertices, const Triangles& triang
 void bind_holes(py::module_& module) {
     // `border`: the edges with one triangle, where they are known, the hole on their left.
     bind(
-        module, "hole_loops", {"vertices", "triangles", "border"},
+        module, "hole_loops",
         [](const Points& vertices, const Triangles& triangles, const std::optional<BorderSides>& border) {
             return hole_loops(vertices, triangles,
                               border ? *border : border_sides(triangles, static_cast<int>(vertices.cols())));
         },
         [](const HoleLoops& found) { return py::make_tuple(found.loops, found.torn); });
-    bind(module, "outer_borders", {"vertices", "triangles", "loops"},
+    bind(module, "outer_borders",
          [](const Points& vertices, const Triangles& triangles, const std::vector<Indices>& loops) {
              std::vector<bool> result;
              for (const LoopShape& shape : shapes_of(vertices, triangles, loops)) result.push_back(is_outer(shape));
              return result;
          });
-    bind(module, "expected_fill", {"vertices", "triangles", "loops", "bridge", "spacing"},
+    bind(module, "expected_fill",
          [](const Points& vertices, const Triangles& triangles, const std::vector<Indices>& loops, bool bridge,
             double spacing) { return expected_count(shapes_of(vertices, triangles, loops), spacing, bridge); });
     py::class_<PythonHoles>(module, "Holes", py::module_local())
-        .def(py::init<Points, const Triangles&, const VertexPairs&, const Named&, bool, int>(), py::arg("vertices"),
-             py::arg("triangles"), py::arg("hard"), py::arg("named"), py::arg("bridge"), py::arg("threads"))
-        .def_property_readonly("loops", &PythonHoles::loops)
-        .def("slopes", &PythonHoles::slopes, py::arg("spacing"))
-        .def_property_readonly("left", &PythonHoles::left)
-        .def_property_readonly("outer", &PythonHoles::outer)
-        .def("around", &PythonHoles::around, py::arg("hole"))
-        .def("fill", &PythonHoles::fill, py::arg("through"), py::arg("wishes"), py::arg("options"),
-             py::arg("progress"));
+        .def(py::init(in_run(
+            [](const Points& vertices, const Triangles& triangles, const VertexPairs& hard, const Named& named,
+               bool bridge, int threads) {
+                const Threads team(threads);
+                return std::make_unique<PythonHoles>(vertices, triangles, hard, named, bridge);
+            },
+            ForInit{})))
+        .def_property_readonly("loops", &loops_of)
+        .def("slopes", &slopes)
+        .def_property_readonly("left", &left_open)
+        .def_property_readonly("outer", &outer_left)
+        // Vertices of the mesh, ascending, and the triangles around a hole in numbers of these.
+        .def("around",
+             in_run([](const PythonHoles* of,
+                       std::size_t hole) { return of->mesh.around(of->found.holes.at(hole).loops[0].vertices); },
+                    [](const LocalMesh& local) { return py::make_tuple(local.to_mesh, local.triangles); }))
+        .def("fill", in_run(&filled, &all_filled));
 }
 
 }  // namespace fairing::bindings

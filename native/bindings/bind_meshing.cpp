@@ -30,7 +30,7 @@ py::dict from_patch(const NewPatch& made) {
 
 void bind_meshing(py::module_& module) {
     bind(
-        module, "new_patch", {"patch", "kept", "options", "wishes", "progress"},
+        module, "new_patch",
         [](const ProgressCallback& progress, const GivenPatch& given, const VertexPairs& kept, const Options& options,
            const Wishes& wishes) {
             const auto& [vertices, triangles, fixed, normals, curvatures, outside] = given;
@@ -42,24 +42,18 @@ void bind_meshing(py::module_& module) {
         },
         &from_patch);
     bind(
-        module, "first_mesh", {"vertices", "triangles", "inside", "seams", "spacings"},
+        module, "first_mesh",
         [](const Points& vertices, const Triangles& triangles, const std::vector<char>& inside,
            const VertexPairs& seams,
            const VectorX& spacings) { return first_mesh({vertices, triangles, inside, seams}, spacings); },
         [](const FirstMesh& first) {
             return py::make_tuple(first.inside, first.pieces, first.triangles, first.lines);
         });
-    bind(
-        module, "wire_cells", {"wires", "vertices", "closed"},
-        [](const VertexPairs& wires, const Points& vertices, bool closed) { return cells_of(wires, vertices, closed); },
-        [](const WireCells& cells) { return py::make_tuple(cells.loops, cells.normals, cells.left_open, cells.rims); });
-    bind(module, "cells_of_triangles", {"triangles", "loops", "vertex_count"},
-         [](const Triangles& triangles, const std::vector<Indices>& loops, int vertex_count) {
-             return cells_of_triangles(triangles, loops, vertex_count);
-         });
-    bind(module, "hard_ways", {"vertices", "edges", "hard", "ends"},
-         [](const Points& vertices, const VertexPairs& edges, const VertexPairs& hard,
-            const std::vector<Indices>& ends) { return hard_ways(vertices, edges, hard, ends); });
+    bind(module, "wire_cells", &cells_of, [](const WireCells& cells) {
+        return py::make_tuple(cells.loops, cells.normals, cells.left_open, cells.rims);
+    });
+    bind(module, "cells_of_triangles", &cells_of_triangles);
+    bind(module, "hard_ways", &hard_ways);
 }
 
 }  // namespace fairing::bindings

@@ -14,12 +14,9 @@ py::object shown(const VisibleJoin& join) { return py::make_tuple(join.degrees, 
 
 // Measures of the parts of a mesh.
 void bind_parts(py::module_& module) {
-    bind(module, "is_spoilt", {"vertices", "inside", "outside"},
-         [](const Points& vertices, const Triangles& inside, const Triangles& outside) {
-             return is_spoilt(vertices, inside, outside);
-         });
+    bind(module, "is_spoilt", &is_spoilt);
     bind(
-        module, "visible_join", {"vertices", "inside", "outside", "outline", "before"},
+        module, "visible_join",
         [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& boundary,
            const MaybePoints& before) { return visible_join({vertices, inside, outside, before}, boundary); },
         [](const VisibleJoin& join) { return shown(join); });
@@ -30,7 +27,6 @@ py::object shown(const Faults& faults) { return py::make_tuple(faults.folded, fa
 void bind_judged(py::module_& module) {
     bind(
         module, "judged",
-        {"vertices", "surface", "others", "held", "rim", "before", "old", "moved", "marked", "is_clear", "progress"},
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& surface, const Triangles& others,
            const Indices& held, const Indices& rim, const MaybePoints& before, const Triangles& old,
            const Indices& moved, const VertexPairs& marked, bool is_clear) {
@@ -56,7 +52,7 @@ void bind_shape(py::module_& module) {
         py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink, "steep_kink"_a = steep_kink,
                  "turned_back"_a = turned_back, "off_slope"_a = off_slope);
     bind(
-        module, "girth", {"vertices", "triangles", "fixed"},
+        module, "girth",
         [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed) {
             return girth({vertices, triangles, fixed, {}});
         },

@@ -107,29 +107,34 @@ void PythonRun::take_gil() noexcept {
     or_for_ever([this] { PyEval_RestoreThread(state_); });
 }
 
-bool PythonRun::report(double fraction, std::string_view stage) {
+bool PythonRun::with_gil(const std::function<bool()>& python) {
     in_callback_ = true;
     take_gil();
-    const bool answer = ask(fraction, stage);
-    release_gil();
-    in_callback_ = false;
-    return answer;
-}
-
-bool PythonRun::ask(double fraction, std::string_view stage) {
+    bool result = false;
     try {
-        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-        if (callback_.is_none()) return true;
-        const py::float_ first(fraction);
-        const py::str second(stage.data(), stage.size());
-        PyObject* const answer = or_for_ever(
-            [&] { return PyObject_CallFunctionObjArgs(callback_.ptr(), first.ptr(), second.ptr(), nullptr); });
-        if (!answer) throw py::error_already_set();
-        return goes_on(py::reinterpret_steal<py::object>(answer));
+        result = python();
     } catch (...) {
         failure_ = std::current_exception();
-        return false;
     }
+    release_gil();
+    in_callback_ = false;
+    return result;
+}
+
+// `second` may be missing.
+py::object PythonRun::answer(const py::object& receiver, const py::object& first, const py::object& second) {
+    PyObject* const result =
+        or_for_ever([&] { return PyObject_CallFunctionObjArgs(receiver.ptr(), first.ptr(), second.ptr(), nullptr); });
+    if (!result) throw py::error_already_set();
+    return py::reinterpret_steal<py::object>(result);
+}
+
+bool PythonRun::report(double fraction, std::string_view stage) {
+    return with_gil([&] {
+        if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        return callback_.is_none() ||
+               goes_on(answer(callback_, py::float_(fraction), py::str(stage.data(), stage.size())));
+    });
 }
 
 void end_runs_at_exit() {

@@ -21,19 +21,10 @@ public:
     PythonRun(const PythonRun&) = delete;
     PythonRun& operator=(const PythonRun&) = delete;
 
-    // Calls `receiver` with the arguments from inside of work, with the GIL held meanwhile. An exception ends the run.
-    template <typename Make>
-    void give(const py::object& receiver, const Make& make) {
-        in_callback_ = true;
-        take_gil();
-        try {
-            receiver(make());
-        } catch (...) {
-            failure_ = std::current_exception();
-        }
-        release_gil();
-        in_callback_ = false;
-        if (failure_) throw Cancelled();
+    // Gives `receiver` the value from inside of work, with the GIL held meanwhile. An exception ends the run.
+    template <typename Value>
+    void give(const py::object& receiver, const Value& value) {
+        if (!with_gil([&] { return answer(receiver, py::cast(value)), true; })) throw Cancelled();
     }
 
     // work(ProgressCallback) without the GIL; only its own thread calls back. A Python exception of the callback,
@@ -63,8 +54,10 @@ private:
 
     void release_gil();
     void take_gil() noexcept;
+    // False where it throws.
+    bool with_gil(const std::function<bool()>& python);
     bool report(double fraction, std::string_view stage);
-    bool ask(double fraction, std::string_view stage);
+    static py::object answer(const py::object& receiver, const py::object& first, const py::object& second = {});
 
     py::object callback_;
     Runs& runs_;

@@ -79,4 +79,11 @@ std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights
     return {std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end())};
 }
 
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights) {
+    constexpr int smallest_base = 40;  // free vertices: Fig. 1 of the paper with fewer starts from no surface
+    const Points whole_loops = Points::Zero(3, patch.vertex_count());
+    const int base = std::max(smallest_base, patch.vertex_count() - patch.free_count);
+    return coarsen(patch, weights, {whole_loops, whole_loops}, base);
+}
+
 }  // namespace fairing

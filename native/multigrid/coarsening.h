@@ -17,4 +17,8 @@ struct CoarseLevel {
 std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights, const FixedPlaces& boundary,
                                  int coarsest);
 
+// By connectivity and λ alone, the interior given leaves no trace: with all fixed vertices on every level, down to
+// about as many free ones.
+std::vector<CoarseLevel> coarsen(const Patch& patch, const InnerWeights& weights);
+
 }  // namespace fairing

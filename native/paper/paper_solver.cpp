@@ -12,17 +12,6 @@ namespace fairing {
 
 namespace {
 
-constexpr int smallest_base = 40;  // free vertices of the coarsest level: Fig. 1 with fewer starts from no surface
-
-// Free vertices by connectivity and λ alone: the interior given leaves no trace. All fixed ones stay on every level.
-std::vector<CoarseLevel> coarser_levels(const Problem& problem, const RowWeights& weights) {
-    if (!problem.options.nested) return {};
-    const Patch& patch = problem.patch;
-    const Points whole_loops = Points::Zero(3, patch.vertex_count());
-    const int base = std::max(smallest_base, patch.vertex_count() - patch.free_count);
-    return coarsen(patch, symmetrised(weights), {whole_loops, whole_loops}, base);
-}
-
 class PaperSolver {
 public:
     PaperSolver(const PaperProblem& pp, const Progress& progress)
@@ -30,7 +19,7 @@ public:
 
     Solution run() {
         Stopwatch watch;
-        coarser_ = coarser_levels(problem_, pp_.weights);
+        if (options_.nested) coarser_ = coarsen(problem_.patch, symmetrised(pp_.weights));
         solution_.seconds["hierarchy"] = watch.lap();
         for (auto k = static_cast<int>(coarser_.size()); k >= 0; --k) {
             const auto [begin, end] = share(k);

@@ -90,6 +90,19 @@ sys.modules["slow"] = Slow()
 start(lambda: fair(progress=wait))
 begun.wait()
 """,
+    "and so is what it shows its first surface": """
+class Slow:
+    def __del__(self, sleep=time.sleep):
+        sleep(2)
+
+def wait(vertices):
+    begun.set()
+    time.sleep(3)
+
+sys.modules["slow"] = Slow()
+start(lambda: fair(preview=wait))
+begun.wait()
+""",
 }
 
 

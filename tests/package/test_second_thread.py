@@ -54,6 +54,7 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "judged": (POINTS, TOP, RIM, LINE, LINE, POINTS, TOP, NONE, NO_EDGES, False, None),
     "mean_curvature": (POINTS, FACES, None, None, "fitted"),
     "mend_outline": (POINTS, RIM, LINE),
+    "mesh_levels": (POINTS, FACES, None, 0),
     "outer_borders": (POINTS, FACES, LOOP),
     "paired_quads": (POINTS, FACES, NO_EDGES),
     "remesh": (POINTS, FACES, None, None, (NONE, NONE), NO_EDGES, (0.0, 0, False, False), 1, None),

@@ -284,11 +284,6 @@ def girth(scene: Scene) -> Found:
     return [*figures(found.least, found.largest), ("vertices", None, found.thinnest)]
 
 
-def grown(scene: Scene) -> Found:
-    found = fairing.grown_outline(scene.other, scene.faces, scene.chosen, rounds=1)
-    return [("triangles", None, np.flatnonzero(found.selected))]
-
-
 def loops_of(scene: Scene) -> Found:
     found = fairing.borders.hole_loops(scene.points, scene.outside)
     outer = fairing.borders.outer_borders(scene.points, scene.outside)
@@ -330,8 +325,8 @@ ROWS |= {
         ball, lambda s: [("triangles", None, fairing.looks.flipped_triangles(rough_part(s)[1], s.faces))]
     ),
     "girth": Row(tube, girth),
-    "grown_outline": Row(ball, grown),
     "hard_edges": Row(box, lambda s: [("vertices", None, fairing.hard_edges(s.points, s.faces))]),
+    "hierarchy": Row(ball, lambda s: figures(len(fairing.hierarchy(s.points, s.inside, fixed=s.rim)))),
     "hole_loops": Row(ball, loops_of),
     "interpolate": Row(
         ball, lambda s: [("points", every(s), fairing.maps.interpolate(s.points, s.faces, s.rim, s.points[s.rim]))]

@@ -8,7 +8,6 @@ from fairing._core import __version__
 from fairing._foreign import refuse_foreign as _refuse_foreign
 from fairing.filleting.edges import edges_through, fair_edges
 from fairing.filleting.fillet import fillet, fillet_width
-from fairing.filleting.growing import grown_outline
 from fairing.filling.fill import fill
 from fairing.filling.from_curves import surface_from_curves
 from fairing.measure import (
@@ -19,6 +18,7 @@ from fairing.measure import (
     deviation,
     edges_with_uses,
     hard_edges,
+    hierarchy,
     mean_curvature,
     self_intersections,
     vertex_normals,
@@ -69,8 +69,8 @@ __all__ = [
     "fillet",
     "fillet_edges",
     "fillet_width",
-    "grown_outline",
     "hard_edges",
+    "hierarchy",
     "mean_curvature",
     "remesh",
     "self_intersections",

@@ -83,6 +83,19 @@ def components(triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None) 
     return _core.components(faces, held, count)
 
 
+def hierarchy(
+    vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.ArrayLike | None = None, levels: int = 0
+) -> list[tuple[IntArray, IntArray]]:
+    """Ever finer meshes, the last of which is the one given: (vertices in use, ascending; triangles (m, 3)) of each.
+
+    They are those of multigrid, by connectivity alone: each has about a quarter of the next one's free vertices, and
+    all fixed ones. ``levels``: how many at most; 0: as many as there are. Errors as in :func:`fairing.fair`.
+    """
+    points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
+    found = _core.mesh_levels(points, faces, held, arguments.whole("levels", levels, 0))
+    return [(np.unique(level), level) for level in [*found[:0:-1], faces]]
+
+
 def self_intersections(
     vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, near: npt.ArrayLike | None = None
 ) -> IntArray:

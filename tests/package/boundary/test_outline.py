@@ -1,4 +1,4 @@
-"""Outlines: loops, standard errors, mending, growing, the measure of the join, and open borders that become fair."""
+"""Outlines: loops, standard errors, mending, the measure of the join, and open borders that become fair."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +13,7 @@ import shapes
 import windows
 from curves import FloatArray
 from fairing.solving import surroundings
-from meshing import IntArray, edge_pairs, face_normals
+from meshing import IntArray, face_normals
 from windows import Kind, Window
 
 
@@ -151,64 +151,6 @@ def with_a_spike() -> tuple[Ball, int]:
 def test_noise_everywhere_makes_no_vertex_bad(noise: float) -> None:
     case = ball(noise)
     assert len(fairing.bad_outline(case.noisy, case.outside, case.outline)) == 0
-
-
-def test_growing_over_a_spike_gives_the_sphere_back() -> None:
-    case, spike = with_a_spike()
-    grown = fairing.grown_outline(case.noisy, case.triangles, case.above)
-    assert grown.round > 0 and grown.angles[grown.round] == min(grown.angles)
-    assert grown.angles[grown.round] < 0.1 * grown.angles[0]
-    assert (grown.selected | ~case.above).all()
-    assert grown.selected[(case.triangles == spike).any(axis=1)].all()
-    assert np.abs(np.linalg.norm(grown.result.vertices, axis=1) - 1).max() < 1e-3
-
-
-def pairs(case: Ball) -> IntArray:
-    """(m,) polygons of one or two triangles with a common edge, on one side of the outline."""
-    face = np.arange(len(case.triangles))
-    paired = np.zeros(len(face), dtype=bool)
-    for first, second in edge_pairs(case.triangles)[1]:
-        if not paired[[first, second]].any() and case.above[first] == case.above[second]:
-            face[second] = face[first]
-            paired[[first, second]] = True
-    return face
-
-
-def test_growing_takes_whole_polygons() -> None:
-    case, _ = with_a_spike()
-    faces = pairs(case)
-    grown = fairing.grown_outline(case.noisy, case.triangles, case.above, faces=faces)
-    assert grown.round > 0
-    assert np.array_equal(np.isin(faces, faces[grown.selected]), grown.selected)
-    divided = fairing.grown_outline(case.noisy, case.triangles, case.above)
-    assert not np.array_equal(np.isin(faces, faces[divided.selected]), divided.selected)
-
-
-def test_growing_makes_no_new_outline() -> None:
-    """A ring with a gap, and a spike in the gap: growing over it would close the ring."""
-    size = 18
-    x, y = np.meshgrid(np.arange(size), np.arange(size))
-    a = (size * y + x)[:-1, :-1].ravel()
-    triangles = np.r_[np.c_[a, a + 1, a + size + 1], np.c_[a, a + size + 1, a + size]]
-    vertices = np.c_[x.ravel(), y.ravel(), 0 * x.ravel()].astype(float)
-    column, row = (triangles.min(axis=1) % size), triangles.min(axis=1) // size
-    away = np.maximum(abs(column - 8), abs(row - 8))
-    gap = (row == 8) & (column > 8)
-    selected = (away >= 3) & (away <= 5) & ~gap
-    vertices[size * 8 + 12, 2] = 0.6
-    vertices[size * 9 + 12, 2] = -0.6
-    assert len(fairing.bad_outline(vertices, triangles[~selected], np.unique(triangles[selected]))) > 0
-    grown = fairing.grown_outline(vertices, triangles, selected)
-    assert len(fairing.boundary_loops(triangles[grown.selected])) == len(fairing.boundary_loops(triangles[selected]))
-
-
-@pytest.mark.parametrize("selected", [[True, False], [1, 0, 1], np.ones(800, dtype=bool)])
-def test_a_selection_that_is_none_is_refused(selected: Any) -> None:
-    case = ball(0.0)
-    if len(selected) == 800:
-        selected = np.ones(len(case.triangles), dtype=bool)
-    with pytest.raises(ValueError, match="selected"):
-        fairing.grown_outline(case.noisy, case.triangles, selected)
 
 
 def test_the_join_of_a_sphere_is_invisible_and_a_wrong_normal_shows() -> None:

@@ -1,5 +1,7 @@
 """Levels, and meshes of the engine's own: faster, or where the mesh given can't carry the equation."""
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -105,3 +107,17 @@ def test_hopeless_boundary_data_still_gives_a_finite_surface() -> None:
     span = np.linalg.norm(result.vertices - result.vertices[patch.fixed].mean(axis=0), axis=1).max()
     assert span < 3 * patch.diameter
     np.testing.assert_array_equal(result.vertices[patch.fixed], patch.vertices[patch.fixed])
+
+
+def test_coarse_levels_are_subsets_with_all_of_the_boundary() -> None:
+    patch = shapes.cap(4000)
+    levels = fairing.hierarchy(patch.vertices, patch.triangles, fixed=patch.fixed)
+    assert len(levels) > 2
+    assert np.array_equal(levels[-1][1], patch.triangles)
+    for (coarse, triangles), (fine, _) in itertools.pairwise(levels):
+        assert len(coarse) < 0.7 * len(fine) and np.isin(coarse, fine).all() and np.isin(patch.fixed, coarse).all()
+        assert np.array_equal(np.unique(triangles), coarse)
+        assert len(coarse) - len(fairing.edges_with_uses(triangles)[0]) + len(triangles) == 1  # a disc
+    assert [len(level) for level, _ in fairing.hierarchy(patch.vertices, patch.triangles, levels=2)] == [
+        len(level) for level, _ in levels[-2:]
+    ]

@@ -164,7 +164,7 @@ def rows_within(name: str, value: npt.ArrayLike, count: int) -> IntArray:
     return numbers
 
 
-NO_EDGES = np.empty((0, 2), dtype=np.int32)
+NO_EDGES: IntArray = np.empty((0, 2), dtype=np.int32)
 
 
 def edges_of(name: str, value: npt.ArrayLike | None, triangles: IntArray) -> IntArray:
