@@ -47,15 +47,6 @@ struct Solved {
 
 }  // namespace
 
-TEST_CASE("what did not converge is no solution, whatever it looks like") {
-    const Solved solved;
-    for (const Termination end : {Termination::stalled, Termination::iteration_limit}) {
-        Solution solution = solved.solution();
-        solution.termination = end;
-        CHECK(flaw_of(solved.problem, solution) == Flaw::not_converged);
-    }
-}
-
 TEST_CASE("folds are a flaw and are named, unless the weights come from as many") {
     Solved solved;
     Solution solution = solved.solution();

@@ -1,12 +1,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "boundary/fitted_boundary.h"
-#include "boundary/low_passed_boundary.h"
 #include "boundary/surrounding_fit.h"
-#include "meshes.h"
 #include "shape/visible_join.h"
 
 using namespace fairing;
@@ -76,58 +73,4 @@ TEST_CASE("a vertex far off its fit, or without one, is bad; one without triangl
     CHECK(bad_vertices(fit) == Indices{5});
     fit.lengths[5] = 0.0;
     CHECK(bad_vertices(fit).empty());
-}
-
-namespace {
-
-// The boundary of a square grid bent into a disc, its vertices evenly round a circle.
-struct Ring {
-    test::Single single;
-    Indices loop;  // fixed vertices from the first one on
-
-    explicit Ring(int n) : single(test::single_patch(test::grid(n, 0.0, test::flat))), loop(patch().loops().front()) {
-        for (int& v : loop) v -= patch().free_count;
-    }
-    [[nodiscard]] const Patch& patch() const { return single.patch(); }
-
-    // Radius r and height z by the angle, normals that lean outwards by 0.5.
-    template <typename Radius, typename Height>
-    [[nodiscard]] BoundaryData data(const Radius& r, const Height& z) const {
-        const auto count = static_cast<Eigen::Index>(loop.size());
-        BoundaryData result{Points::Zero(3, count), Points::Zero(3, count)};
-        for (Eigen::Index k = 0; k < count; ++k) {
-            const double angle = 2.0 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(count);
-            const Vector3 out(std::cos(angle), std::sin(angle), 0.0);
-            result.points.col(loop[k]) = r(angle) * out + z(angle) * Vector3::UnitZ();
-            result.normals.col(loop[k]) = (0.5 * out + Vector3::UnitZ()).normalized();
-        }
-        return result;
-    }
-};
-
-}  // namespace
-
-TEST_CASE(
-    "low-passed: curvature does not vary along a circle of a sphere or a cone; a zigzag varies the more the finer") {
-    const auto zigzag = [](const Ring& ring) {
-        const double count = static_cast<double>(ring.loop.size());
-        const double edge = 2.0 * std::numbers::pi / count;
-        return ring.data([](double) { return 1.0; }, [&](double a) { return 0.1 * edge * std::cos(0.5 * count * a); });
-    };
-    const Ring coarse(8);
-    const Ring fine(16);
-    const BoundaryData circle = coarse.data([](double) { return 1.0; }, [](double) { return 0.0; });
-    CHECK(boundary_variation(coarse.patch(), circle) < 1e-20);
-    // ⟨n_i + n_j, e⟩ is 0.2 edges times 2 n_z, both ways, over the fourth power of nearly an edge; n of them.
-    const double ratio =
-        boundary_variation(fine.patch(), zigzag(fine)) / boundary_variation(coarse.patch(), zigzag(coarse));
-    CHECK(ratio == doctest::Approx(8.0).epsilon(0.02));
-    BoundaryData twins = circle;
-    twins.points.col(1) = twins.points.col(0);
-    twins.points(2, 1) += 1e-6;
-    CHECK(boundary_variation(coarse.patch(), twins) < 10.0);  // 36 / 1e-6² with what is between them
-    BoundaryData scaled = zigzag(coarse);
-    scaled.points *= 2.0;
-    CHECK(boundary_variation(coarse.patch(), scaled) ==
-          doctest::Approx(boundary_variation(coarse.patch(), zigzag(coarse)) / 4.0));
 }

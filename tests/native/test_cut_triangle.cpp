@@ -32,22 +32,6 @@ void check_cover(const CutTriangle& cut, double whole) {
 
 }  // namespace
 
-// Three points on the way between two on its sides, as a fillet's line has them: the first came to lie 5e-15 beside
-// that way, and the next one, on the lines of two sides of the sliver, parted the triangle beyond the wrong one, too.
-TEST_CASE("points on one line across a triangle") {
-    CutTriangle cut({0.0, 0.0}, {0.23570224634657011, 0.0}, {0.11785112317327751, 0.11785116532013357});
-    CHECK(cut.add_on_side(0, {0.094280913290022347, 0.0}) == 3);
-    CHECK(cut.add_on_side(1, {0.16499157981829626, 0.070710691816375779}) == 4);
-    cut.add_inside({0.14731391318622436, 0.053033018862285231});
-    cut.add_inside({0.12963624655415698, 0.03535534590819011});
-    cut.add_inside({0.11195857992208964, 0.017677672954095027});
-    cut.make_delaunay();
-    for (const auto& [a, b] : {std::array{4, 5}, std::array{5, 6}, std::array{6, 7}, std::array{7, 3}})
-        CHECK(cut.add_edge(a, b));
-    CHECK(cut.triangles().size() == 9);
-    check_cover(cut, 0.5 * 0.23570224634657011 * 0.11785116532013357);
-}
-
 TEST_CASE("points on random ways across a triangle") {
     std::mt19937 random(20261128);
     std::uniform_real_distribution<double> share(0.05, 0.95);

@@ -1,4 +1,4 @@
-// Pieces of what holds inside a patch: faired borders, released pins, surroundings broken along creases.
+// Pieces of what holds inside a patch: faired borders, surroundings broken along creases.
 #include <cmath>
 #include <numbers>
 
@@ -7,7 +7,6 @@
 #include "boundary/fair_border.h"
 #include "boundary/low_passed_boundary.h"
 #include "meshes.h"
-#include "pins/spread_pins.h"
 #include "problem/free_slopes.h"
 
 using namespace fairing;
@@ -29,30 +28,6 @@ Indices everything(int count) {
     return result;
 }
 
-Patch with_pins(const test::Single& single, const Indices& pins) {
-    const Patch& given = single.patch();
-    Indices order;
-    std::vector<char> is_pin(given.vertex_count(), 0);
-    for (int v : pins) is_pin[v] = 1;
-    for (const char wanted : {0, 1}) {
-        for (int v = 0; v < given.free_count; ++v) {
-            if (is_pin[v] == wanted) order.push_back(v);
-        }
-    }
-    for (int v = given.free_count; v < given.vertex_count(); ++v) order.push_back(v);
-    Indices to(order.size());
-    PatchMembers members;
-    members.free_count = given.free_count - static_cast<int>(pins.size());
-    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
-        to[order[k]] = k;
-        members.to_input.push_back(order[k]);
-        members.pin.push_back(is_pin[order[k]]);
-    }
-    members.input_triangle = given.input_triangle;
-    members.triangles = given.triangles.unaryExpr([&](int v) { return to[v]; });
-    return Patch(std::move(members));
-}
-
 }  // namespace
 
 TEST_CASE("an ellipse of even spacing is a fair border") {
@@ -61,18 +36,6 @@ TEST_CASE("an ellipse of even spacing is a fair border") {
     Points points = exact;
     fair_border(everything(count), std::vector<char>(count, 1), points);
     CHECK((points - exact).cwiseAbs().maxCoeff() < 1e-12);
-}
-
-TEST_CASE("pins side by side are a curve, and change the equation") {
-    const test::Single single = test::single_patch(test::grid(8, 0.0, test::flat));
-    const int middle = single.patch().free_count / 2;
-    const int beside = single.patch().ring(middle).vertices.front();
-    const Patch apart = with_pins(single, {middle});
-    const Patch curve = with_pins(single, {middle, beside});
-    CHECK(isolated_pins(curve).empty());
-    CHECK(equation_for(apart, Equation::harmonic) == Equation::harmonic);
-    CHECK(equation_for(curve, Equation::harmonic) == Equation::least_variation);
-    CHECK(equation_for(curve, Equation::soap_film) == Equation::soap_film);
 }
 
 TEST_CASE("triangles broken along an edge have a copy of its ends for each fan") {

@@ -4,14 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "base/errors.h"
-#include "base/parallel.h"
-#include "linear/anderson.h"
-#include "linear/conjugate_gradients.h"
-#include "linear/gmres.h"
-#include "linear/shrinking_steps.h"
 #include "linear/sparse_cholesky.h"
-#include "linear/sparse_lu.h"
 
 using namespace fairing;
 
@@ -30,25 +23,6 @@ SparseMatrix random_matrix(int n, int blocks, unsigned seed) {
         entries.emplace_back(std::max(i, j), std::min(i, j), value);
         diagonal[i] += std::abs(value);
         diagonal[j] += std::abs(value);
-    }
-    for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i]);
-    SparseMatrix matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-}
-
-// Rows of random weights whose sums stay below the diagonal; one direction of many couplings is missing.
-SparseMatrix random_rows(int n, int blocks, unsigned seed) {
-    std::mt19937 random(seed);
-    std::vector<Eigen::Triplet<double>> entries;
-    VectorX diagonal = VectorX::Constant(n, 1e-3);
-    for (int k = 0; k < 6 * n; ++k) {
-        const int i = static_cast<int>(random() % static_cast<unsigned>(n));
-        const int j = static_cast<int>(random() % static_cast<unsigned>(n));
-        if (i == j || i % blocks != j % blocks) continue;
-        const double value = static_cast<double>(random() % 1000) / 1000.0;
-        entries.emplace_back(i, j, -value);
-        diagonal[i] += value;
     }
     for (int i = 0; i < n; ++i) entries.emplace_back(i, i, diagonal[i]);
     SparseMatrix matrix(n, n);
@@ -99,42 +73,4 @@ TEST_CASE("an indefinite matrix is refused") {
     lower.coeffRef(20, 20) = -1.0;
     SparseCholesky factor;
     CHECK_FALSE(factor.factorise(lower, "the operator", Progress()));
-}
-
-TEST_CASE("the LU factor solves diagonally dominant systems that are not symmetric, connected or not") {
-    for (const int n : {1, 2, 17, 300}) {
-        for (const int blocks : {1, 3}) {
-            const SparseMatrix matrix = random_rows(n, blocks, static_cast<unsigned>(n + blocks));
-            SparseLu factor;
-            REQUIRE(factor.factorise(matrix, "a test matrix", Progress()));
-            const Eigen::MatrixXd rhs = Eigen::MatrixXd::Random(n, 3);
-            CHECK((matrix * factor.solve(rhs) - rhs).norm() < 1e-11 * rhs.norm());
-        }
-    }
-}
-
-TEST_CASE("the LU factor refuses a singular matrix") {
-    SparseMatrix matrix = random_rows(50, 1, 7);
-    matrix.prune([](Eigen::Index row, Eigen::Index, double) { return row != 20; });
-    SparseLu factor;
-    CHECK_FALSE(factor.factorise(matrix, "the weights", Progress()));
-}
-
-TEST_CASE("GMRES solves systems that are not symmetric, at the latest after as many steps as unknowns") {
-    std::srand(5);
-    const int n = 30;
-    const Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n) + 3.0 * Eigen::MatrixXd::Identity(n, n);
-    const Eigen::MatrixXd M = Eigen::MatrixXd::Random(n, n) + 4.0 * Eigen::MatrixXd::Identity(n, n);
-    const VectorX b = VectorX::Random(n);
-    const LinearMap apply = [&](const VectorX& x) { return VectorX(A * x); };
-    const LinearMap precondition = [&](const VectorX& x) { return VectorX(M * x); };
-    const VectorX x = gmres(apply, precondition, b, 1e-12, n);
-    CHECK((A * x - b).norm() < 1e-10 * b.norm());
-    double last = b.norm();
-    for (int steps = 1; steps < n; steps += 4) {
-        const double left = (A * gmres(apply, precondition, b, 0.0, steps) - b).norm();
-        CHECK(left < last * (1.0 + 1e-12));
-        last = left;
-    }
-    CHECK(gmres(apply, precondition, VectorX::Zero(n), 1e-12, n).norm() == 0.0);
 }

@@ -82,49 +82,6 @@ TEST_CASE("restriction is the transpose of interpolation, whose weights sum to o
     CHECK(left == doctest::Approx(right).epsilon(1e-5));
 }
 
-TEST_CASE("no vertex that a pass removes hangs on another one of it, and values come back in the order of the passes") {
-    const Ball ball(100);
-    const Transfer& transfer = ball.levels.front().transfer;
-    const Removals& removals = transfer.removals;
-    REQUIRE(removals.pass_begin.size() > 2);
-    CHECK(removals.pass_begin.back() == removals.size());
-    Indices pass_of(transfer.fine_count, none);
-    for (std::size_t pass = 1; pass < removals.pass_begin.size(); ++pass) {
-        for (int k = removals.pass_begin[pass - 1]; k < removals.pass_begin[pass]; ++k)
-            pass_of[removals.vertex[k]] = static_cast<int>(pass);
-    }
-    for (int k = 0; k < removals.size(); ++k) {
-        const int own = pass_of[removals.vertex[k]];
-        for (int j = removals.begin[k]; j < removals.begin[k + 1]; ++j) {
-            const int other = pass_of[removals.neighbours[j]];
-            CHECK((other == none || other > own));
-        }
-    }
-    // Means of a constant are that constant, whatever was there before.
-    const Points coarse = Vector3(1.0, 2.0, 3.0).replicate(1, transfer.coarse_count());
-    Points fine = Vector3(1.0, 2.0, 3.0).replicate(1, transfer.fine_count);
-    fine.leftCols(ball.patch().free_count).setZero();
-    transfer.prolong_means(coarse, ball.patch().free_count, fine);
-    CHECK((fine.colwise() - Vector3(1.0, 2.0, 3.0)).cwiseAbs().maxCoeff() < 1e-5);
-}
-
-TEST_CASE("an interpolated sphere is one to the fourth order in the spacing") {
-    // Means of points lie h²/2 below the sphere; what the lift leaves falls by 16 where h halves (8 to be safe).
-    std::vector<double> errors;
-    for (const int n : {20, 40}) {
-        const Ball ball(n, 0.1, 20);
-        const CoarseLevel& level = ball.levels.front();
-        const Points coarse = of_level(level, ball.single.points);
-        Points fixed = ball.single.points;
-        fixed.leftCols(ball.patch().free_count).setZero();
-        BentPoints fine{fixed, fixed, {}};
-        level.transfer.prolong_surface({coarse, coarse, {}}, ball.patch().free_count, fine);
-        errors.push_back((fine.points.colwise().norm().array() - 1.0).abs().maxCoeff());
-    }
-    CHECK(errors[0] < 2e-3);
-    CHECK(errors[1] < errors[0] / 8.0);
-}
-
 TEST_CASE("multigrid and a factorisation give the same tangential steps") {
     const Ball ball(40, 0.3, 60);
     REQUIRE(ball.levels.size() >= 2);

@@ -104,41 +104,6 @@ TEST_CASE("patterns of every boundary are discs of quads, with one triangle for 
     CHECK(without < 8);
 }
 
-TEST_CASE("a shape of the grid comes back as the grid, whatever its corners are") {
-    std::set<std::pair<int, int>> cells;
-    for (int x = 0; x < 9; ++x) {
-        for (int y = 0; y < 7; ++y) {
-            const bool corner = (x < 2 || x > 6) && (y < 2 || y > 5);
-            if (!corner && !(x == 8 && y == 2)) cells.emplace(x, y);
-        }
-    }
-    const auto cells_at = [&](int x, int y) {
-        int count = 0;
-        for (int k = 0; k < 4; ++k) count += static_cast<int>(cells.count({x - k % 2, y - k / 2}));
-        return count;
-    };
-    // Along the border, the cells on the left.
-    std::vector<Eigen::Vector2i> loop;
-    Eigen::Vector2i at(2, 0);
-    Eigen::Vector2i step(0, -1);
-    Indices faces;
-    do {
-        loop.push_back(at);
-        faces.push_back(cells_at(at.x(), at.y()));
-        if (faces.back() == 1) step = Eigen::Vector2i(-step.y(), step.x());
-        if (faces.back() == 3) step = Eigen::Vector2i(step.y(), -step.x());
-        at += step;
-    } while (at != loop.front());
-    Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(loop.size()));
-    for (std::size_t k = 0; k < loop.size(); ++k) places.col(static_cast<Eigen::Index>(k)) = loop[k].cast<double>();
-    const auto found = patterns_with_corners(boundary_of(places, static_cast<double>(cells.size())), faces, 4);
-    REQUIRE(found.size() == 1);
-    CHECK(found[0].pattern.quads.size() == cells.size());
-    CHECK(found[0].pattern.triangles.empty());
-    CHECK(found[0].poles == 0);
-    CHECK(found[0].least_poles == 0);
-}
-
 TEST_CASE("rings that would meet themselves are refused") {
     Eigen::Matrix2Xd places(2, 8);
     places << 0, 1, 2, 2, 2, 1, 0, 0, 0, 0, 0, 1, 2, 2, 2, 1;

@@ -36,23 +36,6 @@ Triangles fin() {
 
 }  // namespace
 
-TEST_CASE("twins lie on each other, the other way round, and borders have none") {
-    const Triangles triangles = test::grid(5, 0.0, test::flat).triangles;
-    const Twins twins = found(triangles, 36);
-    int borders = 0;
-    for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
-        const int twin = twins[s];
-        if (twin == none) {
-            ++borders;
-            continue;
-        }
-        CHECK(twins[twin] == s);
-        CHECK(side_tail(triangles, s) == side_head(triangles, twin));
-        CHECK(side_head(triangles, s) == side_tail(triangles, twin));
-    }
-    CHECK(borders == 20);
-}
-
 TEST_CASE("a patch is the same with the twins of the mesh that it was cut from, whichever way that was wound") {
     test::Mesh mesh = test::grid(6, 0.2, test::sphere);
     for (const int t : {3, 17, 40}) std::swap(mesh.triangles(1, t), mesh.triangles(2, t));
