@@ -13,7 +13,6 @@ import blend
 import connectivity
 import measures
 import shapes
-import six_arms
 import tetrathing
 from blend import Blend
 from engine import FloatArray, Outcome
@@ -40,11 +39,6 @@ class Solved:
 def three_cylinders(size: int) -> list[Made]:
     """Regular, irregular and strongly irregular."""
     return [blend.cylinder_blend(n, jitter=j, seed=k) for k, (n, j) in enumerate(_sizes(size))]
-
-
-def six_cylinders(size: int) -> list[Made]:
-    """Regular, irregular and strongly irregular."""
-    return [six_arms.six_arms(n, jitter=j, seed=k) for k, (n, j) in enumerate(_sizes(size))]
 
 
 def _sizes(size: int) -> list[tuple[int, float]]:
@@ -79,7 +73,6 @@ CASES: dict[str, Callable[[int], list[Made]]] = {
     "three-cylinder blend": three_cylinders,
     "tetrathing": tetrathings,
     "tetrathing, 3.3k and 13k": mixed_tetrathings,
-    "six-armed blend": six_cylinders,
     "torus patch": torus_patches,
 }
 

@@ -24,6 +24,7 @@ import fairing
 import hole_fillers
 import holes
 import known_surfaces
+import measures
 import real_meshes
 from holes import FloatArray, IntArray
 
@@ -42,7 +43,7 @@ def shape_of(vertices: FloatArray, result: fairing.FillResult | fairing.RemeshRe
     points = np.concatenate([vertices, result.vertices])
     inner = (result.triangles < len(vertices)).sum(axis=1) < 2
     angles = holes.angles(points, result.triangles[inner])
-    valence = np.bincount(holes.edges_of(result.triangles).ravel())[len(vertices) :].max()
+    valence = np.bincount(measures.edges(result.triangles).ravel())[len(vertices) :].max()
     return f"{angles.min():.0f}° | {valence}"
 
 

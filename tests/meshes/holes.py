@@ -79,12 +79,6 @@ def angles(vertices: FloatArray, triangles: IntArray) -> FloatArray:
     return np.degrees(np.arctan2(sine, (forth * back).sum(axis=2)))
 
 
-def edges_of(triangles: IntArray) -> IntArray:
-    """(e, 2) each edge once, the smaller index first."""
-    sides = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
-    return np.unique(np.sort(sides, axis=1), axis=0)
-
-
 def cylinder_side(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     return np.cos(2.4 * u), np.sin(2.4 * u), 2.4 * v
 

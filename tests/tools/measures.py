@@ -1,12 +1,12 @@
 """How far apart two surfaces are, and what a mesh is made of."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
-
-import fairing
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -125,6 +125,12 @@ def border_edges(triangles: IntArray) -> IntArray:
     return np.asarray(directed[uses[inverse.ravel()] == 1])
 
 
+def with_new(vertices: FloatArray, triangles: IntArray, result: Any) -> Surface:
+    """The mesh with what a fill or a fillet has made."""
+    kept = np.delete(np.asarray(triangles), getattr(result, "gone", []), axis=0)
+    return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
+
+
 def euler_number(triangles: IntArray) -> int:
     """χ = V − E + F of the vertices that triangles use."""
     return len(np.unique(triangles)) - len(edges(triangles)) + len(triangles)
@@ -153,9 +159,3 @@ def _single_fans(triangles: IntArray) -> bool:
     match = forward[order][place] == backward
     graph = coo_array((np.ones(match.sum()), (corner[match], order[place[match]])), shape=(len(corner),) * 2)
     return int(connected_components(graph)[0]) == len(np.unique(vertex))
-
-
-def with_fillet(vertices: FloatArray, triangles: IntArray, result: fairing.results.FilletResult) -> Surface:
-    """The mesh with its fillet."""
-    kept = np.delete(np.asarray(triangles), result.gone, axis=0)
-    return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])

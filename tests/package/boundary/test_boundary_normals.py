@@ -6,6 +6,7 @@ import pytest
 import bad_inputs
 import fairing
 import solids
+from grids import halves, numbered
 from meshing import face_normals
 from solids import FloatArray, IntArray
 
@@ -124,10 +125,8 @@ def test_an_outline_that_is_partly_hard_mixes_both(rings: float, continuity: str
 @pytest.mark.parametrize("height", [0.5, -0.5])
 def test_a_boss_or_a_pocket_goes(height: float) -> None:
     """Its walls are plane, and their edge with the plate is hard, but the surface over that lies in the plate."""
-    number = np.arange(17 * 17).reshape(17, 17)
     x, y = (a.ravel() for a in np.meshgrid(np.linspace(-1, 1, 17), np.linspace(-1, 1, 17), indexing="ij"))
-    a, b, c, d = (q.ravel() for q in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
-    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    triangles = halves(numbered(17, 17))
     plate = np.column_stack([x, y, 0 * x])
     top = (np.abs(plate[triangles].mean(axis=1)[:, :2]) < 0.4).all(axis=1)
     used = np.unique(triangles[top])
@@ -157,16 +156,6 @@ def test_a_dent_that_ends_in_a_crease_goes(above: float) -> None:
     result, found, free = faired(dented, triangles[inside], triangles[~inside])
     assert not found.from_inside.any()
     assert np.abs(np.linalg.norm(result.vertices[free], axis=1) - 1).max() < 1e-3
-
-
-def test_sides_can_be_chosen() -> None:
-    vertices, inside, outside = dented_box(8)
-    rim = np.intersect1d(inside, outside)
-    own = fairing.boundary_normals(vertices, inside, rim, outside=outside, side="inside")
-    assert own.from_inside.all()
-    assert np.abs(own.normals - [0, 0, 1]).max() < 1e-9
-    with pytest.raises(ValueError, match="side: 'average' is not accepted; accepted are 'automatic', 'outside'"):
-        fairing.boundary_normals(vertices, inside, rim, outside=outside, side="average")
 
 
 # `fairing.surrounding_normals`: the tangent planes in which the outside meets a patch.
@@ -224,12 +213,7 @@ def test_bands_and_windows_of_a_torus(around: int, across: int, bound: float) ->
     )
     centres = np.stack(np.broadcast_arrays(np.cos(angle), np.sin(angle), 0 * turn + 0 * angle), -1)
     vertices = (centres + 0.25 * outward).reshape(-1, 3)
-    number = np.arange(around * across).reshape(around, across)
-    along, beside = np.roll(number, -1, axis=0), np.roll(number, -1, axis=1)
-    opposite = np.roll(along, -1, axis=1)
-    triangles = np.r_[
-        np.stack([number, along, opposite], -1).reshape(-1, 3), np.stack([number, opposite, beside], -1).reshape(-1, 3)
-    ]
+    triangles = halves(np.pad(numbered(around, across), (0, 1), "wrap"))
     middle = vertices[triangles].mean(axis=1)
     for inside in (np.hypot(middle[:, 0], middle[:, 1]) > 1.1, (middle > 0).all(axis=1)):
         rim = np.intersect1d(triangles[inside], triangles[~inside])
@@ -288,24 +272,9 @@ def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:
     assert np.abs(np.hypot(made[:, 0], made[:, 1]) - 1.0).max() < 1e-4
 
 
-def test_a_ring_between_two_walls_is_flat_again() -> None:
-    """Noise on the end of a thick pipe counts for nothing."""
-    radii = np.concatenate([np.ones(11), np.linspace(0.925, 0.4, 8), np.full(10, 0.4)])
-    heights = np.concatenate([np.linspace(-1.0, 0.0, 11), np.zeros(8), np.linspace(-0.1, -1.0, 10)])
-    points, triangles = turned(radii, heights)
-    top = points[triangles, 2].min(axis=1) == 0.0
-    free = slice(11 * AROUND, 18 * AROUND)
-    points[free, 2] += 0.05 * np.random.default_rng(0).normal(size=7 * AROUND)
-    (made, _), _ = fairing.fair_faces((points, triangles), np.flatnonzero(top))
-    assert np.abs(made[free, 2]).max() < 1e-6
-
-
 def turned(radii: FloatArray, heights: FloatArray) -> tuple[FloatArray, IntArray]:
     """A surface of revolution, from one end of its profile to the other: vertices, triangles."""
     angles = 2.0 * np.pi * np.arange(AROUND) / AROUND
     rings = [[r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)] for r, z in zip(radii, heights, strict=True)]
     points = np.moveaxis(np.array(rings), 1, 2).reshape(-1, 3)
-    first = np.arange((len(radii) - 1) * AROUND)
-    second = first - first % AROUND + (first + 1) % AROUND
-    halves = [[first, second, second + AROUND], [first, second + AROUND, first + AROUND]]
-    return points, np.concatenate([np.column_stack(corners) for corners in halves])
+    return points, halves(np.pad(numbered(len(radii), AROUND), [(0, 0), (0, 1)], "wrap"))[:, ::-1]

@@ -70,27 +70,6 @@ def test_a_ball_comes_back_over_a_jagged_boundary(seed: int, share: float) -> No
     assert np.abs(ball.heights(result.vertices, ball.free)).max() < 1e-6
 
 
-def test_curvature_is_continued_where_it_is_asked_for() -> None:
-    """On a torus, which the tangent join misses: closer with more of the boundary, and all of it is the plain G2."""
-    patch = shapes.torus(500)
-    curvatures = patch.mean_curvature[patch.fixed]
-    x = patch.vertices[patch.fixed][:, 0]
-    errors = []
-    for share in (0.0, 0.5, 1.0):
-        kinds = np.where(x <= np.quantile(x, share) if share else np.zeros(len(x), dtype=bool), "G2", "G1")
-        if share == 0.0:
-            errors.append(patch.error(faired(patch, kinds).vertices))
-        else:
-            errors.append(patch.error(faired(patch, kinds, curvatures=curvatures).vertices))
-    assert errors[2] < errors[1] < errors[0]
-    plain = fairing.fair(
-        shapes.start_from_nothing(patch), patch.triangles,
-        fairing.Boundary(patch.fixed, patch.fixed_normals, curvatures),
-        fairing.Options(fairing.Surface(continuity="G2")),
-    )  # fmt: skip
-    assert errors[2] == patch.error(plain.vertices)
-
-
 def test_a_part_that_is_tangent_as_asked_is_no_reason_to_warn() -> None:
     """Where it is asked for and not known it is."""
     patch = shapes.torus(500)

@@ -9,6 +9,7 @@ import pytest
 import fairing
 import solids
 from curves import FloatArray
+from grids import halves, numbered
 from rough_sphere import IntArray, RoughSphere, rough_sphere
 
 WIDTH = 0.2  # of D
@@ -65,9 +66,7 @@ def test_a_ridge_that_runs_into_the_patch_ends_softly() -> None:
     count = 81
     x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-1, 1, count)], indexing="ij"))
     ridge = 0.05 * np.exp(-((y / 0.08) ** 2) / 2)
-    corner = np.arange(count * count).reshape(count, count)
-    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[:-1, 1:], corner[1:, 1:]))
-    triangles = np.concatenate([np.stack([a, b, d], axis=1), np.stack([a, d, c], axis=1)])
+    triangles = halves(numbered(count, count))
     away = np.hypot(x, y)
     inside = (away < 0.4)[triangles].all(axis=1)
     plate = Limb(np.stack([x, y, ridge], axis=1), triangles[inside], triangles[~inside])

@@ -11,6 +11,7 @@ import fairing
 import shapes
 from curves import FloatArray
 from domains import Domain
+from grids import corners, halves, numbered
 from meshing import IntArray
 from shapes import Patch
 from solving import codes, fair_patch
@@ -74,10 +75,8 @@ def test_an_outline_in_steps_is_met_in_its_curvature(size: int) -> None:
     x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-1, 1, size + 1)], indexing="ij"))
     height = np.sqrt(4 - x**2) - 2 - 0.3 * y**2 + 0.15 * y**3
     vertices = np.column_stack([x, y, height])
-    corner = (np.arange(size)[:, None] * (size + 1) + np.arange(size)).ravel()
-    quads = np.column_stack([corner, corner + size + 1, corner + size + 2, corner + 1])
-    triangles = np.concatenate([quads[:, :3], quads[:, [0, 2, 3]]])
-    middle = np.tile(vertices[quads, :2].mean(axis=1), (2, 1))
+    triangles = halves(numbered(size + 1, size + 1))
+    middle = np.tile(vertices[corners(numbered(size + 1, size + 1)), :2].mean(axis=1), (2, 1))
     within = (middle[:, 0] / 0.62) ** 2 + (middle[:, 1] / 0.5) ** 2 < 1
     off = []
     for result in both_joins(vertices, triangles, within):

@@ -96,13 +96,6 @@ def test_a_fitted_rim_is_smooth() -> None:
     assert np.mean(after) < 0.5 * np.mean(before)
 
 
-def test_a_clean_outline_gives_the_same_bits_fitted() -> None:
-    case = ball(0.0)
-    given = fairing.fair(case.noisy, case.inside, **options_of(case))
-    fitted = fairing.fair(case.noisy, case.inside, outline="mended", **options_of(case))
-    assert np.array_equal(given.vertices, fitted.vertices)
-
-
 def test_mending_without_an_outside_is_refused() -> None:
     case = ball(0.1)
     with pytest.raises(ValueError, match="outline: 'mended' needs the triangles outside"):

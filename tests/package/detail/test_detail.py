@@ -9,6 +9,7 @@ import fairing
 import shapes
 import solids
 from curves import FloatArray
+from grids import halves, numbered
 from rough_sphere import rough_sphere
 from shapes import Patch
 from solving import codes
@@ -113,9 +114,7 @@ def test_detail_without_room_is_reported() -> None:
 def heights_kept(length: float, size: float) -> float:
     """Share of a low wave that is left in the middle of a flat square of edge .02."""
     x, y = (part.ravel() for part in np.meshgrid(np.arange(201) * 0.02, np.arange(201) * 0.02, indexing="ij"))
-    corner = (np.arange(200)[:, None] * 201 + np.arange(200)).ravel()
-    quads = corner[:, None] + (0, 201, 202, 1)
-    triangles = np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    triangles = halves(numbered(201, 201))
     wave = np.cos(2 * np.pi * (x - 2) / length)
     smooth = fairing.denoise(np.stack([x, y, 1e-6 * wave], axis=1), triangles, size=size)[:, 2] / 1e-6
     middle = (np.abs(x - 2) < 0.8) & (np.abs(y - 2) < 0.8)
@@ -203,11 +202,7 @@ def test_without_a_size_fine_parts_keep_finer_shapes() -> None:
     x = np.concatenate([[0.0], np.cumsum(np.geomspace(0.01, 0.1, 120))])
     phase = 2 * np.pi * np.arange(len(x)) / 20
     y = np.arange(40) * 0.03
-    triangles = []
-    for i in range(len(x) - 1):
-        for j in range(len(y) - 1):
-            a, b, c, d = i * 40 + j, (i + 1) * 40 + j, (i + 1) * 40 + j + 1, i * 40 + j + 1
-            triangles += [[a, b, c], [a, c, d]]
+    triangles = halves(numbered(len(x), 40))
     height = 1e-6 * np.repeat(np.cos(phase), 40)
     points = np.stack([np.repeat(x, 40), np.tile(y, len(x)), height], axis=1)
     middle = np.zeros(len(points), dtype=bool)

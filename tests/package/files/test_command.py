@@ -167,14 +167,6 @@ def test_an_interrupt_keeps_what_is_done(scan: Path, tmp_path: Path) -> None:
     assert all(Path(report["written"]).is_file() for report in reports)
 
 
-def test_from_a_shell(scan: Path) -> None:
-    """The exit status and the report on the standard output; no bar where no terminal is."""
-    command = [sys.executable, "-m", "fairing", "fill", str(scan), "--longest", "20", "--json", "-"]
-    done = subprocess.run(command, capture_output=True, text=True, env=dict(os.environ), check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert json.loads(done.stdout)[0]["verdict"] == GOOD
-
-
 @pytest.mark.parametrize(
     ("words", "said"),
     [

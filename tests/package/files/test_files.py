@@ -75,16 +75,6 @@ def test_numbers_that_need_more_than_two_bytes_are_written(tmp_path: Path) -> No
     assert np.array_equal(files.read(tmp_path / "large.ply")[0].faces.corners, large.faces.corners)
 
 
-@pytest.mark.parametrize("kind", [".glb", ".stl"])
-def test_normals_are_left_to_nobody(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without SciPy trimesh takes minutes for those of a large mesh."""
-    mesh = trimesh.Trimesh(*holed(), process=False)
-    mesh.vertex_normals = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1)[:, None]
-    mesh.export(tmp_path / f"tube{kind}")
-    monkeypatch.setattr(trimesh.geometry, "weighted_vertex_normals", None)
-    filled(tmp_path / f"tube{kind}")
-
-
 def test_broken_files_are_rows_of_the_report(tmp_path: Path) -> None:
     """The batch goes on, and nothing but the report is on the standard output."""
     for name, raw in BROKEN.items():

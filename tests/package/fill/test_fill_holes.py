@@ -8,6 +8,7 @@ import pytest
 
 import fairing
 import holes
+import measures
 import shapes
 from holes import FloatArray, Mesh
 
@@ -60,22 +61,6 @@ def twelve(u: FloatArray, v: FloatArray) -> Any:
     return ((u * 4) % 1 - 0.5) ** 2 + ((v * 3) % 1 - 0.5) ** 2 < 0.05
 
 
-def mask() -> Mesh:
-    """A ball with an open neck, a tube that leads away from it, and twelve holes."""
-
-    def place(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        polar = np.pi * (0.02 + 0.83 * np.minimum(v, 0.8) / 0.8)
-        down = np.maximum(v - 0.8, 0.0) * 4.0
-        radius = np.sin(polar)
-        return radius * np.cos(2 * np.pi * u), radius * np.sin(2 * np.pi * u), np.cos(polar) - down
-
-    def open_there(u: FloatArray, v: FloatArray) -> Any:
-        return (((u * 6) % 1 - 0.5) ** 2 + ((v * 2.5) % 1 - 0.5) ** 2 < 0.05) & (v < 0.8)
-
-    vertices, triangles = holes.sheet(place, (90, 60), open_there, closed=True)
-    return vertices, triangles
-
-
 def sorted_out(mesh: Mesh) -> tuple[int, int]:
     """How many holes and how many outer borders."""
     outer = fairing.borders.outer_borders(*mesh)
@@ -93,7 +78,6 @@ SHAPES: dict[str, tuple[Mesh, int, int]] = {
     "dish of 30°": (dish(30.0), 1, 0),
     "half a ball": (dish(90.0), 1, 0),
     "ball with a hole": (dish(160.0), 1, 0),
-    "mask": (mask(), 14, 0),
     **{
         f"sheet bent by {degrees}°": (holes.sheet(bent(degrees), (16, 16), whole), 0, 1)
         for degrees in (10, 30, 90, 180, 270)
@@ -243,7 +227,7 @@ def disc(**options: Any) -> fairing.FillResult:
 def lengths(result: fairing.FillResult | fairing.RemeshResult, old: FloatArray) -> tuple[FloatArray, FloatArray]:
     """(e, 3) middles and (e,) lengths of new edges away from the circle."""
     points = np.concatenate([old, result.vertices])
-    ends = points[holes.edges_of(result.triangles)]
+    ends = points[measures.edges(result.triangles)]
     middles = ends.mean(axis=1)
     inside = np.linalg.norm(middles, axis=1) < 0.75
     return middles[inside], np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)[inside]
@@ -281,7 +265,7 @@ def test_the_wanted_length_holds_inside_an_outline_of_four_edges(spacing: float,
     result = fairing.fill(SQUARE, EMPTY, [np.arange(4)], normals=normals, spacing=spacing)
     assert result.converged
     points = np.concatenate([SQUARE, result.vertices])
-    edges = holes.edges_of(result.triangles)
+    edges = measures.edges(result.triangles)
     ends = points[edges]
     inner = np.abs(ends.mean(axis=1)[:, :2]).max(axis=1) < 0.5
     lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)

@@ -124,20 +124,6 @@ def test_the_loop_that_is_turned_is_named() -> None:
     assert "lead away from the others" in text
 
 
-def test_a_tube_whose_faces_are_turned_over_is_named() -> None:
-    vertices, triangles = holes.sheet(
-        lambda u, v: (np.cos(2 * np.pi * u), np.sin(2 * np.pi * u), 3 * v - 1.5), (24, 12), holes.band, closed=True
-    )
-    upper = vertices[triangles].mean(axis=1)[:, 2] > 0
-    triangles[upper] = triangles[upper][:, ::-1]
-    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
-    turned = max(loops, key=lambda loop: vertices[loop, 2].mean())
-    with pytest.raises(fairing.MeshError, match="flip the triangles around it") as caught:
-        fairing.fill(vertices, triangles, loops, bridge=True)
-    assert caught.value.code == "LOOPS_NOT_JOINED"
-    assert {*caught.value.elements} == {*turned}
-
-
 def test_edges_that_cross_are_refused_with_their_ends() -> None:
     """A figure eight without a vertex in its middle, and two circles that cut each other, where they are joined."""
     turn = 2 * np.pi * (np.arange(48) + 0.5) / 48
@@ -235,23 +221,6 @@ def test_a_rough_outline_keeps_the_tangent_join_and_says_so() -> None:
     assert (warning.code, "smooth_share" in warning.figures) == ("G2_NOT_MET", True)
     np.testing.assert_array_equal(np.sort(warning.elements), np.sort(loop))
     np.testing.assert_array_equal(curved.vertices, tangent.vertices)
-
-
-def test_a_bridge_continues_curvature_too() -> None:
-    """Between two parts of an ellipsoid's side, which no harmonic surface is."""
-
-    def ellipsoid(u: FloatArray, v: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        polar = (0.15 + 0.7 * v) * np.pi
-        return np.sin(polar) * np.cos(2 * np.pi * u), np.sin(polar) * np.sin(2 * np.pi * u), -1.5 * np.cos(polar)
-
-    vertices, triangles = holes.sheet(ellipsoid, (60, 40), holes.band, closed=True)
-    loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
-    off = []
-    for continuity in ("G1", "G2"):
-        result = fairing.fill(vertices, triangles, loops, bridge=True, continuity=continuity)
-        assert (result.continuity, result.converged) == (continuity, True)
-        off.append(abs(np.linalg.norm(result.vertices / [1.0, 1.0, 1.5], axis=1) - 1).max())
-    assert off[1] < 0.3 * off[0]
 
 
 # What fairing.fill says where an outline is odd: what, where, and what helps.

@@ -8,6 +8,7 @@ import pytest
 
 import creased
 import fairing
+import holes
 from creased import FloatArray, Hole, IntArray
 
 
@@ -18,15 +19,6 @@ def filled(hole: Hole, **options: object) -> fairing.FillResult:
 def on_curves(hole: Hole, result: fairing.FillResult) -> FloatArray:
     """The places of all vertices of all curves."""
     return np.concatenate([hole.vertices, result.vertices])[np.concatenate(result.curves)]
-
-
-def least_angle(vertices: FloatArray, triangles: IntArray) -> float:
-    corners = vertices[triangles]
-    angles = []
-    for k in range(3):
-        a, b = corners[:, (k + 1) % 3] - corners[:, k], corners[:, (k + 2) % 3] - corners[:, k]
-        angles.append(np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), (a * b).sum(axis=1)))
-    return float(np.degrees(np.min(angles)))
 
 
 @pytest.mark.parametrize(
@@ -47,7 +39,7 @@ def test_an_edge_runs_on(make: Callable[[int, int], Hole], curves: int, bound: f
     assert len(result.curves) == curves
     assert hole.error(result.vertices) < bound
     assert hole.edge_error(on_curves(hole, result)) < bound
-    assert least_angle(np.concatenate([hole.vertices, result.vertices]), result.triangles) > 15
+    assert holes.angles(np.concatenate([hole.vertices, result.vertices]), result.triangles).min() > 15
 
 
 def test_the_edge_is_rounded_where_that_is_asked_for() -> None:

@@ -10,6 +10,8 @@ import fairing
 import measures
 import solids
 import wedges
+from grids import halves, numbered
+from measures import with_new
 from wedges import FloatArray, IntArray
 
 WIDTH = 0.3
@@ -84,7 +86,7 @@ def test_the_profile_is_the_drawn_beam(profile: float) -> None:
 def test_it_ends_on_straight_lines_beside_straight_edges(rows: int) -> None:
     vertices, triangles = solids.box(rows)
     result = fairing.fillet(vertices, triangles, width=0.2, spacing=0.1)
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     ends = points[np.unique(result.line)]
     across = np.sort(np.abs(ends), axis=1)
     assert abs(across[:, 2] - 1).max() < 1e-12
@@ -101,10 +103,7 @@ def plate(count: int) -> tuple[FloatArray, IntArray, IntArray]:
     """[−2, 2]² in the plane z = 0, and its edges from (−.5, 0) to (.5, 0)."""
     x = np.linspace(-2, 2, count + 1)
     vertices = np.array([[a, b, 0.0] for b in x for a in x])
-    k = np.array([i + j * (count + 1) for j in range(count) for i in range(count)])
-    triangles = np.concatenate(
-        [np.column_stack([k, k + 1, k + count + 2]), np.column_stack([k, k + count + 2, k + count + 1])]
-    )
+    triangles = halves(numbered(count + 1, count + 1).T)
     on = np.flatnonzero((np.abs(vertices[:, 1]) < 1e-9) & (np.abs(vertices[:, 0]) < 0.5 + 1e-9))
     return vertices, triangles, np.column_stack([on[:-1], on[1:]])
 
@@ -126,7 +125,7 @@ def test_pieces_outside_stay_in_their_planes_and_all_else_stays() -> None:
     vertices, triangles = solids.sphere(24, 12)
     ring = np.array([[a, b] for a, b in measures.edges(triangles) if abs(vertices[[a, b], 2]).max() < 1e-9])
     result = fairing.fillet(vertices, triangles, ring, width=0.4)
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     for t, parent in zip(result.triangles[: result.outside], result.parent[: result.outside], strict=True):
         a, b, c = vertices[triangles[parent]]
         normal = np.cross(b - a, c - a)
@@ -221,12 +220,13 @@ def test_a_clamped_width_fits_and_says_where() -> None:
     assert 0.4 < warning.figures["widest"] < 0.5
     assert result.converged
     assert result.vertices[:, 2].max() <= 2.0 + 1e-6
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
     assert len(fairing.self_intersections(points, faces)) == 0
     same = fairing.fillet(vertices, triangles, width=0.4, clamp=True)
     np.testing.assert_array_equal(same.vertices, fairing.fillet(vertices, triangles, width=0.4, clamp=False).vertices)
     assert same.warnings == ()
+    assert same.vertices[:, 2].max() <= 2.0 + 1e-6
 
 
 def test_clamped_widths_taper() -> None:
@@ -290,7 +290,7 @@ def test_a_fillet_stops_at_walls_and_is_tangent_to_its_own_side_there() -> None:
     result = fairing.fillet(tall, triangles, seam, width=0.3)
     assert result.converged
     assert result.vertices[:, 2].min() >= -0.03 - 1e-9
-    _, faces = measures.with_fillet(tall, triangles, result)
+    _, faces = with_new(tall, triangles, result)
     assert measures.euler_number(faces) == 2
     assert fairing.boundary_loops(faces) == []
 
@@ -328,7 +328,7 @@ def is_round(vertices: FloatArray, triangles: IntArray, result: fairing.results.
     near = near[(near[:, :2] > 0.8 - 1e-9).all(axis=1)]
     off = abs(np.hypot(near[:, 0] - 0.8, near[:, 1] - 0.8) - 0.2) / 0.2
     assert off.max() < 5e-3
-    _, faces = measures.with_fillet(vertices, triangles, result)
+    _, faces = with_new(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
 
 
@@ -410,7 +410,7 @@ def test_a_fillet_goes_on_through_the_faces_at_its_ends(shear: float) -> None:
     walls = hard[np.ptp(vertices[hard][:, :, 2], axis=1) < 1e-9]
     vertices = vertices + shear * vertices[:, 2:] * (1.0, 0.0, 0.0)
     result = fairing.fillet(vertices, triangles, seam, width=width, walls=walls)
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     assert (result.converged, fairing.boundary_loops(faces)) == (True, [])
     assert len(fairing.self_intersections(points, faces)) == 0
     used = points[np.unique(faces)]
@@ -435,7 +435,7 @@ def test_a_fillet_fills_the_corners_of_a_pocket_up_to_its_mouth() -> None:
     triangles = np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
     seam = np.array([(8 + k, 12 + k) for k in range(4)])
     result = fairing.fillet(vertices, triangles, seam, width=width)
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     assert (result.converged, result.warnings, fairing.boundary_loops(faces)) == (True, (), [])
     assert len(fairing.self_intersections(points, faces)) == 0
     assert volume(points, faces) == pytest.approx(44.0 + (4.0 - np.pi) * width**2, rel=1e-4)

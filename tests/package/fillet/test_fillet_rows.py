@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import fairing
+import holes
 import measures
 import solids
 import wedges
 from fairing import _core
+from measures import with_new
 from wedges import FloatArray, IntArray
 
 WIDTH = 0.3
@@ -27,13 +29,6 @@ def without_diagonals(vertices: FloatArray, triangles: IntArray, axes: int = 1) 
     return edges[along.sum(axis=1) <= axes]
 
 
-def angles(points: FloatArray, quads: IntArray) -> FloatArray:
-    corners = points[quads]
-    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    sizes = np.linalg.norm(ahead, axis=2) * np.linalg.norm(back, axis=2)
-    return np.degrees(np.arccos((ahead * back).sum(axis=2) / sizes))
-
-
 def valences(result: fairing.results.FilletResult) -> Counter[int]:
     """How many inner vertices have so many quads."""
     assert result.quads is not None
@@ -47,10 +42,10 @@ def check_closed(vertices: FloatArray, triangles: IntArray, result: fairing.resu
     """The mesh with its fillet is closed, as it was, and only quads are new."""
     assert result.quads is not None
     assert len(result.quads.triangles) == result.outside  # the pieces of cut triangles
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
     assert measures.euler_number(faces) == 2
-    new = angles(points, result.quads.quads)
+    new = holes.angles(points, result.quads.quads)
     assert ((new > 50) & (new < 130)).mean() >= 0.95
 
 
@@ -130,10 +125,10 @@ def test_a_seam_that_fades_out_has_rows_between_triangles() -> None:
     assert result.quads is not None
     assert len(result.quads.quads) >= 2 * ROWS
     assert len(result.quads.triangles) > result.outside
-    points, faces = measures.with_fillet(vertices, triangles, result)
+    points, faces = with_new(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []
     assert len(fairing.self_intersections(points, faces)) == 0
-    new = angles(points, result.quads.quads)
+    new = holes.angles(points, result.quads.quads)
     assert ((new > 50) & (new < 130)).mean() >= 0.95
 
 
@@ -147,7 +142,7 @@ def test_diagonals_get_no_vertices() -> None:
     crossings = []
     for edges_that_count in (counted, None):
         result = fairing.fillet(vertices, triangles, seam, width=WIDTH, faces="quads", neighbours=edges_that_count)
-        points, faces = measures.with_fillet(vertices, triangles, result)
+        points, faces = with_new(vertices, triangles, result)
         off = np.linalg.norm(np.cross(points[np.unique(result.line)][:, None] - start, way), axis=2)
         crossings.append((off < 1e-9).any(axis=1).sum())
         corners = points[result.triangles[: result.outside]]
@@ -195,5 +190,5 @@ def test_where_fillets_run_into_each_other_triangles_stay_and_that_is_said() -> 
     assert warning.figures["seams"] == 1.0
     assert result.quads is not None
     assert len(result.quads.quads) == 0
-    _, faces = measures.with_fillet(vertices, triangles, result)
+    _, faces = with_new(vertices, triangles, result)
     assert fairing.boundary_loops(faces) == []

@@ -11,6 +11,7 @@ import fairing
 import holes
 import measures
 import solids
+from grids import halves, numbered
 from solids import FloatArray, IntArray
 
 
@@ -63,9 +64,7 @@ def bent_sheet(columns: int, degrees: FloatArray) -> tuple[FloatArray, IntArray]
     v, u = (x.ravel() for x in np.meshgrid(np.arange(-4.0, 5.0), np.arange(columns + 1.0), indexing="ij"))
     bent = np.radians(np.interp(u, np.arange(columns + 1.0), degrees)) * (v > 0)
     vertices = np.column_stack([u, v * np.cos(bent), -v * np.sin(bent)])
-    number = np.arange(9 * (columns + 1)).reshape(9, columns + 1)
-    a, b, c, d = (x.ravel() for x in (number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]))
-    return vertices, np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    return vertices, halves(numbered(9, columns + 1))[:, ::-1]
 
 
 def test_an_edge_runs_on_where_it_fades() -> None:
@@ -105,9 +104,7 @@ def test_strokes_on_a_plate_have_all_their_edges(stroke: float, rows: int) -> No
     profile = np.array([[0.0, 0.0], [1, 0], [1, 0.2], [1 + stroke, 0.2], [1 + stroke, 0], [2, 0]])
     y = np.linspace(0, 2, rows + 1)
     vertices = np.array([[x, b, z] for x, z in profile for b in y])
-    k = np.array([i * (rows + 1) + j for i in range(len(profile) - 1) for j in range(rows)])
-    above = k + rows + 1
-    triangles = np.concatenate([np.column_stack([k, above, above + 1]), np.column_stack([k, above + 1, k + 1])])
+    triangles = halves(numbered(len(profile), rows + 1))
     lines = np.array([[i * (rows + 1) + j, i * (rows + 1) + j + 1] for i in range(1, 5) for j in range(rows)])
     assert fairing.hard_edges(vertices, triangles).tolist() == lines.tolist()
 
@@ -117,16 +114,7 @@ def test_plane_quads_of_a_rough_grid_are_no_faces_of_a_solid(n: int, waves: floa
     """z = f(x) + g(y) makes every quad plane, and rows bend by up to 50° to one side and the other in turns."""
     x, y = np.meshgrid(np.linspace(-1, 1, n + 1), np.linspace(-1, 1, n + 1), indexing="ij")
     vertices = np.stack([x, y, 0.2 * np.cos(2 * x) + 0.1 * np.sin(waves * y)], axis=-1).reshape(-1, 3)
-    k = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
-    triangles = np.concatenate([np.column_stack([k, k + n + 1, k + n + 2]), np.column_stack([k, k + n + 2, k + 1])])
-    assert len(fairing.hard_edges(vertices, triangles)) == 0
-
-
-def test_marked_edges_are_hard_whatever_they_bend() -> None:
-    vertices, triangles = bent_sheet(6, np.full(7, 2.0))
-    row = [4 * 7 + 2, 4 * 7 + 3]
-    no_edge = [0, 30]
-    assert fairing.hard_edges(vertices, triangles, marked=[row[::-1], no_edge]).tolist() == [row]
+    assert len(fairing.hard_edges(vertices, halves(numbered(n + 1, n + 1)))) == 0
 
 
 def test_bad_triangles_are_left_out() -> None:
@@ -194,16 +182,6 @@ def test_an_edge_that_runs_through_is_found(make: Callable[[], Through], noise: 
     curve = np.unique(np.concatenate(fair.curves))
     off = np.sort([side(fair.vertices[curve]) for side in exact.distances], axis=0)[1]
     assert off.max() < (0.05 if noise else 1e-6) * size
-
-
-def test_an_edge_that_is_lost_inside_is_none() -> None:
-    """The smooth surface over the outline has no edge to be held: what an artist has rounded stays round."""
-    exact, inside, outside, _ = box_edge()
-    outline = np.unique(np.concatenate(fairing.boundary_loops(inside)))
-    normals = fairing.surrounding_normals(exact.vertices, outside, outline).normals
-    smooth = fairing.fair(exact.vertices, inside, fixed=outline, fixed_normals=normals).vertices
-    found = fairing.edges_through(smooth, inside, outside)
-    assert len(found.edges) == 0
 
 
 def test_an_edge_of_which_most_is_lost_is_none() -> None:

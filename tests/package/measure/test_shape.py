@@ -5,12 +5,11 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 import pytest
-from scipy.sparse import coo_array
-from scipy.sparse.linalg import spsolve
 
 import fairing
 import holes
 import shapes
+from grids import halves, numbered
 from holes import FloatArray, IntArray
 
 AROUND, ROWS = 16, 40
@@ -21,9 +20,8 @@ def tube(radius: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, IntArr
     """A tube along z from 0 to 4, (ROWS + 1) circles of AROUND vertices."""
     z, turn = np.meshgrid(np.linspace(0.0, 4.0, ROWS + 1), 2.0 * np.pi * np.arange(AROUND) / AROUND, indexing="ij")
     points = np.stack([radius(z) * np.cos(turn), radius(z) * np.sin(turn), z], axis=-1).reshape(-1, 3)
-    row, column = (index.ravel() for index in np.mgrid[:ROWS, :AROUND])
-    a, b = AROUND * row + column, AROUND * row + (column + 1) % AROUND
-    return points, np.concatenate([np.column_stack([a, b, b + AROUND]), np.column_stack([a, b + AROUND, a + AROUND])])
+    number = numbered(ROWS + 1, AROUND)
+    return points, halves(np.column_stack([number, number[:, 0]]))[:, ::-1]
 
 
 @pytest.mark.parametrize("at", [1.2, 2.0, 3.0])
@@ -48,25 +46,11 @@ def test_a_cone_has_no_place_that_is_thin_or_thick() -> None:
     assert not len(girth.thinnest) and not len(girth.thickest)
 
 
-def test_only_the_tube_counts_beside_a_disc() -> None:
-    points, triangles = tube(lambda z: 1.0 - 0.3 * np.exp(-(((z - 2.0) / 0.6) ** 2)))
-    disc = np.array([[9.0, 0.0, 0.0], [10.0, 0.0, 0.0], [9.0, 1.0, 0.0], [9.2, 0.2, 0.0]])
-    fan = np.array([[0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    assert fairing.looks.girth(disc, fan) is None
-    girth = fairing.looks.girth(np.concatenate([disc, points]), np.concatenate([fan, triangles + 4]))
-    assert girth is not None
-    assert np.abs(points[girth.thinnest - 4, 2] - 2.0).max() < 0.35
-
-
 def slit(degrees: float, length: int) -> tuple[FloatArray, IntArray, IntArray]:
     """Two slopes over a grid that meet at x = 0 by so many degrees; the ridge is doubled in its middle."""
-    size = 12
     x, y = (axis.ravel() for axis in np.meshgrid(np.arange(-6.0, 7.0), np.arange(-6.0, 7.0), indexing="ij"))
     points = np.column_stack([x, y, -np.abs(x) * np.tan(np.radians(degrees) / 2.0)])
-    here = (np.arange(size)[:, None] * 13 + np.arange(size)).ravel()
-    triangles = np.concatenate(
-        [np.column_stack([here, here + 13, here + 14]), np.column_stack([here, here + 14, here + 1])]
-    )
+    triangles = halves(numbered(13, 13))
     ridge = np.flatnonzero((x == 0.0) & (np.abs(y) < 0.5 * length))
     twin = np.arange(len(points))
     twin[ridge] = len(points) + np.arange(len(ridge))
@@ -111,9 +95,7 @@ def plate_and_arc(rows: int, degrees: float, columns: int, kink: float = 0.0) ->
     z = np.concatenate([np.zeros(rows + 1), np.sin(turn).cumsum()])
     y = 0.2 * np.arange(columns + 1.0)
     vertices = np.column_stack([np.repeat(x, len(y)), np.tile(y, len(x)), np.repeat(z, len(y))])
-    number = np.arange(len(vertices)).reshape(len(x), len(y))
-    a, b, c, d = (part.ravel() for part in (number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]))
-    triangles = np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    triangles = halves(numbered(len(x), len(y)))
     plate = vertices[triangles][:, :, 0].mean(axis=1) < 0
     return vertices, triangles[plate], triangles[~plate]
 
@@ -155,9 +137,7 @@ def roof(degrees: float) -> tuple[Floats, Ints]:
     half = np.radians(degrees) / 2.0
     x, y = (axis.ravel() for axis in np.meshgrid(np.arange(ROWS_ROUNDED + 1.0), np.arange(-3.0, 4.0), indexing="ij"))
     points = np.stack([x, y * np.cos(half), -np.abs(y) * np.sin(half)], axis=1)
-    here = (np.arange(ROWS_ROUNDED)[:, None] * 7 + np.arange(6)).ravel()
-    halves = [np.stack([here, here + 7, here + 8], axis=1), np.stack([here, here + 8, here + 1], axis=1)]
-    return points, np.concatenate(halves)
+    return points, halves(numbered(ROWS_ROUNDED + 1, 7))
 
 
 def flattened(points: Floats, rows: int, by: float) -> tuple[Floats, Ints]:
@@ -193,13 +173,6 @@ def test_what_keeps_its_edge_is_none() -> None:
         assert not rounded(points, after, triangles, moved), (degrees, rows, by)
 
 
-def test_a_whole_ridge_that_moves_is_a_change_of_shape() -> None:
-    """A row of noise lies within the band that is smoothed; a hard edge runs on out of it."""
-    points, triangles = roof(90.0)
-    after, moved = flattened(points, ROWS_ROUNDED + 1, 0.4)
-    assert not rounded(points, after, triangles, moved)
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_noise_that_is_smoothed_is_no_hard_edge(seed: int) -> None:
     points, triangles = roof(0.0)
@@ -226,21 +199,6 @@ def test_a_flat_piece_is_laid_out_from_two_neighbours() -> None:
     places = np.column_stack([wanted.real, wanted.imag])
     found = fairing.maps.conformal_map(points, triangles, [3, 12], places[[3, 12]])
     np.testing.assert_allclose(found, places, atol=1e-9)
-
-
-def test_a_fixed_border_makes_it_harmonic() -> None:
-    patch = shapes.cap(400)
-    rng = np.random.default_rng(0)
-    given = patch.vertices[patch.fixed, :2] * [1.0, 0.5] + 0.05 * rng.normal(size=(len(patch.fixed), 2))
-    found = fairing.maps.conformal_map(patch.vertices, patch.triangles, patch.fixed, given)
-    rows, columns, values = fairing.cotan_laplacian(patch.vertices, patch.triangles)
-    count = len(patch.vertices)
-    laplacian = coo_array((values, (rows, columns)), shape=(count, count)).tocsr()
-    inside = np.setdiff1d(np.arange(count), patch.fixed)
-    wanted = np.zeros((count, 2))
-    wanted[patch.fixed] = given
-    wanted[inside] = spsolve(laplacian[inside][:, inside], -(laplacian[inside] @ wanted))
-    np.testing.assert_allclose(found, wanted, atol=1e-9)
 
 
 def test_a_sphere_is_projected_from_half_of_its_outline() -> None:

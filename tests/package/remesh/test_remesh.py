@@ -37,7 +37,7 @@ def test_the_surface_stays_and_the_mesh_is_clean(cap: shapes.Patch, factor: floa
     assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 2e-5
     points = np.concatenate([cap.vertices, result.vertices])
     assert holes.angles(points, result.triangles).min() >= 25
-    sides = holes.edges_of(result.triangles)
+    sides = measures.edges(result.triangles)
     new = (sides >= len(cap.vertices)).all(axis=1)
     lengths = np.linalg.norm(points[sides[new, 0]] - points[sides[new, 1]], axis=1) / wanted
     assert 1 / np.sqrt(2) < np.median(lengths) < np.sqrt(2)
@@ -84,7 +84,7 @@ def test_inner_fixed_curves_stay() -> None:
     assert result.converged
     assert abs(np.linalg.norm(result.vertices, axis=1) - 1).max() < 5e-4
     assert not fairing.boundary_loops(result.triangles)
-    sides = {tuple(side) for side in holes.edges_of(result.triangles)}
+    sides = {tuple(side) for side in measures.edges(result.triangles)}
     assert all(tuple(sorted((i, (i + 1) % 24))) in sides for i in belt)
 
 
@@ -98,7 +98,7 @@ def whole_sphere() -> tuple[FloatArray, holes.IntArray]:
 def across(patch: shapes.Patch) -> holes.IntArray:
     """Edges (k, 2) on a shortest path from outline to outline through the top."""
     neighbours: dict[int, set[int]] = {}
-    for a, b in holes.edges_of(patch.triangles).tolist():
+    for a, b in measures.edges(patch.triangles).tolist():
         neighbours.setdefault(a, set()).add(b)
         neighbours.setdefault(b, set()).add(a)
     top = int(np.argmax(patch.vertices[:, 2]))
@@ -129,7 +129,7 @@ def test_kept_edges_are_in_the_new_mesh_and_nothing_runs_across(cap: shapes.Patc
     number = {v: v for v in cap.fixed.tolist()}
     number |= {int(v): len(cap.vertices) + k for k, v in enumerate(result.old) if v >= 0}
     assert set(number) - set(cap.fixed.tolist()) == set(lines.ravel().tolist()) - set(cap.fixed.tolist())
-    sides = {tuple(side) for side in holes.edges_of(result.triangles).tolist()}
+    sides = {tuple(side) for side in measures.edges(result.triangles).tolist()}
     kept = {tuple(sorted((number[a], number[b]))) for a, b in lines.tolist()}
     assert kept <= sides
     # Old and new triangles fall into two parts alike.
@@ -207,7 +207,7 @@ def test_a_patch_without_free_vertices_gets_some(points: FloatArray, triangles: 
     assert (areas > 0.0).all()
     assert areas.sum() == pytest.approx(whole)
     outline = {tuple(sorted(pair)) for pair in zip(fixed.tolist(), np.roll(fixed, -1).tolist(), strict=True)}
-    assert outline <= set(map(tuple, holes.edges_of(result.triangles).tolist()))
+    assert outline <= set(map(tuple, measures.edges(result.triangles).tolist()))
     rows, weights = result.origin
     assert set(rows.tolist()) <= set(range(len(triangles)))
     np.testing.assert_allclose(weights.sum(axis=1), 1.0)
@@ -219,9 +219,9 @@ def test_a_kept_edge_inside_stays_one() -> None:
     up = np.tile([0.0, 0.0, 1.0], (4, 1))
     given = {"fixed": np.arange(4), "fixed_normals": up, "spacing": 0.4}
     result = fairing.remesh(SQUARE, [[0, 1, 2], [0, 2, 3]], kept=[[0, 2]], **given)
-    assert (0, 2) in set(map(tuple, holes.edges_of(result.triangles).tolist()))
+    assert (0, 2) in set(map(tuple, measures.edges(result.triangles).tolist()))
     without = fairing.remesh(SQUARE, [[0, 1, 2], [0, 2, 3]], **given)
-    assert (0, 2) not in set(map(tuple, holes.edges_of(without.triangles).tolist()))
+    assert (0, 2) not in set(map(tuple, measures.edges(without.triangles).tolist()))
 
 
 # A new mesh for a patch through which hard edges run: they are held, and each side finds its slope.
