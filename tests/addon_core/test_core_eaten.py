@@ -76,34 +76,6 @@ def test_a_ridge_that_runs_on_outside_is_missed(degrees: float) -> None:
     assert len(found.marked) == 0
 
 
-@pytest.mark.parametrize(
-    ("degrees", "across", "stands_out"), [(100.0, 9.0, True), (100.0, 18.0, False), (50.0, 9.0, False)]
-)
-def test_where_the_faces_beside_it_bend_too_a_ridge_is_no_hard_edge(
-    degrees: float, across: float, stands_out: bool
-) -> None:
-    """Every column of faces bends against the next, up and down by turns, as the rim of a coarse fin does."""
-    mesh = ridge(degrees)
-    columns = np.round((mesh.positions[:, 0] + 1.0) * SIZE / 2).astype(np.int64)
-    wrinkled, steep = mesh.positions.copy(), np.cos(np.radians(degrees / 2.0))
-    wrinkled[:, 2] += np.tan(np.radians(across / 2.0)) / SIZE * np.where(columns % 2, -1.0, 1.0) / steep
-    assert (len(eaten(replace(mesh, positions=wrinkled))[0].running_on) > 0) == stands_out
-
-
-def test_a_ridge_within_the_selection_is_what_fairing_removes() -> None:
-    found, _ = eaten(ridge(90.0, ends=0.44))
-    assert (len(found.running_on), len(found.marked)) == (0, 0)
-
-
-def test_a_bend_that_is_not_hard_may_go() -> None:
-    assert len(eaten(ridge(30.0))[0].running_on) == 0
-
-
-@pytest.mark.parametrize("noise", [0.02, 0.04])
-def test_noise_has_no_edges_that_run_on(noise: float) -> None:
-    assert len(eaten(ridge(0.0, noise=noise))[0].running_on) == 0
-
-
 def test_edges_that_are_marked_sharp_are_missed_wherever_they_end() -> None:
     """A short ridge inside: marked it is meant, and so are the other edges that became flatter, not the unmarked."""
     mesh = ridge(60.0, ends=0.25)
@@ -126,16 +98,6 @@ def test_a_pinned_edge_is_not_missed() -> None:
     after = problem.points.copy()
     after[problem.patch.free, 2] = 0.0  # as high as the ridge, which stays
     assert len(eaten_edges(mesh, problem, after, along).marked) == 0
-
-
-@pytest.mark.parametrize("pinned", [True, False])
-def test_a_pinned_edge_that_gets_blunter_is_not_missed(pinned: bool) -> None:
-    """The crest stays, and the slopes beside it get gentler."""
-    mesh = ridge(90.0)
-    problem, _ = pose(replace(mesh, pinned=on_ridge(mesh) & pinned), np.eye(4), FairOptions())
-    after = problem.points.copy()
-    after[problem.patch.free, 2] *= 0.5
-    assert (len(eaten_edges(mesh, problem, after).running_on) == 0) == pinned
 
 
 # Doubled vertices inside a selection are an open border that stays: what it holds up must not count as good.
@@ -174,11 +136,6 @@ def test_a_crest_on_a_doubled_seam_is_not_good() -> None:
     on_row = np.flatnonzero((np.abs(mesh.positions[:, 1]) < 1e-9) & (np.abs(mesh.positions[:, 0]) < 0.45))
     assert set(done.verdict.spots) <= set(on_row)
     assert len(done.verdict.spots) > 6
-
-
-@pytest.mark.parametrize("mesh", [slit_sphere(0.0), slit_sphere(0.3, split=False)])
-def test_a_seam_that_holds_nothing_up_is_fine(mesh: MeshArrays) -> None:
-    assert fair(mesh).verdict.grade == "GOOD"
 
 
 # Where a new surface passes through faces that are no part of it.
@@ -283,14 +240,6 @@ QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0
 TWO = np.array([[0, 1, 2], [0, 2, 3]])
 
 
-@pytest.mark.parametrize(("stretch", "distortion"), [(1.0, 0.0), (2.0, 1.0), (0.5, 1.0), (1.5, 0.5)])
-def test_texture_distortion_of_a_stretched_square(stretch: float, distortion: float) -> None:
-    stretched = QUAD * (stretch, 1.0, 1.0)  # singular values 1 and stretch: ratio max/min − 1
-    assert quality.texture_distortion(QUAD, stretched, TWO) == pytest.approx(distortion, abs=1e-12)
-    turned = 3.0 * QUAD[:, [1, 2, 0]] + 7.0  # a similarity
-    assert quality.texture_distortion(QUAD, turned, TWO) == pytest.approx(0.0, abs=1e-12)
-
-
 def test_what_shrinks_to_nothing_counts_for_nothing() -> None:
     """Two squares: one keeps its shape, the other is stretched threefold and a thousandth as large."""
     squares = np.concatenate([QUAD, QUAD + np.array([5.0, 0.0, 0.0])])
@@ -308,15 +257,6 @@ def seen(mesh: MeshArrays, after: Floats, **options: Any) -> Measured:
     return measured(
         mesh, (mesh.positions, patch), (moved_sheet(mesh.positions, problem, problem.points), problem), **options
     )
-
-
-def test_folded_faces_are_those_that_a_free_vertex_has_turned() -> None:
-    points = grid_points(4)
-    points[12, :2] = (0.9, 0.9)  # the middle, across the corner of the quad above to the right
-    found = seen(grid(4, 2.0), points)
-    assert set(found.after.folded) <= {5, 6, 9, 10}
-    assert len(found.after.folded)
-    assert not len(found.before.folded)
 
 
 def test_crossings_are_looked_for_where_they_are_not_known_to_be_none() -> None:
@@ -339,11 +279,6 @@ def bent(degrees: float) -> Measured:
     inside = np.abs(points[:, :2]).max(axis=1) < 0.3
     points[inside, 2] -= np.tan(np.radians(degrees)) * np.minimum(points[inside, 0] + 0.25, 0.125)
     return seen(mesh, points)
-
-
-def test_the_join_is_seen_where_the_bend_is() -> None:
-    assert bent(30.0).join.worst == pytest.approx(30.0)
-    assert bent(0.0).join.worst == pytest.approx(0.0, abs=1e-9)
 
 
 def test_a_boundary_over_the_root_of_a_bump_is_a_stump_and_one_beyond_it_none() -> None:

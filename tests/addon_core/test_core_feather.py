@@ -42,22 +42,6 @@ def band(mesh: MeshArrays, done: Fairing) -> Ints:
     return np.setdiff1d(done.vertices, patch.vertices[patch.free])
 
 
-def test_the_band_moves_less_and_less(monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh = swollen()
-    # Where the join moves most depends on what counts as detail of a swelling this wide: shorter waves than by default.
-    asked = FairOptions.engine_arguments
-    monkeypatch.setattr(FairOptions, "engine_arguments", lambda options: {**asked(options), "detail_size": 0.4})
-    done = fair(mesh, falloff=WIDTH)
-    moves = np.linalg.norm(done.positions - mesh.positions[done.vertices], axis=1)
-    row = SIZE // 2 * (SIZE + 1) + np.arange(SIZE // 2, SIZE + 1)  # from the middle to the border
-    along = [float(moves[done.vertices == vertex][0]) for vertex in row if vertex in done.vertices]
-    inside = round(HALF * SIZE / 2)
-    assert inside + 3 < len(along) < len(row) - 1
-    assert (np.diff(along[inside:]) < 0.0).all()
-    assert along[-1] < 0.15 * along[inside]
-    assert done.free_count == len(done.vertices) - len(band(mesh, done))
-
-
 def test_what_is_pinned_hidden_or_on_a_border_stays_in_the_band() -> None:
     mesh = swollen()
     usual = band(mesh, fair(mesh, falloff=WIDTH))
@@ -199,16 +183,6 @@ def test_three_pins_lift_the_surface_around_them_and_nothing_else(radius: float)
     assert not lift[away > reach].any()
     assert lift.max() < 1.05 * lift[pins].max()  # nothing swells beyond a pin
     assert np.count_nonzero(lift > 0.3 * lift[pins].min()) > 3 * len(pins)  # they are hills, not thorns
-
-
-def test_a_pin_beside_the_boundary_leaves_its_slope_alone() -> None:
-    mesh, _ = pinned((0.3, 0.0))
-    after = positions(mesh, pin_group="Pins", pin_radius=0.3)
-    plain = positions(replace(mesh, pinned=np.zeros_like(mesh.pinned)))
-    inside = mesh.triangles[mesh.in_patch[mesh.triangle_faces]]
-    rim = np.intersect1d(inside, mesh.triangles[~mesh.in_patch[mesh.triangle_faces]])
-    beside = np.setdiff1d(inside[np.isin(inside, rim).any(axis=1)], rim)
-    assert np.linalg.norm((after - plain)[beside], axis=1).max() < 0.02 * PULL
 
 
 def test_pins_in_a_row_are_a_curve() -> None:

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from addon.arrays.around import outside_triangles
 from addon.arrays.region import MeshArrays, make_patch
-from addon.arrays.types import Floats, Ints, Mask
+from addon.arrays.types import Floats, Ints
 from addon.fair.boundary import boundary
 from addon.fair.held_curves import none, with_pinned_edges
 from addon.fair.solve import solve
-from addon.live.region import LiveRegion, Surroundings, first, sought, surroundings
+from addon.live.region import LiveRegion, first, sought, surroundings
 from addon.options.options import FairOptions
 
 import fairing
@@ -34,29 +34,6 @@ def test_normals_from_the_part_are_those_from_the_whole(source: str) -> None:
     part = boundary(around.mesh, around.patch, source, outside_triangles(around.mesh, around.patch)).normals
     whole = boundary(mesh, patch, source, outside_triangles(mesh, patch)).normals
     np.testing.assert_allclose(part, whole, atol=1e-13)
-
-
-def test_creases_are_followed_with_the_edges_of_the_part() -> None:
-    """A roof with its ridge marked: normals beside it belong to one side each, in the part as in the whole."""
-    mesh = grid(SIZE, 0.35, lambda points: points + [0.0, 0.0, 1.0] * (1.0 - 0.4 * np.abs(points[:, :1])))
-    ridge = np.isclose(mesh.positions[:, 0], 0.0)
-    marked = ridge[mesh.edges].all(axis=1)
-    mesh = replace(mesh, creases=marked, pinned=ridge)
-    patch = make_patch(mesh)
-    around = surroundings(mesh, patch)
-    assert around.mesh.creases is not None
-    np.testing.assert_array_equal(
-        around.vertices[around.mesh.edges[around.mesh.creases]], _inside(mesh, around, marked)
-    )
-    part = boundary(around.mesh, around.patch, "SURROUNDING", outside_triangles(around.mesh, around.patch)).normals
-    whole = boundary(mesh, patch, "SURROUNDING", outside_triangles(mesh, patch)).normals
-    np.testing.assert_allclose(part, whole, atol=1e-13)
-
-
-def _inside(mesh: MeshArrays, around: Surroundings, marked: Mask) -> Ints:
-    """The marked edges (k, 2) between vertices of the part."""
-    edges = mesh.edges[marked]
-    return edges[np.isin(edges, around.vertices).all(axis=1)]
 
 
 def answer_after(move: Floats, **options: object) -> tuple[LiveRegion, Floats, MeshArrays]:

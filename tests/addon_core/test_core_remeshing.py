@@ -45,16 +45,6 @@ def sides(mesh: MeshArrays) -> Floats:
     return np.where(rows < SIZE // 2, -1.0, 1.0)[mesh.corner_faces][:, None]
 
 
-@pytest.mark.parametrize("spacing", [0.5, 1.0])
-def test_the_sphere_comes_back(spacing: float) -> None:
-    mesh = spoilt_sphere()
-    done = remesh(mesh, spacing=spacing)
-    assert done.verdict.grade == GOOD
-    np.testing.assert_allclose(np.linalg.norm(done.new_positions, axis=1), 1.0, atol=3e-5)
-    assert len(done.after.folded) == 0
-    assert set(done.part.gone_faces) == set(np.flatnonzero(mesh.in_patch))
-
-
 def test_values_come_from_where_the_new_vertices_lie() -> None:
     mesh = grid(SIZE, 0.6, on_sphere)
     done = remesh(mesh, spacing=0.7)
@@ -168,33 +158,12 @@ def beneath(faces: Faces) -> list[set[int]]:
     return [set((corners // 3).tolist()) for corners in np.split(faces.corners, ends[:-1])]
 
 
-def directed(polygons: list[list[int]]) -> set[tuple[int, int]]:
-    return {(a, b) for polygon in polygons for a, b in zip(polygon, polygon[1:] + polygon[:1], strict=True)}
-
-
-def test_every_pair_of_a_grid_becomes_its_quad_again() -> None:
-    points, triangles = sheet()
-    faces = paired_faces(points, triangles, NO_EDGES, np.zeros(len(triangles), dtype=np.int64))
-    found = {frozenset(polygon) for polygon in faces.polygons}
-    assert found == {frozenset(quad) for quad in grid_quads(SIZE_FACES)}
-    assert directed(faces.polygons) <= directed(triangles.tolist())  # wound alike
-
-
 def test_no_quad_has_two_kinds() -> None:
     points, triangles = sheet()
     kinds = np.arange(len(triangles)) // 2 % 2 + np.arange(len(triangles)) % 2  # mixed within the quads of the grid
     faces = paired_faces(points, triangles, NO_EDGES, kinds)
     assert all(len({int(kinds[t]) for t in of}) == 1 for of in beneath(faces))
     assert {len(polygon) for polygon in faces.polygons} == {3, 4}
-
-
-def test_kept_edges_stay() -> None:
-    points, triangles = sheet()
-    diagonals = triangles[::2][:, [2, 0]]
-    faces = paired_faces(points, triangles, diagonals, np.zeros(len(triangles), dtype=np.int64))
-    sides = {tuple(sorted(side)) for side in directed(faces.polygons)}
-    assert {tuple(sorted(edge)) for edge in diagonals.tolist()} <= sides
-    assert 4 in {len(polygon) for polygon in faces.polygons}  # across other edges
 
 
 @pytest.mark.parametrize("spacing", [0.7, 1.0])

@@ -111,16 +111,6 @@ def memberships(obj: bpy.types.Object, begin: int, groups: set[int]) -> list[lis
     return [[e.weight for e in v.groups if e.group in groups] for v in list(obj.data.vertices)[begin:]]
 
 
-@pytest.mark.parametrize("mode", MODES)
-def test_a_new_vertex_is_in_no_more_groups_than_one_around(mode: str) -> None:
-    obj = weighted(8)
-    old = len(obj.data.vertices)
-    apply(obj, "fill", mode)
-    found = memberships(obj, old, set(range(8)))
-    assert max(map(len, found)) == 2
-    np.testing.assert_allclose([sum(weights) for weights in found], 1.0, atol=1e-6)
-
-
 def test_groups_of_no_bone_count_for_nothing() -> None:
     obj = weighted(8)
     obj.vertex_groups.new(name="Mask").add([v.index for v in obj.data.vertices if v.co.x > 0.0], 1e-3, "REPLACE")

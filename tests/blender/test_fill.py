@@ -64,42 +64,11 @@ def border_edges(obj: bpy.types.Object) -> int:
         return sum(edge.is_boundary for edge in bm.edges)
 
 
-def test_hole_of_a_sphere_becomes_the_sphere() -> None:
-    obj = open_sphere()
-    before = len(obj.data.polygons)
-    select_vertices(obj, lambda _: True, most=1)
-    assert fill() == {"FINISHED"}
-    meshes.leave()
-    assert border_edges(obj) == 0
-    radii = np.linalg.norm(meshes.positions(obj), axis=1)
-    assert np.abs(radii - 1.0).max() < 2e-4
-    assert meshes.positions(obj)[:, 2].max() > 0.99
-    chosen = [polygon.index for polygon in obj.data.polygons if polygon.select]
-    assert chosen == list(range(before, len(obj.data.polygons)))
-
-
-def dress(obj: bpy.types.Object) -> None:
-    """Give it what a mesh can have; all of it linear in the position, or the same everywhere."""
-    mesh = obj.data
-    for number in range(2):
-        mesh.materials.append(bpy.data.materials.new(f"Material {number}"))
-    mesh.polygons.foreach_set("material_index", [1] * len(mesh.polygons))
-    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
-    mesh.attributes.new(".sculpt_face_set", "INT", "FACE").data.foreach_set("value", [7] * len(mesh.polygons))
-    mesh.attributes.new("number", "INT", "CORNER").data.foreach_set("value", [5] * len(mesh.loops))
-    points = meshes.positions(obj)
-    places = points[[loop.vertex_index for loop in mesh.loops], :2]
-    mesh.uv_layers.new(name="Map").uv.foreach_set("vector", (0.5 + 0.4 * places).astype(np.float32).ravel())
-    colours = np.column_stack([0.5 + 0.4 * points[:, 0], 0.5 * np.ones((len(points), 3))])
-    mesh.color_attributes.new("Paint", "FLOAT_COLOR", "POINT").data.foreach_set("color", colours.ravel())
-    mesh.attributes.new("heat", "FLOAT", "POINT").data.foreach_set("value", points[:, 0])
-    group = obj.vertex_groups.new(name="Left")
-    for vertex, x in enumerate(points[:, 0]):
-        group.add([vertex], float(0.5 + 0.4 * x), "REPLACE")
+def with_a_wide_key(obj: bpy.types.Object) -> None:
     for name in ("Basis", "Wide"):
         obj.shape_key_add(name=name)
-    wide = points * (2.0, 1.0, 1.0) + (0.0, 0.0, 0.25)
-    mesh.shape_keys.key_blocks["Wide"].data.foreach_set("co", wide.astype(np.float32).ravel())
+    wide = meshes.positions(obj) * (2.0, 1.0, 1.0) + (0.0, 0.0, 0.25)
+    obj.data.shape_keys.key_blocks["Wide"].data.foreach_set("co", wide.astype(np.float32).ravel())
 
 
 @pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (0.5, 0.8, 1.5), (-1.0, 1.0, 1.0)])
@@ -128,7 +97,7 @@ def test_a_shape_key_gets_a_surface_of_its_own(scale: tuple[float, float, float]
 
 def test_an_edited_basis_takes_new_vertices_of_its_keys_along() -> None:
     obj = open_sphere()
-    dress(obj)
+    with_a_wide_key(obj)
     obj.active_shape_key_index = 0
     count = len(obj.data.vertices)
     select_vertices(obj, lambda _: True)

@@ -181,11 +181,6 @@ def places(obj: bpy.types.Object, polygon: Any, name: str = "Map") -> Floats:
     return np.array([uv[corner].vector[:] for corner in polygon.loop_indices])
 
 
-def flat_area(rows: Floats) -> float:
-    x, y = rows.T
-    return float(0.5 * (x * np.roll(y, -1) - y * np.roll(x, -1)).sum())
-
-
 def parted(obj: bpy.types.Object, name: str = "Map") -> set[Any]:
     """The edges between new polygons where UVs part."""
     found: dict[Any, set[Any]] = {}
@@ -202,28 +197,6 @@ HOLES: dict[str, tuple[Chosen, int]] = {
     "corner": (lambda c: c.x + c.y + c.z > 1.45, 3),
     "side and more": (lambda c: c.z > 0.4, 4),
 }
-
-
-@pytest.mark.parametrize("quads", [False, True])
-@pytest.mark.parametrize("mirrored", [False, True])
-@pytest.mark.parametrize("name", HOLES)
-def test_islands_go_on_by_themselves(name: str, mirrored: bool, quads: bool) -> None:
-    removed, islands = HOLES[name]
-    obj = open_sphere(removed)
-    box_map(obj, mirrored=mirrored)
-    assert fill_hole(obj, quads=quads) == {"FINISHED"}
-    used = set()
-    for polygon in obj.data.polygons:
-        if not polygon.select:
-            continue
-        rows = places(obj, polygon)
-        assert np.ptp(rows, axis=0).max() < 0.1  # no face from island to island
-        used.add(int(np.round(rows[:, 0].mean())))
-        area = flat_area(rows) * (-1.0 if mirrored else 1.0)
-        assert 0.4 < area / (SIZE_UVS**2 * polygon.area) < 2.5  # not turned over; about as much texture as around
-    assert len(used) == islands
-    assert bpy.context.window_manager.fairing_report.distortion < 0.1
-    assert parted(obj)
 
 
 def test_marked_seams_go_on(capfd: pytest.CaptureFixture[str]) -> None:

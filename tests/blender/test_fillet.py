@@ -13,6 +13,7 @@ import pytest
 import letters
 import meshes
 from extension import module, stand_in
+from test_fill import border_edges
 
 WIDTH = 0.3
 
@@ -63,15 +64,6 @@ def run(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
         return set(bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, **{"width": WIDTH, "quads": False, **properties}))
     finally:
         meshes.leave()
-
-
-def border_edges(obj: bpy.types.Object) -> int:
-    bm = bmesh.new()
-    bm.from_mesh(obj.data)
-    count = sum(not edge.is_manifold for edge in bm.edges)
-    loose = sum(not vertex.link_faces for vertex in bm.verts)
-    bm.free()
-    return count + loose
 
 
 def off_the_arc(points: Any) -> Any:
@@ -138,21 +130,7 @@ def test_materials_and_textures_follow_from_each_side() -> None:
 
 def snapshot() -> Any:
     """The mesh in edit mode to the bit, with its selection."""
-    bm = bmesh.from_edit_mesh(bpy.context.edit_object.data)
-    uv = bm.loops.layers.uv.active
-    return (
-        [(tuple(vertex.co), vertex.select) for vertex in bm.verts],
-        [(tuple(v.index for v in edge.verts), edge.select) for edge in bm.edges],
-        [
-            (
-                tuple(v.index for v in face.verts),
-                face.select,
-                face.material_index,
-                [tuple(c[uv].uv) for c in face.loops],
-            )
-            for face in bm.faces
-        ],
-    )
+    return meshes.contents_in_edit_mode(bpy.context.edit_object.name)
 
 
 def test_what_is_refused_stays_with_its_selection_and_its_spots_are_shown() -> None:
@@ -284,18 +262,8 @@ def test_a_vertex_group_scales_the_width() -> None:
 def test_the_command_line_rounds_hard_edges(tmp_path: Path, width: float, status: int) -> None:
     obj = cube()
     target = tmp_path / "rounded.blend"
-    given = [
-        "--object",
-        obj.name,
-        "--output",
-        str(target),
-        "--fillet",
-        "--width",
-        str(width),
-        "--edge-length",
-        "0.1",
-        "--no-clamp",
-    ]
+    words = f"--object {obj.name} --fillet --width {width} --edge-length 0.1 --no-clamp"
+    given = [*words.split(), "--output", str(target)]
     assert module("run.cli").execute(given) == status
     assert target.exists() == (status == 0)
     assert (len(obj.data.polygons) > 6) == (status == 0)

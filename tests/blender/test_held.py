@@ -83,20 +83,6 @@ def test_unmarked_edges_that_no_usable_surface_holds_are_let_go(monkeypatch: pyt
     assert "were let go" in meshes.report().warnings
 
 
-@pytest.mark.parametrize("spacing", [0.6, 2.0])
-def test_a_new_mesh_holds_dented_edges_and_their_marks(spacing: float) -> None:
-    """The box corner again: three straight edges, marked as before, between three flat sides."""
-    obj, faces = box()
-    bumpy(obj, meshes.free_vertices(obj, faces))
-    marked = sum(edge.use_edge_sharp for edge in obj.data.edges)
-    meshes.fair(obj, faces, remesh=True, spacing=spacing)
-    points = meshes.positions(obj)
-    sharp = [list(edge.vertices) for edge in obj.data.edges if edge.use_edge_sharp]
-    assert len(sharp) == marked
-    assert np.sort(np.abs(points[np.unique(sharp)]), axis=1)[:, 1].max() < 1e-6
-    assert off_box(points) < 1e-5
-
-
 @pytest.mark.parametrize("faired", [False, True])
 def test_an_open_border_moves_where_that_is_asked_for(faired: bool) -> None:
     """A rough plate, selected up to its right side."""

@@ -120,12 +120,6 @@ def test_levels_that_simplify_hides_are_refused() -> None:
     assert at(obj, LEVELS).tobytes() == before.tobytes()
 
 
-def test_hidden_levels_leave_the_mesh_itself() -> None:
-    obj = bumpy()
-    obj.modifiers[0].show_viewport = False
-    assert module("mesh.levels").shown_level(obj) == 0
-
-
 def masked_and_dynamic() -> bpy.types.Object:
     """A ball with a bump under a mask, in sculpt mode with dynamic topology; with a layer that Blender warns of."""
     obj = meshes.sphere(48)
@@ -166,9 +160,3 @@ def test_vertices_that_are_not_told_apart_are_not_written(monkeypatch: pytest.Mo
         bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="MASK")
     bpy.ops.object.mode_set(mode="OBJECT")
     assert np.sort(meshes.positions(obj), axis=0).tobytes() == before.tobytes()
-
-
-def test_a_new_mesh_with_dynamic_topology_is_refused() -> None:
-    masked_and_dynamic()
-    with pytest.raises(RuntimeError, match="faces of its own"):
-        bpy.ops.mesh.fair_masked("EXEC_DEFAULT", source="MASK", remesh=True)

@@ -89,29 +89,6 @@ def test_region_follows_every_change(live: Any) -> None:
     assert_fair(faces)
 
 
-def test_an_edge_marked_sharp_follows_its_ends(live: Any) -> None:
-    """A roof whose ridge runs through the region: one half of what is outside is lifted, and the ridge with it."""
-    obj = meshes.grid(16)
-    points = meshes.positions(obj)
-    ridge = np.isclose(points[:, 0], 0.0)
-    points[:, 2] = -0.8 * np.abs(points[:, 0])
-    meshes.move(obj, points)
-    obj.data.edges.foreach_set("use_edge_sharp", [bool(ridge[list(edge.vertices)].all()) for edge in obj.data.edges])
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6)
-    free = meshes.free_vertices(obj, faces)
-    meshes.enter(obj, faces)
-    assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
-    for _ in range(4):
-        for row in np.unique(points[~free][:, 1]):  # sheared: z grows with y
-            drag(np.flatnonzero(~free & np.isclose(points[:, 1], row)), (0.0, 0.0, 0.05 * row))
-    after = now()
-    flat = after[:, 2] - 0.2 * points[:, 1] + 0.8 * np.abs(after[:, 0])
-    assert np.abs(after - points)[free, 2].max() > 0.05
-    np.testing.assert_allclose(flat, 0.0, atol=1e-5)
-    assert live.message == ""
-    assert_fair(faces)
-
-
 def test_one_undo_takes_edit_and_fairing_back(live: Any) -> None:
     table_mountain()
     start = now()

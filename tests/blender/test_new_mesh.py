@@ -15,15 +15,15 @@ import meshes
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "scripts"))
 
-from test_fill import border_edges, dress
+from test_fill import border_edges, with_a_wide_key
 
 UPPER = 0.45  # faces of the sphere above are selected
 
 
 def dented() -> tuple[bpy.types.Object, Any]:
-    """A unit sphere of 48 segments, dressed, and the mask of its upper faces."""
+    """A unit sphere of 48 segments with a shape key, and the mask of its upper faces."""
     obj = meshes.sphere(48)
-    dress(obj)
+    with_a_wide_key(obj)
     heights = np.array([polygon.center.normalized().z for polygon in obj.data.polygons])
     return obj, heights > UPPER
 
@@ -95,6 +95,8 @@ def test_a_seam_inside_stays_and_parts_the_islands() -> None:
 def test_marks_and_borders_of_materials_stay() -> None:
     obj, chosen = dented()
     mesh = obj.data
+    for number in range(2):
+        mesh.materials.append(bpy.data.materials.new(f"Material {number}"))
     for polygon in mesh.polygons:
         polygon.material_index = int(polygon.center.x > 0.0)
     for edge in mesh.edges:

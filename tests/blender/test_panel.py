@@ -233,20 +233,6 @@ def test_what_the_last_run_had_is_shown_and_reset() -> None:
     assert chosen.last_chosen(bpy.context) == {}
 
 
-@pytest.mark.parametrize(("locale", "text"), [("de_DE", "Qualitätsanzeige"), ("fr_FR", "Affichage de la qualité")])
-def test_texts_in_another_language(locale: str, text: str) -> None:
-    view = bpy.context.preferences.view
-    english = bpy.app.translations.pgettext_iface("Quality Overlay")
-    if locale not in bpy.app.translations.locales:
-        pytest.skip("this Blender was built without languages")
-    view.language, view.use_translate_interface = locale, True
-    try:
-        assert bpy.app.translations.pgettext_iface("Quality Overlay") == text
-    finally:
-        view.language = "en_US"
-    assert bpy.app.translations.pgettext_iface("Quality Overlay") == english
-
-
 def footprint() -> dict[str, Any]:
     """Everything that an add-on may leave behind."""
     handlers = bpy.app.handlers

@@ -49,37 +49,7 @@ def test_a_refused_run_takes_the_place_of_the_one_before() -> None:
     assert not bpy.types.VIEW3D_PT_fairing_report.poll(bpy.context)
 
 
-def join_fans(obj: bpy.types.Object) -> tuple[int, ...]:
-    """Stand a double fan on a vertex in the middle: two fans meet there."""
-    with meshes.rebuilt(obj) as bm:
-        foot = min(bm.verts, key=lambda v: v.co.xy.length)
-        ring = [bm.verts.new((x, y, 1.0)) for x, y in ((0.1, 0.0), (0.0, 0.1), (-0.1, 0.0), (0.0, -0.1))]
-        for a, b in zip(ring, ring[1:] + ring[:1], strict=True):
-            bm.faces.new((foot, a, b))
-        bm.verts.index_update()
-        return (foot.index,)
-
-
-def spoil_middle(obj: bpy.types.Object) -> tuple[int, ...]:
-    add_nan(obj)
-    return tuple(np.flatnonzero(np.isnan(meshes.positions(obj)).any(axis=1)).tolist())
-
-
 # By name, for the reason that test_panel.py gives for its SPOILERS.
-NAMERS = {": Vertex": spoil_middle, ": Free vertex": join_fans}
-
-
-@pytest.mark.parametrize("ahead", [False, True])
-@pytest.mark.parametrize("text", sorted(NAMERS))
-def test_messages_name_the_meshs_vertices(text: str, ahead: bool) -> None:
-    job, options = module("run.job"), module("options.options").FairOptions()
-    obj, _ = meshes.domed_grid()
-    (vertex,) = NAMERS[text](obj)
-    faces = meshes.faces_where(obj, lambda c: not max(abs(c.x), abs(c.y)) >= 0.7)
-    meshes.enter(obj, faces)
-    with pytest.raises(job.Refused, match=f"{text} {vertex} ") as refusal:
-        job.solve(job.read(bpy.context, options), options, lambda *_: True, ahead=ahead)
-    assert refusal.value.cause.elements.tolist() == [vertex]
 
 
 def test_too_little_memory_is_a_refusal(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -100,17 +100,6 @@ def test_a_vertex_group_and_the_live_region_in_object_mode() -> None:
     assert_round(obj)
 
 
-def test_half_a_mask_is_no_mask() -> None:
-    obj, upper = half_sphere()
-    paint_mask(obj, upper)
-    values = np.full(len(obj.data.vertices), 0.49, dtype=np.float32)
-    obj.data.attributes[".sculpt_mask"].data.foreach_set("value", values)
-    before = meshes.contents(obj)
-    with pytest.raises(RuntimeError, match="Nothing is masked by half"):
-        bpy.ops.mesh.fair_masked(source="MASK")
-    assert meshes.contents(obj) == before
-
-
 def multires(obj: bpy.types.Object) -> None:
     obj.modifiers.new("Multires", "MULTIRES")
     with bpy.context.temp_override(object=obj):

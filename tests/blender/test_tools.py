@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import meshes
-from extension import ID, give_options, module
+from extension import ID, module
 from test_refusals import add_tent
 
 
@@ -57,31 +57,6 @@ def test_a_stroke_leaves_no_gap() -> None:
     places = np.array([(3.0, 1.0), *between((3, 1), (33, -39), 7.0)])
     assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() <= 7.0
     np.testing.assert_allclose(places[-1], (33, -39))
-
-
-def test_the_face_set_under_the_mouse_is_faired(monkeypatch: pytest.MonkeyPatch) -> None:
-    masked = module("fair.masked")
-    obj, faces = meshes.domed_grid()
-    by_number, _ = meshes.domed_grid()
-    for each in (obj, by_number):
-        sets = each.data.attributes.new(".sculpt_face_set", "INT", "FACE")
-        sets.data.foreach_set("value", np.where(faces, 7, 3).astype(np.int32))
-    assert bpy.ops.mesh.fair_masked("EXEC_DEFAULT", True, source="FACE_SET", face_set=7) == {"FINISHED"}
-    bpy.context.view_layer.objects.active = obj
-    picked = int(np.flatnonzero(faces)[0])
-    monkeypatch.setattr(masked, "face_under_mouse", lambda *_: picked)
-    parts = (
-        module("run.background").Watched,
-        module("host.picking").Picks,
-        module("fair.outside").FairsOutside,
-        masked.MESH_OT_fair_masked,
-    )
-    methods = {name: value for part in parts for name, value in vars(part).items() if not name.startswith("__")}
-    methods.pop("bl_rna", None)
-    stand = give_options(type("Stand", (), {**methods, "report": lambda *_: None})())
-    stand.source, stand.face_set, stand.group, stand.under_mouse = "FACE_SET", 0, "", True
-    assert stand.invoke(bpy.context, SimpleNamespace(type="LEFTMOUSE", value="PRESS")) == {"FINISHED"}
-    assert meshes.positions(obj).tobytes() == meshes.positions(by_number).tobytes()
 
 
 def test_blender_may_end_the_wait_for_a_click() -> None:

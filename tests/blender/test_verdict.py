@@ -1,7 +1,6 @@
 """Nothing bad is written silently; what helps is a button; a run that was undone is not shown as the last."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import bmesh
@@ -11,7 +10,6 @@ import pytest
 
 import meshes
 from extension import module
-from test_interface import command
 from test_panel import drawn
 
 
@@ -265,20 +263,6 @@ def test_scripts_are_reported_by_an_exception() -> None:
     assert meshes.contents(obj) != before
 
 
-@pytest.mark.parametrize("folds", [False, True])
-def test_the_command_tells_by_its_status(tmp_path: Path, capsys: pytest.CaptureFixture[str], folds: bool) -> None:
-    obj, faces = kinked()
-    meshes.select(obj, faces)
-    output = tmp_path / "out.blend"
-    status = command(
-        "--object", obj.name, "--output", str(output), "--bulge", "0.3", "--report", "json",
-        *(["--allow-folds"] if folds else []),
-    )  # fmt: skip
-    assert status == 1
-    assert output.exists() == folds
-    assert '"verdict": "UNUSABLE"' in capsys.readouterr().out
-
-
 def test_a_texture_is_kept_without_being_asked() -> None:
     """Automatic is Keep Texture on a patch with a UV map, Even without one, to the bit."""
     results = {}
@@ -297,22 +281,3 @@ def test_a_texture_is_kept_without_being_asked() -> None:
     assert results[False, "AUTOMATIC"] == results[False, "UNIFORM"]
     assert results[True, "AUTOMATIC"] == results[True, "CONFORMAL"]
     assert results[True, "UNIFORM"] != results[True, "CONFORMAL"]
-
-
-@pytest.mark.parametrize("height", [0.02, 0.8])
-def test_automatic_keeps_no_texture_of_a_spike(height: float) -> None:
-    """A plain with a texture, one vertex of which was pulled out: as high as an edge is long, or eight times that."""
-    results = {}
-    for choice in ("AUTOMATIC", "UNIFORM", "CONFORMAL"):
-        obj = meshes.grid(20)
-        layer = obj.data.uv_layers.new(name="UVMap")
-        points = meshes.positions(obj)
-        points[:, 0] += 0.02 * np.sin(9.0 * points[:, 1])
-        for corner, place in zip(obj.data.loops, layer.uv, strict=True):
-            place.vector = points[corner.vertex_index, :2]
-        points[np.argmin(np.linalg.norm(points, axis=1)), 2] += height
-        meshes.move(obj, points)
-        meshes.fair(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6), inner_fairness=choice)
-        results[choice] = meshes.positions(obj).tobytes()
-    assert results["UNIFORM"] != results["CONFORMAL"]
-    assert results["AUTOMATIC"] == results["UNIFORM" if height > 0.1 else "CONFORMAL"]
