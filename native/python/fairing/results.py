@@ -64,8 +64,8 @@ class Cancelled(RuntimeError):
 
 
 @dataclass(frozen=True, eq=False)
-class FairResult:
-    """What :func:`fairing.fair` gives back. All arrays are read-only.
+class Solved:
+    """What all calls that make surfaces tell of them. All arrays are read-only.
 
     D is twice the largest distance of a component's fixed vertices from their centroid; where there are
     several components, the worst of each figure is given.
@@ -82,14 +82,12 @@ class FairResult:
     "least_variation", "loft", "least_bent", "swept_tube", "old_shape" or "first_surface". Of several components
     the last in this order. All but the first come with the warning NO_SOLUTION."""
     vertices: FloatArray
-    """(n, 3) positions; vertices that are neither free nor in ``moved`` keep their bits."""
-    base: FloatArray
-    """(n, 3) the fair surface alone: ``vertices`` without their ``detail``, which is linear in that option. All figures
-    are about this surface."""
+    """(n, 3) positions of all vertices; those that are neither free nor in ``moved`` keep their bits. Of a new mesh:
+    (k, 3) the new vertices alone."""
     fixed: IntArray
     """(k',) all fixed vertices: those given, in their order, then the other border vertices."""
     mean_curvature: FloatArray
-    """(n,) H, in length⁻¹: −1/R on a sphere of radius R with outward normals (eq. 8)."""
+    """(n,) or (k,) H at these vertices, in length⁻¹: −1/R on a sphere of radius R with outward normals (eq. 8)."""
     boundary_angle: FloatArray
     """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
     join: FloatArray
@@ -107,8 +105,8 @@ class FairResult:
     """Whether every component has its surface: the equation is solved to the tolerance, and the vertices lie on the
     solution without folds. Where not, the best positions found are given."""
     polished: bool
-    """Whether the discrete equation holds on the connectivity given. False, with ``converged``: it was solved on a mesh
-    of the engine's own, and the vertices were placed on that surface; it is as fair, but ``residual`` may be large."""
+    """Whether the discrete equation holds on this connectivity. False, with ``converged``: it was solved on another
+    mesh, and the vertices were placed on that surface; it is as fair, but ``residual`` may be large."""
     termination: Literal["converged", "iteration_limit", "stalled", "folded"]
     """"folded": the surface was found, but the vertices could not be placed on it without triangles that are turned
     over or pass through others."""
@@ -133,6 +131,15 @@ class FairResult:
     variation", "old shape", "loft", "first surface" and "paper" are the surfaces and the method of that name. Several
     components follow each other."""
     warnings: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class FairResult(Solved):
+    """What :func:`fairing.fair` gives back."""
+
+    base: FloatArray
+    """(n, 3) the fair surface alone: ``vertices`` without their ``detail``, which is linear in that option. All figures
+    are about this surface."""
     moved: IntArray = field(default_factory=lambda: np.empty(0, np.int32))
     """Fixed and outside vertices that ``outline="mended"``, ``feather`` or ``weights`` have moved, ascending."""
 
@@ -155,43 +162,15 @@ class PairedQuads:
 
 
 @dataclass(frozen=True, eq=False)
-class NewMeshResult:
-    """What a fairing on a new mesh gives back. All arrays are read-only; see :class:`fairing.FairResult`."""
+class NewMeshResult(Solved):
+    """What a fairing on a new mesh gives back. Warnings name triangles and vertices of the mesh that was solved."""
 
-    vertices: FloatArray
-    """(k, 3) the new vertices."""
     triangles: IntArray
     """(m, 3) the new triangles: indices below n are the caller's vertices, n … n + k − 1 the new ones, as in
     ``np.concatenate([vertices, result.vertices])``. They are wound as the triangles around."""
-    mean_curvature: FloatArray
-    """(k,) H at the new vertices."""
-    fixed: IntArray
-    """(k',) the boundary's vertices."""
-    boundary_angle: FloatArray
-    """(k',) degrees between prescribed and obtained normals, in the order of ``fixed``."""
-    join: FloatArray
-    """(k',) degrees, in the order of ``fixed``: how visible the join is."""
-    continuity: Literal["G1", "G2"]
-    converged: bool
-    polished: bool
-    """Whether the discrete equation holds on the new mesh. False, with ``converged``: the surface was solved on another
-    mesh, and the new vertices lie on that surface."""
     cut: bool
     """Whether nothing was solved for this mesh: it was cut from the surface of another one, a finer new one
     (:func:`fairing.fill`) or the old one (:func:`fairing.remesh`)."""
-    termination: Literal["converged", "iteration_limit", "stalled", "folded"]
-    equation: str
-    """The equation that holds (see ``otherwise`` of :func:`fairing.fair`)."""
-    provenance: str
-    girth: tuple[float, float] | None
-    iterations: int
-    residual: float
-    initial_residual: float
-    levels: tuple[int, ...]
-    seconds: dict[str, float]
-    way: tuple[tuple[str, float], ...]
-    warnings: tuple[Diagnostic, ...]
-    """Triangles and vertices that they name are those of the mesh that was solved: this one unless it was ``cut``."""
     quads: PairedQuads | None = field(default=None, kw_only=True)
     """Of ``faces="quads"``: which of ``triangles`` are halves of a quad, and which are left."""
 

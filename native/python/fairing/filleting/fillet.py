@@ -11,10 +11,9 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.filleting.rounded import Given, Made, Wishes, in_rows, result_of, solved
 from fairing.measure import edges_with_uses, hard_edges, nearest
-from fairing.meshing.patch import Limit, Progress, Watch, refuse_made_here
+from fairing.meshing.patch import Progress, Watch, options_of, refuse_large
 from fairing.meshing.quads import FACES, quads_of
 from fairing.options import arguments
-from fairing.options.checks import of_own_boundary
 from fairing.options.groups import Options
 from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, MeshError
 
@@ -182,13 +181,12 @@ def fillet(
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
-    given = of_own_boundary(options, named, threads)
+    given = options_of(options, named, progress).chosen | ({"threads": threads} if threads else {})
     points = arguments.floats("vertices", vertices)
     corners = arguments.triangles_within(triangles, len(points))
     check_finite(points, corners)
     wants_rows = arguments.choice("faces", faces, FACES) == "quads"
     counted = None if neighbours is None else arguments.vertices_of("neighbours", neighbours, len(points), 2)
-    refuse_made_here(given, progress)
     seams, ends = seams_and_walls(points, corners, seam, walls)
     room = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
     both = _widths((width, width_2), seams, room[0], len(points))
@@ -324,7 +322,7 @@ def _refuse_large(
         sum(float((lengths / (share**2 * side[seams].mean(axis=1))).sum()) for side in widths)
         for share in (1 / _ROWS, spacing / widest)
     )
-    Limit.of(usual, most).check(wanted, seams.ravel())
+    refuse_large(wanted, usual, arguments.whole("max_vertices", most, 0), seams.ravel())
 
 
 def _outside(mesh: Given, made: Made, wishes: Wishes) -> IntArray:

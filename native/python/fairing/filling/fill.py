@@ -12,10 +12,9 @@ from fairing import _core
 from fairing.borders import given_loops
 from fairing.filling import run_on
 from fairing.filling.run_on import Curves
-from fairing.meshing.patch import Progress, own_mesh_options, refuse_made_here, spacing_of
+from fairing.meshing.patch import Progress, options_of, own_mesh_options, spacing_of
 from fairing.meshing.quads import FACES, quads_of
 from fairing.options import arguments
-from fairing.options.checks import of_own_boundary
 from fairing.options.groups import Options
 from fairing.results import Diagnostic, FillResult, FloatArray, Hole, IntArray, MeshError, read_only
 
@@ -240,20 +239,17 @@ def fill(
     ValueError, Cancelled, SolverError, MemoryError
         As for :func:`fairing.fair`.
     """
-    given = of_own_boundary(options, named, threads)
+    chosen = options_of(options, named, progress)
     points, around = arguments.mesh(vertices, triangles)
     length = spacing_of(spacing, inner)
-    refuse_made_here(given, progress)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
     if arguments.finite("longest_length", longest_length) < 0:
         raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
-    joins = given.get("continuity", "G1") == "G2"
+    joins = chosen.surface.continuity == "G2"
     if fixed_curvatures is not None and not joins:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
-    engine = own_mesh_options(
-        Options.of(**{name: value for name, value in given.items() if name != "threads"}), threads
-    )
+    engine = own_mesh_options(chosen, threads)
     in_rows = arguments.choice("faces", faces, FACES) == "quads"
     most = arguments.whole("max_vertices", max_vertices, 0)
     edges_around = run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.measure import edges_with_uses, self_intersections
 from fairing.meshing.denoise import edges_around
-from fairing.meshing.patch import Limit, Patch, Progress, Spacing, Watch, spacing_of
+from fairing.meshing.patch import Patch, Progress, Spacing, Watch, refuse_large, spacing_of
 from fairing.options import arguments, checks
 from fairing.options.groups import Boundary, Options
 from fairing.results import Diagnostic, FloatArray, FromCurvesResult, IntArray, MeshError, read_only, report_fields
@@ -73,7 +73,7 @@ def surface_from_curves(
     sharp = _wires("creases", arguments.NO_EDGES if creases is None else creases, len(points))
     length = spacing_of(spacing, inner)
     count = arguments.whole("threads", threads, 0)
-    Limit.of(0.0, max_vertices)
+    arguments.whole("max_vertices", max_vertices, 0)
     checks.callback(progress)
     if not isinstance(closed, (bool, np.bool_)):
         raise ValueError(f"closed: True or False is needed, not {closed!r}")
@@ -132,7 +132,7 @@ class _Task:
         first = self._bent(self._films(watch.part(0.0, 0.2)), watch.part(0.2, 0.3))
         watch.lap("first")
         usual = first.expected_new(Spacing(0.0, False))
-        Limit.of(usual, self.max_vertices).check(first.expected_new(self.length), self.held.all)
+        refuse_large(first.expected_new(self.length), usual, self.max_vertices, self.held.all)
         options = {"creases": self.held.all, "threads": self.threads}
         new, _ = first.remeshed(len(self.points), self.length, 0, options, watch.part(0.3, 0.4))
         watch.lap("mesh")

@@ -41,42 +41,21 @@ class Watch:
 
 PROPORTION = 20.0  # times as many as over flat surfaces, or over the old one: more are refused
 _ALWAYS = 50_000  # new vertices, which take some two seconds: never refused
-_SMALL = 1000  # new vertices that are solved in any case
 _NEVER = 4_000_000  # new vertices: a slip in the spacing, rather than a wish
 
 
-@dataclass(frozen=True)
-class Limit:
-    """Of the new vertices of a call."""
+def refuse_large(count: float, flat: float, max_vertices: int, elements: IntArray) -> None:
+    """MeshError (OUT_OF_PROPORTION) where so many new vertices would be too many; ``elements``: vertices around.
 
-    flat: float
-    """About how many there would be over flat surfaces, or over the old one."""
-    most: float
-    chosen: bool
-    """By the caller."""
-
-    @classmethod
-    def of(cls, flat: float, max_vertices: Any) -> Limit:
-        """``max_vertices``: the caller's; 0: twenty times as many as over flat surfaces, within bounds."""
-        given = arguments.whole("max_vertices", max_vertices, 0)
-        return cls(flat, float(given or min(max(_ALWAYS, PROPORTION * flat), _NEVER)), given > 0)
-
-    def check(self, count: float, elements: IntArray, found: bool = True) -> None:
-        """MeshError (OUT_OF_PROPORTION) where so many vertices would be too many; ``elements``: vertices around.
-
-        ``found``: whether a first small surface was. What is left of a search in vain deserves no large mesh, however
-        large it is: nothing is always accepted then.
-        """
-        most = self.most if found or self.chosen else min(self.most, max(_SMALL, PROPORTION * self.flat))
-        if count <= most:
-            return
+    ``flat``: about how many there would be over flat surfaces, or over the old one. ``max_vertices``: the caller's; 0:
+    twenty times ``flat``, within bounds.
+    """
+    most = float(max_vertices or min(max(_ALWAYS, PROPORTION * flat), _NEVER))
+    if count > most:
         text = f"the surface would take about {count:.2g} new vertices, and {most:.2g} are accepted"
         text += ": raise `spacing`, or allow more by `max_vertices`"
-        if not found:
-            text = f"no surface was found on a small mesh, and {text}"
-        figures = {"count": float(count), "limit": most, "flat": self.flat}
-        where = np.unique(elements).astype(np.int32)
-        raise MeshError(Diagnostic("OUT_OF_PROPORTION", text, where, "vertex", figures))
+        figures = {"count": float(count), "limit": most, "flat": flat}
+        raise MeshError(Diagnostic("OUT_OF_PROPORTION", text, np.unique(elements).astype(np.int32), "vertex", figures))
 
 
 INNER = ("outline", "even")
@@ -158,13 +137,21 @@ def free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:
 _MADE_HERE = ("reference", "neighbours", "outline", "start")
 
 
-def refuse_made_here(options: dict[str, Any], progress: Any) -> None:
-    for name in _MADE_HERE:
-        if name in options:
+def options_of(options: Options | None, named: dict[str, Any], progress: Any) -> Options:
+    """The options of a call that makes its boundary itself."""
+    for name in checks.OF_BOUNDARY:
+        if name in named:
             raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
-    checks.continuity(
-        options.get("continuity", "G1"), options.get("equation", "harmonic"), options.get("method", "global")
-    )
+    chosen = checks.given(None, options, named)[1]
+    refuse_made_here(chosen, progress)
+    return chosen
+
+
+def refuse_made_here(chosen: Options, progress: Any) -> None:
+    for name in _MADE_HERE:
+        if name in chosen.chosen:
+            raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
+    checks.continuity(chosen.surface.continuity, chosen.surface.equation, chosen.solving.method)
     checks.callback(progress)
 
 

@@ -10,7 +10,7 @@ from fairing import _core
 from fairing.meshing.patch import Progress, own_mesh_options, refuse_made_here, spacing_of
 from fairing.meshing.quads import FACES, quads_of
 from fairing.options import arguments
-from fairing.options.checks import flat, given
+from fairing.options.checks import given
 from fairing.options.groups import Boundary, Options
 from fairing.results import RemeshResult
 from fairing.solving import outline, surroundings
@@ -55,15 +55,14 @@ def remesh(
     around, chosen = given(boundary, options, named)
     if around.continuity is not None and around.curvatures is None:
         raise ValueError("continuity: 'G2' on parts of the boundary needs `curvatures` here")
-    wishes = flat(chosen, threads, around)
     points, corners = arguments.mesh(vertices, triangles)
     held, given_normals = arguments.boundary(around.vertices, around.normals)
     lines = arguments.edges_of("kept", kept, corners)
     length = spacing_of(spacing, inner)
     in_rows = arguments.choice("faces", faces, FACES) == "quads"
     most = arguments.whole("max_vertices", max_vertices, 0)
-    refuse_made_here(wishes, progress)
-    if wishes.get("equation") == "soap_film":
+    refuse_made_here(chosen, progress)
+    if chosen.surface.equation == "soap_film":
         raise ValueError("equation: 'soap_film' has no normals to continue; accepted are the others")
     engine = own_mesh_options(chosen, threads)
     beside = surroundings.Surroundings.of(points, corners, held, around.outside)

@@ -147,7 +147,7 @@ def _directed_weights(value: npt.ArrayLike, count: int) -> FloatArray:
     return rows
 
 
-_OF_BOUNDARY = {
+OF_BOUNDARY = {
     "fixed": "vertices", "fixed_normals": "normals", "fixed_curvatures": "curvatures", "outside": "outside",
 }  # fmt: skip
 
@@ -166,24 +166,6 @@ def given(
     for name, group in vars(chosen).items():
         if not isinstance(group, type(getattr(Options(), name))):
             raise ValueError(f"options: {name} has to be a fairing.{name.capitalize()}, not {group!r}")
-    held = {_OF_BOUNDARY[name]: value for name, value in named.items() if name in _OF_BOUNDARY}
-    others = {name: value for name, value in named.items() if name not in _OF_BOUNDARY}
+    held = {OF_BOUNDARY[name]: value for name, value in named.items() if name in OF_BOUNDARY}
+    others = {name: value for name, value in named.items() if name not in OF_BOUNDARY}
     return by_parts(replace(known, **held), chosen.changed(**others))
-
-
-def of_own_boundary(options: Options | None, named: dict[str, Any], threads: int) -> dict[str, Any]:
-    """The options of a call that makes its boundary itself, those that differ from the defaults, by name."""
-    for name in _OF_BOUNDARY:
-        if name in named:
-            raise ValueError(f"{name}: not accepted here; the mesh and its boundary are made by this call")
-    return flat(given(None, options, named)[1], threads)
-
-
-def flat(chosen: Options, threads: int, boundary: Boundary | None = None) -> dict[str, Any]:
-    """Options by name, with ``threads`` and, as "fixed_…", how the boundary is joined, where these are given."""
-    found = chosen.chosen
-    if threads:
-        found["threads"] = threads
-    joined = () if boundary is None else ("curvatures", "continuity")
-    by_vertex = {f"fixed_{name}": getattr(boundary, name) for name in joined}
-    return {**found, **{name: value for name, value in by_vertex.items() if value is not None}}

@@ -11,8 +11,6 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.options import arguments
 
-SWEEPS_AS_PUBLISHED = 1
-
 
 @dataclass(frozen=True)
 class PaperOptions:
@@ -24,10 +22,10 @@ class PaperOptions:
     """Conjugate gradient steps of a global H-update (§7.1)."""
     sweeps: int = 1
     """Gauss–Seidel sweeps of a local H-update (§7.1)."""
-    vertex_sweeps: int | None = None
-    """Sweeps over the vertices in each update of the mesh (§7.2). Left out: 2, without acceleration 1."""
-    epsilon: float | None = None
-    """Stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "soap_film"). None: where the changes still to come,
+    vertex_sweeps: int = 2
+    """Sweeps over the vertices in each update of the mesh (§7.2: one)."""
+    epsilon: float = 0.0
+    """Stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "soap_film"). 0: where the changes still to come,
     estimated from the last ones, are ``tolerance`` × D."""
     acceleration: str = "anderson"
     """Whether each cycle of updates starts from the best combination of the last sixteen ("anderson"), or where the
@@ -42,18 +40,12 @@ class PaperOptions:
     def __post_init__(self) -> None:
         for name in ("acceleration", "virtual_points", "start"):
             arguments.choice(name, getattr(self, name), _core.WORDS[name])
-        if self.vertex_sweeps is None:
-            sweeps = SWEEPS_AS_PUBLISHED if self.acceleration == "none" else _core.PaperOptions().vertex_sweeps
-            object.__setattr__(self, "vertex_sweeps", sweeps)
         for name in ("cg_steps", "sweeps", "vertex_sweeps"):
             arguments.whole(name, getattr(self, name), 1)
         if arguments.positive("damping", self.damping) > 1.0:
             raise ValueError(f"damping: {self.damping} is not accepted; accepted is above 0 and up to 1")
-        if self.epsilon is not None:
+        if self.epsilon:
             arguments.positive("epsilon", self.epsilon)
-
-
-_LEFT_OUT = PaperOptions()
 
 
 def engine_options(method: str, levels: int, given: PaperOptions | None) -> _core.PaperOptions:
@@ -63,9 +55,8 @@ def engine_options(method: str, levels: int, given: PaperOptions | None) -> _cor
     if given is not None and method != "paper":
         raise ValueError(f"paper: holds options of method 'paper'; method {method!r} has none of them")
     result = _core.PaperOptions()
-    for name, value in vars(given or _LEFT_OUT).items():
-        if value is not None:  # of epsilon: the engine's 0 says the same
-            setattr(result, name, value)
+    for name, value in vars(given or PaperOptions()).items():
+        setattr(result, name, value)
     result.levels = arguments.whole("levels", levels, 0, 1)
     return result
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.options import arguments, checks
 from fairing.options.checks import given
-from fairing.options.groups import Boundary, Options, Skin
+from fairing.options.groups import Boundary, Options
 from fairing.results import FairResult, FloatArray
 from fairing.solving import feather, outline, surroundings
 
@@ -102,9 +102,6 @@ def solved(
     checks.faired_needs_fixed(curves.open_border, fixed)
     checks.callback(progress)
     engine = checks.engine_options(chosen, threads, count)
-    fades = skin.weights is not None or skin.feather != 0.0
-    if fades:
-        engine.detail = 1.0
     joins = checks.continuity(surface.continuity, surface.equation, chosen.solving.method)
     around = surroundings.Surroundings.of(points, faces, fixed, boundary.outside)
     as_given = surroundings.Boundary(points, fixed, normals)
@@ -122,26 +119,13 @@ def solved(
     fitted = arguments.choice("outline", surface.outline, checks.OUTLINES) == "mended"
     if fitted:
         surroundings.refuse_creases(curves.creases, around)
-    refused = {
-        "reference": m0 is not None, "outline": fitted, "continuity": joins,
-    }  # fmt: skip
-    fade = _fade(skin, refused, count, threads, progress)
+    refused = {"reference": m0 is not None, "outline": fitted, "continuity": joins}
+    fade = feather.fade_of(skin, refused, count, threads, progress)
     if fade is not None:
+        engine.detail = 1.0
         return FairResult(**feather.solve_feathered(call, as_given, around, fade))
     answer = surroundings.solve_fitted(call, as_given, faces, around) if fitted else call(as_given)
     return FairResult(**surroundings.with_join(answer, around))
-
-
-def _fade(
-    skin: Skin, refused: dict[str, bool], count: int, threads: int, progress: Progress | None
-) -> feather.Fade | None:
-    """How the change fades out; None where it does not."""
-    parts = feather.vertex_weights(skin.weights, count)
-    width = feather.width(skin.feather, parts, refused)
-    if not width > 0.0 and parts is None:
-        return None
-    size = arguments.share("detail_size", skin.detail_size)
-    return feather.Fade(float(skin.detail), size, width if parts is None else parts, threads, progress)
 
 
 _ANY_COUNT = int(np.iinfo(np.int32).max)

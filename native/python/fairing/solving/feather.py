@@ -13,6 +13,7 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.measure import edges_with_uses, hard_edges
 from fairing.options import arguments
+from fairing.options.groups import Skin
 from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
 from fairing.solving import surroundings
 from fairing.solving.outline import boundary_normals
@@ -59,27 +60,25 @@ class Part:
     width: float
 
 
-def vertex_weights(value: npt.ArrayLike | None, count: int) -> FloatArray | None:
-    """(n,) from 0 to 1, or None."""
-    if value is None:
-        return None
-    weights = np.array(value, dtype=np.float64)
-    if weights.shape != (count,) or not ((weights >= 0) & (weights <= 1)).all():
-        raise ValueError(f"weights: {count} numbers from 0 to 1 are needed, one for each vertex")
-    return weights
+def fade_of(skin: Skin, refused: dict[str, bool], count: int, threads: int, progress: Any) -> Fade | None:
+    """How a change fades out, checked; None where it does not.
 
-
-def width(value: Any, weights: FloatArray | None, refused: dict[str, bool]) -> float:
-    """The feather; ``refused``: arguments beside which it or ``weights`` is, with whether they are there."""
-    share = arguments.finite("feather", value)
+    ``refused``: arguments beside which it does not, with whether they are there.
+    """
+    share = arguments.finite("feather", skin.feather)
     if share < 0.0:
-        raise ValueError(f"feather: 0 or a positive number is needed, not {value!r}")
-    if share > 0.0 and weights is not None:
+        raise ValueError(f"feather: 0 or a positive number is needed, not {skin.feather!r}")
+    if skin.weights is None and share == 0.0:
+        return None
+    weights = None if skin.weights is None else np.array(skin.weights, dtype=np.float64)
+    if weights is not None and (weights.shape != (count,) or not ((weights >= 0) & (weights <= 1)).all()):
+        raise ValueError(f"weights: {count} numbers from 0 to 1 are needed, one for each vertex")
+    if weights is not None and share > 0.0:
         raise ValueError("feather: is not accepted beside `weights`, which take its place")
     for name, given in refused.items():
-        if given and (share > 0.0 or weights is not None):
+        if given:
             raise ValueError(f"{name}: this value is not accepted with `feather` or `weights`; leave it out")
-    return share
+    return Fade(skin.detail, skin.detail_size, share if weights is None else weights, threads, progress)
 
 
 def solve_feathered(call: Call, given: Boundary, around: Surroundings, fade: Fade) -> Answer:
@@ -148,9 +147,7 @@ def feather_weights(
     bend. The arguments are those of :func:`fairing.fair`; ``feather`` is above 0.
     """
     points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
-    share = width(feather, None, {})
-    if share == 0.0:
-        raise ValueError("feather: a number above 0 is needed: 0 is no band")
+    share = arguments.positive("feather", feather)
     around = Surroundings.of(points, faces, held, outside)
     edges = arguments.vertices_of("creases", creases, len(points), 2)
     return _faded(Boundary(points, held, None), around, share, edges)
