@@ -10,7 +10,6 @@ from .denoise.operator import MESH_OT_fair_denoise
 from .fair.brush import FairDab, MESH_OT_fair_brush
 from .fair.masked import MESH_OT_fair_masked
 from .fair.operator import MESH_OT_fair_region
-from .fair.strokes import MESH_OT_fair_stroke
 from .fill.operator import MESH_OT_fair_fill
 from .fillet.operator import MESH_OT_fair_fillet
 from .host import handlers
@@ -18,7 +17,6 @@ from .live import live
 from .live.operators import FairLive, MESH_OT_fair_live_forget
 from .live.start import MESH_OT_fair_live_region
 from .options import preset_operators, redo_panel
-from .options.chosen import MESH_OT_fair_reset
 from .overlay import overlay
 from .overlay.settings import FairOverlay
 from .run import cli, compare, redo
@@ -49,11 +47,9 @@ _CLASSES: tuple[Any, ...] = (
     compare.MESH_OT_fair_compare,
     MESH_OT_fair_cancel,
     MESH_OT_fair_follow,
-    MESH_OT_fair_reset,
     preset_operators.MESH_MT_fair_region_runs,
     preset_operators.MESH_MT_fair_fill_runs,
     *menus.MENUS,
-    MESH_OT_fair_stroke,
     *tools.MACROS,
     MESH_OT_fair_select,
     MESH_OT_fair_again,

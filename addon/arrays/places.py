@@ -30,22 +30,12 @@ def as_indices(name: str, given: Any, count: int) -> Ints:
     return numbers
 
 
-def renumbered(before: Floats, now: Floats) -> Ints | None:
-    """Return the number that each of the points (n, 3) has among the same points in any order.
-
-    None where others are there, or where the order differs and two lie in one place.
-    """
-    if np.array_equal(before, now):
-        return np.arange(len(before))
-    if before.shape != now.shape:
-        return None
-    first, second = np.lexsort(before.T), np.lexsort(now.T)
-    ordered = before[first]
-    if not np.array_equal(ordered, now[second]) or (np.diff(ordered, axis=0) == 0.0).all(axis=1).any():
-        return None
-    numbers = np.empty(len(before), dtype=np.int64)
-    numbers[first] = second
-    return numbers
+def as_matrix(given: Any) -> Floats:
+    """Return the (4, 4) map that a script gives, or leaves out; raises ValueError for another shape."""
+    matrix = np.eye(4) if given is None else np.array(given, dtype=np.float64)
+    if matrix.shape != (4, 4):
+        raise ValueError(f"matrix: expected 4×4 numbers, got shape {matrix.shape}")
+    return matrix
 
 
 Whole = NDArray[np.integer[Any]]

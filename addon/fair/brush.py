@@ -4,15 +4,18 @@
 No postponed annotations here: Blender reads them as property definitions.
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import bpy
 import numpy as np
-from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty
+from bpy.props import CollectionProperty, FloatProperty, FloatVectorProperty, IntProperty
 
 from ..arrays.types import Floats, Ints
 from ..host.context import active_object
 from ..host.dragging import pixel_size
+from ..host.handlers import hear_events
 from ..host.picking import place_at
 from ..host.polling import require
 from ..mesh import levels, painted
@@ -22,8 +25,8 @@ from ..show.preview import show
 from ..translations import translated
 from ..words.words import said
 from .outside import FairsOutside, Task, check_shown
-from .strokes import Stroke
 
+STEP = 0.5  # of the radius, from one place to the next
 FULL = 0.6  # opacity where all is painted
 
 
@@ -34,7 +37,7 @@ class FairDab(bpy.types.PropertyGroup):
     reach: FloatProperty()
 
 
-class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
+class MESH_OT_fair_brush(FairsOutside, bpy.types.Operator):
     """Paint over what is to become fair and let go. Masked vertices stay"""
 
     bl_idname = "mesh.fair_brush"
@@ -43,6 +46,9 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
 
     dabs: CollectionProperty(type=FairDab, options={"HIDDEN", "SKIP_SAVE"})
 
+    radius: IntProperty(name="Radius", description="Of the circle", default=25, min=1, soft_max=300, subtype="PIXEL")
+
+    _at: tuple[float, float] | None = None  # the last place, in pixels of the region
     _positions: Floats  # (n, 3), while the stroke is painted
     _triangles: Ints
     _weights: Floats
@@ -57,8 +63,6 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         try:
             check_shown(obj)
             self._check_level(levels.shown_level(obj), FairOptions())
-            if obj.use_dynamic_topology_sculpting:
-                raise ValueError(said("brush_dynamic"))
         except ValueError as cause:
             self.report({"ERROR"}, translated(said("named", name=obj.name, text=str(cause))))
             return {"CANCELLED"}
@@ -66,14 +70,32 @@ class MESH_OT_fair_brush(FairsOutside, Stroke, bpy.types.Operator):
         self._positions = painted.positions(obj.data)
         self._triangles = painted.triangles(obj.data)
         self._weights = np.zeros(len(self._positions))
-        return self.begin_stroke(context, event)
+        self._go_to(context, event)
+        hear_events(context, self)
+        return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        return Watched.modal(self, context, event) if self._run is not None else self.follow_stroke(context, event)
+        """Follow the pointer until the button is let go, then the run."""
+        if self._run is not None:
+            return Watched.modal(self, context, event)
+        if event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"}:
+            self._go_to(context, event)
+        elif event.type == "LEFTMOUSE" and event.value == "RELEASE":
+            return self.let_go(context)
+        elif event.type in {"ESC", "RIGHTMOUSE"}:
+            self.cancel(context)
+            return {"CANCELLED"}
+        return {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
         show([])
         Watched.cancel(self, context)
+
+    def _go_to(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
+        there = (float(event.mouse_region_x), float(event.mouse_region_y))
+        for place in between(self._at or there, there, max(1.0, STEP * self.radius)):
+            self.dab(context, *place)
+        self._at = there
 
     def dab(self, context: bpy.types.Context, x: float, y: float) -> None:
         """Paint at a place on the surface; beside it nothing happens."""
@@ -135,3 +157,11 @@ def paint(weights: Floats, positions: Floats, place: Floats, radius: float) -> N
     near = np.flatnonzero(np.abs(positions[:, 0] - place[0]) < radius)
     shares = np.linalg.norm(positions[near] - place, axis=1) / radius
     weights[near] = np.maximum(weights[near], falloff(shares))
+
+
+def between(before: Any, after: Any, step: float) -> Iterator[tuple[float, float]]:
+    """Yield places from `before` to `after`, the last one included, no further apart than a step."""
+    (x0, y0), (x1, y1) = before, after
+    count = max(1, round(((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5 / step + 0.5))
+    for k in range(1, count + 1):
+        yield x0 + (x1 - x0) * k / count, y0 + (y1 - y0) * k / count

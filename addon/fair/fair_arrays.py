@@ -52,22 +52,4 @@ def _faired(
 def _on_old_mesh(
     mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
 ) -> Fairing:
-    found = outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept), progress)
-    return _uniformly(mesh, matrix, options, progress, kept) or found if _texture_folds(mesh, options, found) else found
-
-
-def _texture_folds(mesh: MeshArrays, options: FairOptions, found: Fairing) -> bool:
-    """Return whether faces are folded over where the texture is kept without being asked for."""
-    unasked = options.inner_fairness == "AUTOMATIC" and options.resolved(mesh.textured).inner_fairness != "UNIFORM"
-    return unasked and found.verdict.grade == UNUSABLE and len(found.after.folded) > 0
-
-
-def _uniformly(
-    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
-) -> Fairing | None:
-    """Fair with uniform weights; None where that isn't usable either."""
-    uniform = replace(options, inner_fairness="UNIFORM")
-    found = outcome(mesh, matrix, uniform, solve(mesh, matrix, uniform, progress, kept), progress)
-    if found.verdict.grade == UNUSABLE:
-        return None
-    return replace(found, warnings=(said("FLIPPED_TRIANGLES"), *found.warnings))
+    return outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept), progress)

@@ -26,6 +26,7 @@ from .engine import Progress
 class Asked(AskedInEditMode):
     notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     way: str = ""  # tried after a run that was not good, and written only where the verdict improves
+    again: bool = False  # on faces of the last run, which are selected where the result is written
     moves = True
 
     def work(self, progress: Progress) -> list[Fairing]:
@@ -48,6 +49,9 @@ class Asked(AskedInEditMode):
         if not report.written:
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
+        if self.again:
+            last_run.select_region(context)
+            bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
         compare.remember(self.tasks, outcomes)
         written = job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one)
         last_run.renumber(written)
@@ -60,7 +64,6 @@ class Asked(AskedInEditMode):
 
 def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:
     """Leave what the last run has left, offer this change no more, and report how it would have come out."""
-    last_run.select_region(context)
     shown = context.window_manager.fairing_report
     shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
     outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))

@@ -9,11 +9,10 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty, StringProperty
 
 from ..arrays.types import Ints
 from ..host.context import active_object
-from ..host.picking import Picks, face_under_mouse
+from ..host.picking import face_under_mouse
 from ..mesh import painted
 from ..options.options import FairOptions
 from ..options.redo_panel import draw_options
-from ..run.background import Watched
 from ..translations import translated
 from ..words.words import said
 from .outside import FairsOutside, as_read
@@ -33,7 +32,7 @@ _NOTHING = {
 }
 
 
-class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
+class MESH_OT_fair_masked(FairsOutside, bpy.types.Operator):
     """Replace what is masked, a face set, a vertex group or the live region by the fair surface that continues
     its surroundings"""
 
@@ -62,33 +61,15 @@ class MESH_OT_fair_masked(FairsOutside, Picks, bpy.types.Operator):
         draw_options(self.layout, self, context.object, context.window_manager)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Let a face set be clicked, where several are in sight; fair in the background where that takes a while."""
+        """Take the face set under the mouse where that is asked for; fair in the background where it takes a while."""
         if self.under_mouse:
-            return self._picked(context, event)
-        if self.source != "FACE_SET" or self.face_set or self._only_visible(active_object(context)):
-            return self._begin_with(context, self._start)
-        return self.pick(context, said("click_face_set"))
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        return Picks.modal(self, context, event) if self._run is None else Watched.modal(self, context, event)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        (Picks if self._run is None else Watched).cancel(self, context)
-
-    def _picked(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        obj = active_object(context)
-        with as_read(obj) as shown:
-            face = face_under_mouse(context, event, shown)
-            self.face_set = 0 if face is None else painted.face_set_at(shown.data, face)
-        if face is None:
-            self.report({"INFO"}, translated(said("no_face_there")))
-            return {"CANCELLED"}
+            with as_read(active_object(context)) as shown:
+                face = face_under_mouse(context, event, shown)
+                self.face_set = 0 if face is None else painted.face_set_at(shown.data, face)
+            if face is None:
+                self.report({"INFO"}, translated(said("no_face_there")))
+                return {"CANCELLED"}
         return self._begin_with(context, self._start)
-
-    @staticmethod
-    def _only_visible(obj: bpy.types.Object) -> int:
-        with as_read(obj) as shown:
-            return painted.only_visible_face_set(shown.data)
 
     def _check_level(self, level: int, options: FairOptions) -> None:
         FairsOutside._check_level(self, level, options)

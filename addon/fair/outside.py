@@ -5,25 +5,23 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import bpy
 import numpy as np
 
-from ..arrays.places import renumbered
 from ..arrays.region import MeshArrays, free_vertices
 from ..arrays.types import Floats, Ints
 from ..host.context import active_object
 from ..host.polling import require, require_idle
-from ..mesh import levels, mesh_io, painted
-from ..mesh.free_normals import free_normals
+from ..mesh import levels, painted
 from ..options.options import FairOptions
 from ..options.properties import FairProperties
 from ..run import compare, last_run
 from ..run.asked import Asked, Say
-from ..run.job import Refused, refusing
+from ..run.job import refusing
 from ..run.redo import Redone
 from ..translations import translated
 from ..verdict.outcome import Fairing
@@ -35,8 +33,6 @@ from .engine import Progress
 from .fair_arrays import fair_arrays
 from .script import read, write
 
-# Where dynamic topology has put the vertices cannot be told.
-MIXED = said("dynamic_mixes")
 MODES = ("SCULPT", "OBJECT", "WEIGHT_PAINT")
 
 
@@ -50,7 +46,6 @@ class Task:
     options: FairOptions
     before: Floats  # (n, 3) positions
     level: int = 0  # of a Multiresolution modifier that the mesh is of; 0: the object's own mesh
-    dynamic: bool = False  # with dynamic topology, which puts the vertices in another order at each change of mode
 
 
 def solve(task: Task, progress: Progress) -> Fairing:
@@ -62,7 +57,7 @@ def solve(task: Task, progress: Progress) -> Fairing:
 @contextmanager
 def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
     """Go to object mode and back: sculpt mode keeps the mesh for itself."""
-    mode, dynamic = obj.mode, obj.use_dynamic_topology_sculpting
+    mode = obj.mode
     if mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
     try:
@@ -70,15 +65,13 @@ def in_object_mode(obj: bpy.types.Object) -> Iterator[None]:
     finally:
         if mode != "OBJECT":
             bpy.ops.object.mode_set(mode=mode)
-        if dynamic and not obj.use_dynamic_topology_sculpting:  # Blender leaves it off where it would lose some layers
-            bpy.ops.sculpt.dynamic_topology_toggle()
 
 
 @contextmanager
 def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
     """Give an object whose mesh is the one that is seen, where sculpt mode keeps that for itself."""
     level = levels.shown_level(obj)
-    if level == 0 and not obj.use_dynamic_topology_sculpting:
+    if level == 0:
         yield obj
         return
     with in_object_mode(obj), levels.at_level(obj, level) as shown:
@@ -120,7 +113,7 @@ class AskedOutside(Asked):
         if levels.shown_level(obj) != self.task.level:
             return False
         with in_object_mode(obj), levels.at_level(obj, self.task.level) as shown:
-            return renumbered(positions, painted.positions(shown.data)) is not None
+            return np.array_equal(positions, painted.positions(shown.data))
 
     def finish(self, context: bpy.types.Context, outcome: Fairing, say: Say) -> set[str]:
         task, obj = self.task, active_object(context)
@@ -132,27 +125,17 @@ class AskedOutside(Asked):
             say({"ERROR"}, translated(summary(report)))
             return {"CANCELLED"}
         with in_object_mode(obj):
-            written = self._write(obj, outcome)
-        if not written:
-            return self.refuse(context, Refused(task.object_name, ValueError(MIXED)), say)
+            self._write(obj, outcome)
         say({"INFO"}, translated(summary(report)))
         return {"FINISHED"}
 
-    def _write(self, obj: bpy.types.Object, outcome: Fairing) -> bool:
-        """Write what was found, but not where its vertices are no longer told apart; return whether it was."""
+    def _write(self, obj: bpy.types.Object, outcome: Fairing) -> None:
         compare.forget()  # it goes to and fro between positions of the mesh itself, by their numbers
         if self.task.level:
             levels.write(obj, self.task.level, outcome.vertices, outcome.positions)
-        elif self.task.dynamic:
-            there = renumbered(self.task.before, painted.positions(obj.data))
-            if there is None:
-                return False
-            mesh_io.write_mesh(obj.data, there[outcome.vertices], outcome.positions)
         else:
-            normals = free_normals(obj.data)
+            compare.remember([self.task], [outcome])
             write(obj.data, outcome)
-            compare.remember_one(obj.name, self.task.before, outcome, normals)
-        return True
 
 
 class FairsOutside(FairProperties, Redone):
@@ -179,11 +162,8 @@ class FairsOutside(FairProperties, Redone):
             check_shown(obj)
             level = levels.shown_level(obj)
             self._check_level(level, options)
-            dynamic = obj.use_dynamic_topology_sculpting
-            if dynamic and options.remesh:
-                raise ValueError(said("dynamic_faces"))
             with in_object_mode(obj):
-                return AskedOutside(replace(self._read_object(obj, options, level), dynamic=dynamic))
+                return AskedOutside(self._read_object(obj, options, level))
 
     def _check_level(self, level: int, options: FairOptions) -> None:
         """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""
@@ -199,7 +179,9 @@ class FairsOutside(FairProperties, Redone):
 
 
 def check_shown(obj: bpy.types.Object) -> None:
-    """Raise ValueError where what is seen is not the mesh's own shape."""
+    """Raise ValueError where what is seen is not the mesh's own shape, or its vertices are not in its order."""
+    if obj.use_dynamic_topology_sculpting:
+        raise ValueError(said("dynamic_topology"))
     key: Any = obj.active_shape_key
     if key is not None and key != obj.data.shape_keys.reference_key:
         raise ValueError(said("key_is_active", name=key.name))

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import bpy
-import numpy as np
 
 import fairing
 
-from ..arrays.places import as_indices
+from ..arrays.places import as_indices, as_matrix
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats
 from ..mesh import mesh_io, remeshed
@@ -70,10 +69,7 @@ def read(mesh: bpy.types.Mesh, faces: Sequence[int], matrix: Any, options: FairO
         mesh_io.check_new_faces(mesh_io.user_of(mesh))
     chosen = as_indices("faces", faces, len(mesh.polygons))
     arrays = mesh_io.read_mesh(mesh, chosen, options)
-    world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
-    if world.shape != (4, 4):
-        raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
-    return arrays, world
+    return arrays, as_matrix(matrix)
 
 
 def write(mesh: bpy.types.Mesh, outcome: Fairing) -> None:

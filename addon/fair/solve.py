@@ -118,7 +118,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         inward = known.inward(patch)
         vertices, around = numbered(patch, wound_alike(world, outside))
         weights = band_weights(world, patch, vertices, around, options.falloff) if options.moves_band else None
-        odd = outline_notes(world, inward) + _odd_in_words(mesh, patch, options)
+        odd = outline_notes(world) + _odd_in_words(mesh, patch, options)
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(

@@ -12,7 +12,6 @@ from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress, sub_range
 from ..options.other_options import FillOptions
 from .holes import Borders
-from .islands import with_islands
 from .job import Job
 from .pieces import Filled
 
@@ -27,7 +26,7 @@ def fill(
     """
     with np.errstate(invalid="ignore", over="ignore"):  # elsewhere
         job = Job.of(mesh, matrix, options)
-    groups = _groups(job.world, loops, options)
+    groups = [loops] if options.bridge else [[loop] for loop in loops]
     made = job.together(groups, progress)
     pieces, errors, left = [], [], []
     for i, group in enumerate(groups):
@@ -46,10 +45,3 @@ def fill_borders(borders: Borders, matrix: Floats, options: FillOptions, progres
     """Fill chosen borders; see `fill`."""
     found = borders.whole.found(lambda mesh: fill(mesh, matrix, borders.loops, options, progress))
     return found.with_left(borders.left)
-
-
-def _groups(world: MeshArrays, loops: list[Ints], options: FillOptions) -> list[list[Ints]]:
-    """Return the loops that one surface joins each."""
-    if options.bridge or not options.islands:
-        return [loops] if options.bridge else [[loop] for loop in loops]
-    return [[loops[k] for k in numbers] for numbers in with_islands(world, loops)]

@@ -16,7 +16,6 @@ from ..mirror.symmetry import vertices_with_image
 from ..options.other_options import FillOptions
 from ..words.sentences import in_numbers_of
 from ..words.words import said
-from .islands import islands_inside
 
 
 @dataclass(frozen=True)
@@ -84,13 +83,11 @@ def chosen_borders(matrix: Floats, borders: Borders, options: FillOptions, every
         refuse_all(borders.left)
     with in_numbers_of(borders.whole.own):
         short = short_among(matrix, borders, options)
-        return holes_among(matrix, short, options.islands) if every else short
+        return holes_among(matrix, short) if every else short
 
 
-def holes_among(matrix: Floats, borders: Borders, islands: bool = False) -> Borders:
-    """Return the holes among all border loops of a mesh, and with `islands` the loose pieces inside them.
-
-    matrix: 4×4, to where they are filled.
+def holes_among(matrix: Floats, borders: Borders) -> Borders:
+    """Return the holes among all border loops of a mesh; matrix: 4×4, to where they are filled.
 
     Raises BorderRefusal where none of them is a hole.
     """
@@ -99,8 +96,6 @@ def holes_among(matrix: Floats, borders: Borders, islands: bool = False) -> Bord
         return borders
     world = _placed(borders.whole.mesh, matrix)
     outer = fairing.borders.outer_borders(world.positions, world.triangles, loops)
-    if islands:
-        outer[list(islands_inside(world, loops, outer))] = False
     if outer.all():
         refuse_all(borders.left)
         reason = said("all_outside", n=len(loops)) if len(loops) > 1 else said("one_outside")

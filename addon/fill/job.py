@@ -51,21 +51,21 @@ class Job:
         outline = np.concatenate(loops)
         local = self._local(outline, _SEEN)
         with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
-            result = self.filled(local, loops, progress, self.options.bridge or len(loops) > 1)
+            result = self.filled(local, loops, progress)
         return self._made(loops, result, local.vertices)
 
     def together(self, groups: list[list[Ints]], progress: Progress | None) -> dict[int, Piece]:
         """Make those over lone loops in one call, by the groups' numbers; none of one that has no surface."""
-        lone = {k: group[0] for k, group in enumerate(groups) if len(group) == 1}
-        if self.options.bridge or self.options.spacing != 1.0 or len(lone) < 2:
+        if self.options.bridge or self.options.spacing != 1.0 or len(groups) < 2:
             return {}
-        local = self._local(np.concatenate(list(lone.values())), _SEEN)
+        lone = [loop for (loop,) in groups]
+        local = self._local(np.concatenate(lone), _SEEN)
         try:
-            result = self.filled(local, list(lone.values()), progress, False)
+            result = self.filled(local, lone, progress)
         except (fairing.MeshError, fairing.SolverError):
             return {}  # each by itself tells why
         found = {frozenset(hole.loops[0].tolist()): hole.surface for hole in result.holes}
-        surfaces = {k: found.get(frozenset(local.numbers(loop).tolist())) for k, loop in lone.items()}
+        surfaces = {k: found.get(frozenset(local.numbers(loop).tolist())) for k, loop in enumerate(lone)}
         return {k: self._made([lone[k]], own, local.vertices) for k, own in surfaces.items() if own is not None}
 
     def _local(self, outline: Ints, rings: int = RINGS) -> Local:
@@ -75,12 +75,12 @@ class Job:
         vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
         return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
 
-    def filled(self, local: Local, loops: list[Ints], progress: Progress | None, bridge: bool) -> fairing.FillResult:
+    def filled(self, local: Local, loops: list[Ints], progress: Progress | None) -> fairing.FillResult:
         options = self.options
         surface = fairing.Surface(options.equation, continuity="G2" if options.joins_curvature else "G1")
         return fairing.fill(
             self.world.positions[local.vertices], local.around, [local.numbers(loop) for loop in loops],
-            fairing.Options(surface), bridge=bridge,
+            fairing.Options(surface), bridge=options.bridge,
             spacing=_spacing(self.world, loops, options), inner="outline",
             faces="quads" if options.quads else "triangles",
             edges="run_on" if options.run_on else "ignored", wires=local.drawn,

@@ -12,7 +12,7 @@ import numpy as np
 import fairing
 
 from ..arrays.border import Left
-from ..arrays.places import as_indices
+from ..arrays.places import as_indices, as_matrix
 from ..fair.engine import Progress
 from ..mesh import filled as filled_mesh
 from ..mesh import mesh_io
@@ -77,9 +77,7 @@ def fill_borders(
     found = borders_at(arrays, seeds)
     if not (found.loops or found.left):
         raise ValueError("There is no border to fill" if vertices is None else "None of the vertices is on a border")
-    world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
-    if world.shape != (4, 4):
-        raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
+    world = as_matrix(matrix)
     borders = chosen_borders(world, found, options, vertices is None)
     filled = fill_chosen(borders, world, options, progress)
     written = is_written([(mesh.name, filled)], options)

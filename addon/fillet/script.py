@@ -10,7 +10,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.places import as_indices
+from ..arrays.places import as_indices, as_matrix
 from ..fair.engine import Progress
 from ..mesh import mesh_io, remeshed
 from ..options.options import FairOptions
@@ -49,9 +49,7 @@ def fillet_edges(
     mesh_io.check_new_faces(mesh_io.user_of(mesh))
     reading = FairOptions(vertex_group=options.width_group)
     arrays = mesh_io.read_mesh(mesh, np.empty(0, dtype=np.int64), reading)
-    world = np.eye(4) if matrix is None else np.array(matrix, dtype=np.float64)
-    if world.shape != (4, 4):
-        raise ValueError(f"matrix: expected 4×4 numbers, got shape {world.shape}")
+    world = as_matrix(matrix)
     if edges is None:
         seams = hard(arrays.transformed(world))
     else:

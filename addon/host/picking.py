@@ -1,68 +1,22 @@
-"""What lies under the mouse in a 3D view, and operators that wait for a click on it."""
+"""What lies under the mouse in a 3D view."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bpy
 from bpy_extras import view3d_utils
 
-from ..translations import translated
-from .handlers import hear_events
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-
-class Picks:
-    """An operator that waits for one click: `_picked` takes it; Esc and the right button end it."""
-
-    if TYPE_CHECKING:
-        _picked: Callable[[bpy.types.Context, bpy.types.Event], set[str]]
-
-    def pick(self, context: bpy.types.Context, text: str) -> set[str]:
-        """Begin to wait; text: what is to be clicked."""
-        context.window.cursor_modal_set("EYEDROPPER")
-        context.workspace.status_text_set(f"{translated(text)}    [Esc] {translated('Cancel')}")
-        hear_events(context, self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type in {"ESC", "RIGHTMOUSE"}:
-            _end(context)
-            return {"CANCELLED"}
-        if event.type != "LEFTMOUSE" or event.value != "PRESS":
-            return {"PASS_THROUGH"} if event.type.startswith(("MIDDLE", "WHEEL", "NUMPAD")) else {"RUNNING_MODAL"}
-        _end(context)
-        return self._picked(context, event)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Wait no more; Blender calls this where it ends the operator, maybe without a window."""
-        _end(context)
-
-
-def _end(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        window.cursor_modal_restore()
-        window.workspace.status_text_set(None)
-
 
 def face_under_mouse(context: bpy.types.Context, event: bpy.types.Event, obj: bpy.types.Object) -> int | None:
     """Return the face of the object under the mouse; None where there is none, or no 3D view."""
-    for origin, direction in rays(context, event, obj):
-        found, _, _, face = obj.ray_cast(origin, direction)
-        return int(face) if found else None
-    return None
-
-
-def rays(context: bpy.types.Context, event: bpy.types.Event, obj: bpy.types.Object) -> Iterator[tuple[Any, Any]]:
-    """Yield origin and direction of the ray under the mouse, in the object's own coordinates; none outside of views."""
     for area in context.window.screen.areas:
         for region in area.regions if area.type == "VIEW_3D" else ():
             x, y = event.mouse_x - region.x, event.mouse_y - region.y
             if region.type == "WINDOW" and 0 <= x < region.width and 0 <= y < region.height:
-                yield _ray(area.spaces.active.region_3d, region, (x, y), obj)
+                found, _, _, face = obj.ray_cast(*_ray(area.spaces.active.region_3d, region, (x, y), obj))
+                return int(face) if found else None
+    return None
 
 
 def place_at(context: bpy.types.Context, at: tuple[float, float], obj: bpy.types.Object) -> Any:

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 
 import bpy
 
@@ -27,13 +28,12 @@ from ..host.status import redraw_sidebars, redraw_views
 from ..mesh import live_mesh, mesh_io
 from ..options.options import FairOptions
 from ..overlay import signals
-from ..run.runner import is_free
+from ..run.runner import Run, is_free
 from ..words.words import said
-from .region import Found
-from .session import Search, Session, check_key, fits, is_of, read, session_of, where
+from .region import Found, sought
+from .session import Session, check_key, fits, is_of, session_of, where
 
 PATIENCE = 0.15  # seconds for an answer in the middle of changes: with reading and writing a step stays below 0.3
-MOST_SKIPPED = 15  # changes in a row that do with the first surface, without asking for an answer
 PAUSE = 0.3  # seconds without a change that count as their end
 TICK = 0.05  # seconds between two looks at a search
 STAND_IN = said("live_stand_in")
@@ -71,7 +71,8 @@ class Live:
             return False
         if not session.moved(*where(obj, session.region)):
             return False
-        answer = self._hurried(session)
+        # After an answer that took too long, or while a search has its solver, the changes until their end do without.
+        answer = None if session.lost or session.search is not None else _asked(session)
         session.lost = answer is None
         self.message = ""
         if answer is None:
@@ -79,40 +80,28 @@ class Live:
         self._write(obj, session, answer)
         return True
 
-    def _hurried(self, session: Session) -> Floats | None:
-        """Answer in the middle of changes, or not: after an answer that took too long some changes do without."""
-        if session.search is not None:
-            return None
-        if session.waited < session.skip:
-            session.waited += 1
-            return None
-        answer = _asked(session)
-        session.skip = min(2 * session.skip + 1, MOST_SKIPPED) if answer is None else 0
-        session.waited = 0
-        return answer
-
     def settle(self, obj: bpy.types.Object) -> bool:
         session = self._current(obj)
         if session is None or not session.lost or session.given_up:
             return False
         if session.search is None:
-            session.search = Search(session.region, session.positions, session.matrix)
+            session.search = Run(partial(sought, session.region, session.positions, session.matrix))
             self.message = SEARCHING
         if not session.search.wait(moment()):
             return True
         search, session.search = session.search, None
-        if search.stopped or self._has_moved(obj, session):
+        if search.cancelled or self._has_moved(obj, session):
             return True
         self._end(obj, session, search)
         return False
 
-    def _end(self, obj: bpy.types.Object, session: Session, search: Search) -> None:
+    def _end(self, obj: bpy.types.Object, session: Session, search: Run[Found]) -> None:
         """Write what was found, or leave the region with its first surface; raises what went wrong."""
         session.given_up = True
-        found = search.found()
+        found = search.result()
         self.message = KEPT if found.positions is None else STAND_IN if found.stands_in else ""
         if found.positions is not None:
-            session.lost, session.skip = False, 0
+            session.lost = False
             self._write(obj, session, found.positions)
 
     def _has_moved(self, obj: bpy.types.Object, session: Session) -> bool:
@@ -144,7 +133,7 @@ class Live:
             raise
         session = self.sessions.get(mesh.name)
         if session is None or not fits(session, mesh):
-            session = self._woken(mesh) or session_of(obj, read(obj, live_mesh.region_options(mesh), mesh))
+            session = self._woken(mesh) or session_of(obj)
             self._open(mesh.name, session)
         return session
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,12 +13,11 @@ from ..arrays.around import RINGS, outside_triangles
 from ..arrays.region import OF_EDGES, OF_FACES, OF_VERTICES, MeshArrays, Patch, chosen_of, make_patch, nothing, to_local
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.boundary import boundary
-from ..fair.engine import Problem, Progress, RepeatedSolve, solve
+from ..fair.engine import Problem, Progress, RepeatedSolve, go_on, solve
 from ..fair.held_curves import ALONG, faired_curves
 from ..fair.local_pins import pulled, without_lone_pins
 from ..mirror.symmetry import mirror_map, symmetrised
 from ..options.options import FairOptions
-from ..words.words import said
 
 
 @dataclass(frozen=True)
@@ -142,10 +140,7 @@ class LiveRegion:
         return self._moved(problem, result.vertices, matrix) if result.converged else None
 
     def afresh(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
-        """Answer without what former answers left, as the operator would; the same contract.
-
-        After a step that was too long to be followed, the last answer is no start for the next one.
-        """
+        """Answer without what former answers left, as the operator would; the same contract."""
         self._solve = RepeatedSolve(self._patch, self._options, self._reference)
         return self.answer(positions, matrix, progress)
 
@@ -195,9 +190,7 @@ class LiveRegion:
         return moved
 
 
-LEISURE = 3.0  # seconds of the processor for each of the three ways to an answer: other work is no reason to give up
-
-Ask = Callable[[Floats, Floats, Progress], "Floats | None"]
+LEISURE = 3.0  # seconds of the processor for each of the two ways to an answer: other work is no reason to give up
 
 
 @dataclass(frozen=True)
@@ -208,42 +201,24 @@ class Found:
     stands_in: bool = False  # the surface of least variation instead of the one that was asked for
 
 
-def sought(region: LiveRegion, positions: Floats, matrix: Floats, progress: Progress) -> Found:
-    """Search for the surface itself, from the last answer and afresh, then for the one that stands in for it.
+def sought(
+    region: LiveRegion, positions: Floats, matrix: Floats, progress: Progress | None, seconds: float = LEISURE
+) -> Found:
+    """Search for the surface itself, then for the one that stands in for it, so many seconds each.
 
-    positions: (n, 3) of region.vertices; matrix: (4, 4) to world space. Ends early where `progress` says so.
+    positions: (n, 3) of region.vertices; matrix: (4, 4) to world space. Raises fairing.Cancelled where `progress` says
+    so before either, and ValueError for what can't be faired.
     """
-    for ask in (region.answer, region.afresh, region.stand_in):
-        if progress(0.0, "") is False:  # even to begin may take a while
-            break
-        answer = _in_time(ask, positions, matrix, progress)
+    for ask in (region.afresh, region.stand_in):
+        go_on(progress)  # even to begin may take a while
+        try:
+            answer = ask(positions, matrix, _in_time(progress, time.thread_time() + seconds))
+        except (fairing.Cancelled, fairing.SolverError):
+            continue
         if answer is not None:
             return Found(answer, ask == region.stand_in)
     return Found()
 
 
-def first(region: LiveRegion, positions: Floats, matrix: Floats, progress: Progress) -> Found:
-    """Search for a new region's surface, then for the one that stands in, however long that takes.
-
-    Raises what engine.REFUSALS lists where there is none, and fairing.Cancelled.
-    """
-    for ask in (region.answer, region.stand_in):
-        try:
-            answer = ask(positions, matrix, progress)
-        except fairing.SolverError:
-            continue
-        if answer is not None:
-            return Found(answer, ask == region.stand_in)
-    raise fairing.SolverError(said("no_surface_for_region"))
-
-
-def _in_time(ask: Ask, positions: Floats, matrix: Floats, progress: Progress) -> Floats | None:
-    end = time.thread_time() + LEISURE
-
-    def goes_on(part: float, stage: str) -> bool:
-        return progress(part, stage) is not False and time.thread_time() < end
-
-    try:
-        return ask(positions, matrix, goes_on)
-    except (fairing.Cancelled, fairing.SolverError):
-        return None
+def _in_time(progress: Progress | None, end: float) -> Progress:
+    return lambda part, stage: (progress is None or progress(part, stage) is not False) and time.thread_time() < end

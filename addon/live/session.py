@@ -1,4 +1,4 @@
-"""One mesh with a live region, as it was last seen, and the search for its surface in a thread."""
+"""One mesh with a live region, as it was last seen."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..mesh import live_mesh, mesh_io
 from ..options.options import FairOptions
 from ..run.runner import Run
 from ..words.words import said
-from .region import Found, LiveRegion, sought
+from .region import Found, LiveRegion
 
 BLINK = 0.02  # seconds that a step of a drag waits for a search to stop
 
@@ -31,11 +31,10 @@ class Session:
     seconds: float = 0.0  # of the last answer
     lost: bool = False  # no fair surface is shown, but the one that there always is
     given_up: bool = False  # as there is none for these positions: a search has ended without
-    search: Search | None = None  # for the surface, under way or about to stop: it alone may ask the region
-    skip: int = 0  # changes for which no answer is asked for, as the last ones took too long
-    waited: int = 0  # changes that were skipped before the last try
+    search: Run[Found] | None = None  # for the surface, under way or about to stop: it alone may ask the region
     checked: bool = True  # an undo may have brought back another region
     key: str = ""  # the shape key that the region is in, as mesh_io.writable_key names it
+    object_name: str = ""  # of a candidate
 
     def is_at(self, positions: Floats, matrix: Floats) -> bool:
         return np.array_equal(positions, self.positions) and np.array_equal(matrix, self.matrix)
@@ -51,7 +50,7 @@ class Session:
     def call_off(self) -> None:
         """Stop searching. Nobody may ask the region before it has ended, which may take a step of the engine."""
         if self.search is not None:
-            self.search.stop()
+            self.search.cancel()
             if self.search.wait(BLINK):
                 self.search = None
 
@@ -73,12 +72,12 @@ def where(obj: bpy.types.Object, region: LiveRegion) -> tuple[Floats, Floats]:
     return live_mesh.positions(obj.data, region.vertices), matrix_of(obj)
 
 
-def read(obj: bpy.types.Object, options: FairOptions, marked: bpy.types.Mesh | None) -> LiveRegion:
-    """Read the object's mesh with its selection, or the region that is marked, as the patch."""
+def read(obj: bpy.types.Object, options: FairOptions, faces: Ints | None) -> LiveRegion:
+    """Read the object's mesh with these faces, or else its selection, as the patch."""
     mesh_io.writable_key(obj)
     if options.boundary_normals == "CUSTOM":
         raise ValueError(said("live_custom_normals"))
-    mesh = mesh_io.read_edit_mesh(obj, options, live_mesh.LAYER if marked is not None else "")
+    mesh = mesh_io.read_edit_mesh(obj, options, faces)
     if not free_vertices(mesh).any():
         raise ValueError(said("live_no_free"))
     return LiveRegion(mesh, matrix_of(obj), options)
@@ -91,10 +90,11 @@ def check_key(obj: bpy.types.Object) -> None:
         raise ValueError(said("live_other_key", key=own) if own else said("live_other_basis"))
 
 
-def session_of(obj: bpy.types.Object, region: LiveRegion) -> Session:
-    """Open a session with a region of the object that is marked in its mesh."""
+def session_of(obj: bpy.types.Object) -> Session:
+    """Open a session with the region of the object that is marked in its mesh."""
     faces = live_mesh.region_faces(obj.data)
     assert faces is not None
+    region = read(obj, live_mesh.region_options(obj.data), faces)
     corners, counts = live_mesh.corners(obj.data, faces), live_mesh.counts(obj.data)
     return Session(faces, corners, counts, region, key=live_mesh.region_key(obj.data))
 
@@ -104,7 +104,7 @@ def candidate(obj: bpy.types.Object, options: FairOptions) -> Session:
     region = read(obj, options, None)
     corners, counts = live_mesh.corners(obj.data, region.faces), live_mesh.counts(obj.data)
     key = mesh_io.writable_key(obj)
-    return Session(region.faces, corners, counts, region, *where(obj, region), key=key)
+    return Session(region.faces, corners, counts, region, *where(obj, region), key=key, object_name=obj.name)
 
 
 def is_current(obj: bpy.types.Object, session: Session) -> bool:
@@ -131,27 +131,3 @@ def fits(session: Session, mesh: bpy.types.Mesh) -> bool:
         faces = live_mesh.region_faces(mesh)
         session.checked = faces is not None and np.array_equal(faces, session.faces)
     return session.checked and np.array_equal(live_mesh.corners(mesh, session.faces), session.corners)
-
-
-class Search:
-    """One search, for the region at these positions."""
-
-    def __init__(self, region: LiveRegion, positions: Floats, matrix: Floats) -> None:
-        """Begin at once. positions: (n, 3) of region.vertices; matrix: (4, 4) to world space."""
-        self._run = Run(lambda progress: sought(region, positions, matrix, progress))
-
-    @property
-    def stopped(self) -> bool:
-        return self._run.cancelled
-
-    def stop(self) -> None:
-        """Ask it to end; what it finds counts no more. Returns at once."""
-        self._run.cancel()
-
-    def wait(self, seconds: float | None) -> bool:
-        """Wait for the end, at most so long; return whether it has come."""
-        return self._run.wait(seconds)
-
-    def found(self) -> Found:
-        """Return how it ended; waits for that, and raises what went wrong on the way."""
-        return self._run.result()

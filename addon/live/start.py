@@ -6,21 +6,25 @@ Nothing is marked, and nothing moves, before the surface is there.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 
 import bpy
 
-from ..fair.engine import Progress, sub_range
+import fairing
+
+from ..fair.engine import Progress
 from ..host.context import edited_objects
 from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
 from ..mesh import mesh_io
 from ..options.options import FairOptions
 from ..run.asked import Asked, Say
 from ..run.background import Watched
-from ..run.job import Refused, objects_in_mode, refusing
+from ..run.job import each_of, objects_in_mode, refusing
 from ..selection.inspection import last_options
 from ..translations import translated
+from ..words.words import said
 from .live import live
-from .region import Found, first
+from .region import Found, sought
 from .session import Session, candidate, is_current
 
 
@@ -29,62 +33,49 @@ def enclosing(obj: bpy.types.Object) -> bool:
     return bool(obj.data.total_edge_sel and mesh_io.read_edit_mesh(obj, FairOptions()).in_patch.any())
 
 
-def read(context: bpy.types.Context, options: FairOptions) -> dict[str, Session]:
-    """Read every object in edit mode that has a selection, by name; raises Refused."""
+def read(context: bpy.types.Context, options: FairOptions) -> list[Session]:
+    """Read every object in edit mode that has a selection; raises Refused."""
     edited = edited_objects(context)
     chosen = [obj for obj in edited if obj.data.total_face_sel] or [obj for obj in edited if enclosing(obj)]
-    found = {}
+    found = []
     for obj in chosen:
         with refusing(obj.name):
-            found[obj.name] = candidate(obj, options)
+            found.append(candidate(obj, options))
     return found
 
 
-def solve(candidates: dict[str, Session], progress: Progress) -> list[Found]:
-    """Find the first surface of each, on arrays alone; raises Refused and fairing.Cancelled."""
-    found = []
-    for k, (name, session) in enumerate(candidates.items()):
-        part = sub_range(progress, k / len(candidates), (k + 1) / len(candidates))
-        assert part is not None
-        with refusing(name):
-            found.append(first(session.region, session.positions, session.matrix, part))
+def first(session: Session, progress: Progress | None) -> Found:
+    """Find a new region's surface, however long that takes; raises what engine.REFUSALS lists where there is none."""
+    found = sought(session.region, session.positions, session.matrix, progress, inf)
+    if found.positions is None:
+        raise fairing.SolverError(said("no_surface_for_region"))
     return found
 
 
 @dataclass
 class AskedLive(Asked):
-    candidates: dict[str, Session]
+    candidates: list[Session]
     options: FairOptions
 
     @property
     def size(self) -> int:
-        return sum(len(session.region.free) for session in self.candidates.values())
+        return sum(len(session.region.free) for session in self.candidates)
 
     def work(self, progress: Progress) -> list[Found]:
-        return solve(self.candidates, progress)
+        return each_of(self.candidates, first, progress)
 
     def is_as_read(self, context: bpy.types.Context) -> bool:
         objects = objects_in_mode(context)
         return context.mode == "EDIT_MESH" and all(
-            name in objects and is_current(objects[name], session) for name, session in self.candidates.items()
+            each.object_name in objects and is_current(objects[each.object_name], each) for each in self.candidates
         )
 
     def finish(self, context: bpy.types.Context, answers: list[Found], _say: Say) -> set[str]:
         objects = objects_in_mode(context)
-        for (name, session), found in zip(self.candidates.items(), answers, strict=True):
-            live.take(objects[name], session, self.options, found)
+        for session, found in zip(self.candidates, answers, strict=True):
+            live.take(objects[session.object_name], session, self.options, found)
         context.window_manager.fairing_live.on = True
         return {"FINISHED"}
-
-    def refuse(self, _context: bpy.types.Context, refusal: Refused, say: Say) -> set[str]:
-        """Say why there is none."""
-        return refuse(refusal, say)
-
-
-def refuse(refusal: Refused, say: Say) -> set[str]:
-    """Say why, and leave the last run as it is: it was another one."""
-    say({"ERROR"}, translated(str(refusal)))
-    return {"CANCELLED"}
 
 
 class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
@@ -106,6 +97,3 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
             self.report({"ERROR"}, translated(NO_FACE))
             return None
         return AskedLive(candidates, options)
-
-    def _refuse(self, _context: bpy.types.Context, refusal: Refused) -> set[str]:
-        return refuse(refusal, self.report)

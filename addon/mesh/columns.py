@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 
 from ..arrays.types import Floats, Ints, Mask
-from ..words.words import said
 
 
 def column(items: Any, name: str, width: int, dtype: Any) -> Any:
@@ -55,45 +53,22 @@ def values(mesh: bpy.types.Mesh, name: str, dtype: Any) -> Any:
     attribute = mesh.attributes.get(name)
     if attribute is None:
         return None
-    found = np.empty(len(attribute.data), dtype=dtype)
-    attribute.data.foreach_get("value", found)
-    return found
+    return column(attribute.data, "value", 1, dtype)
 
 
 def faces_within(mesh: bpy.types.Mesh, vertices: Mask) -> Ints:
     """Return the faces of a mesh in object mode with all vertices in the (n,) mask."""
-    starts = np.empty(len(mesh.polygons), dtype=np.int32)
-    corners = np.empty(len(mesh.loops), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_start", starts)
-    mesh.loops.foreach_get("vertex_index", corners)
-    if not len(starts):
+    if not len(mesh.polygons):
         return np.empty(0, dtype=np.int64)
-    return np.flatnonzero(np.logical_and.reduceat(vertices[corners], starts))
+    inside = vertices[indices(mesh.loops, "vertex_index")]
+    return np.flatnonzero(np.logical_and.reduceat(inside, indices(mesh.polygons, "loop_start")))
 
 
 def write_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
-    """Write one number per vertex (n,) to the vertex attribute `name`, in whichever mode.
-
-    Raises ValueError where the mesh has an attribute of that name for something else.
-    """
-    present = mesh.attributes.get(name)
-    if present is not None and (present.data_type, present.domain) != ("FLOAT", "POINT"):
-        raise ValueError(said("other_attribute", name=name))
-    if mesh.is_editmode:
-        _write_edit_attribute(mesh, name, values)
-        return
-    layer = present or mesh.attributes.new(name, "FLOAT", "POINT")
+    """Write one number per vertex (n,) to the vertex attribute `name` of a mesh in object mode."""
+    layer = mesh.attributes.get(name) or mesh.attributes.new(name, "FLOAT", "POINT")
     layer.data.foreach_set("value", values.astype(np.float32))
     mesh.update()
-
-
-def _write_edit_attribute(mesh: bpy.types.Mesh, name: str, values: Floats) -> None:
-    bm = bmesh.from_edit_mesh(mesh)
-    layers = bm.verts.layers.float
-    layer = layers.get(name) or layers.new(name)
-    for vertex, value in zip(bm.verts, values.tolist(), strict=True):
-        vertex[layer] = value
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
 
 
 _DTYPES = {"FLOAT": np.float32, "INT": np.int32, "BOOLEAN": np.bool_}  # by the type of the property

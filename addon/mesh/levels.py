@@ -12,6 +12,7 @@ import numpy as np
 from ..arrays.region import Reflection
 from ..arrays.types import Floats, Ints
 from ..words.words import said
+from .columns import indices
 from .painted import positions
 
 # Blender smooths what a level below the finest is given on its way up to that one. Of a hill of .3 on a unit sphere
@@ -64,8 +65,7 @@ def faces_at(mesh: bpy.types.Mesh, faces: Ints, level: int) -> Ints:
     """Return the faces of a level that the faces (k,) of the mesh itself have become: Blender keeps their order."""
     if level == 0:
         return faces
-    sizes = np.empty(len(mesh.polygons), dtype=np.int32)
-    mesh.polygons.foreach_get("loop_total", sizes)
+    sizes = indices(mesh.polygons, "loop_total")
     own = np.repeat(np.arange(len(sizes)), sizes * 4 ** (level - 1))
     found: Ints = np.flatnonzero(np.isin(own, faces))
     return found

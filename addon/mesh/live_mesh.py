@@ -51,18 +51,6 @@ def forget_region(mesh: bpy.types.Mesh) -> bool:
     return True
 
 
-def select_region(mesh: bpy.types.Mesh) -> None:
-    """Select exactly the faces of the region of a mesh in edit mode; needs face mode."""
-    bm = bmesh.from_edit_mesh(mesh)
-    layer = bm.faces.layers.int.get(LAYER)
-    for element in (*bm.faces, *bm.edges, *bm.verts):
-        element.select = False
-    for face in bm.faces if layer is not None else ():
-        face.select_set(bool(face[layer]) and not face.hide)
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(mesh, loop_triangles=False, destructive=False)
-
-
 def region_options(mesh: bpy.types.Mesh) -> FairOptions:
     """Return the options of the region; the defaults where they can't be read."""
     try:

@@ -48,17 +48,19 @@ def is_editable(mesh: bpy.types.Mesh) -> bool:
     return bool(mesh.is_editable and mesh.override_library is None)
 
 
-def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = "", *, widens: bool = True) -> MeshArrays:
+def read_edit_mesh(
+    obj: bpy.types.Object, options: FairOptions, faces: Ints | None = None, *, widens: bool = True
+) -> MeshArrays:
     """Read the mesh of an object in edit mode; the patch is its selected, visible faces.
 
-    region: an integer face attribute that stands in for the selection.
+    faces: that stand in for the selection.
     widens: whether faces that selected edges enclose, or that X mirror adds, are selected as well.
     Raises ValueError where `options` name a vertex group that the object does not have.
     """
     with snapshot(obj.data) as mesh:
         group = group_index(obj, options.pin_group, "pin_group")
-        if region:
-            selected = column(mesh.attributes[region].data, "value", 1, np.int32).astype(bool)
+        if faces is not None:
+            selected = np.isin(np.arange(len(mesh.polygons)), faces)
             arrays = _arrays(mesh, selected, group, options)
         elif widens:
             arrays = _selected(mesh, group, options)
@@ -66,7 +68,7 @@ def read_edit_mesh(obj: bpy.types.Object, options: FairOptions, region: str = ""
             arrays = _arrays(mesh, flags(mesh, ".select_poly", mesh.polygons), group, options)
         arrays = replace(weighed(arrays, mesh, obj, options), mirror_x=obj.data.use_mirror_x)
         arrays = replace(arrays, reflections=reflections(obj), shown_offsets=shown_offsets(obj))
-        return with_image(arrays) if widens and not region else arrays
+        return with_image(arrays) if widens and faces is None else arrays
 
 
 def _selected(mesh: bpy.types.Mesh, group: int | None, options: FairOptions) -> MeshArrays:

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays.types import Floats, Ints
 from ..words.words import said
-from .columns import FACE_SET, SCULPT_MASK, faces_within, indices, values, write_attribute
+from .columns import FACE_SET, SCULPT_MASK, column, faces_within, indices, values, write_attribute
 from .live_mesh import LAYER
 from .weights import group_weights
 
@@ -18,9 +18,8 @@ HALF = 0.5  # of the mask, from which on a vertex is masked
 
 
 def positions(mesh: bpy.types.Mesh) -> Floats:
-    flat = np.empty(3 * len(mesh.vertices), dtype=np.float32)
-    mesh.vertices.foreach_get("co", flat)
-    return flat.reshape(-1, 3).astype(np.float64)
+    found: Floats = column(mesh.vertices, "co", 3, np.float32).astype(np.float64)
+    return found
 
 
 def masked_faces(mesh: bpy.types.Mesh) -> Ints:
@@ -71,9 +70,7 @@ def only_visible_face_set(mesh: bpy.types.Mesh) -> int:
     sets = values(mesh, FACE_SET, np.int32)
     if sets is None:
         return 0
-    hidden = np.empty(len(mesh.polygons), dtype=bool)
-    mesh.polygons.foreach_get("hide", hidden)
-    shown = np.unique(sets[~hidden])
+    shown = np.unique(sets[~column(mesh.polygons, "hide", 1, bool)])
     return int(shown[0]) if len(shown) == 1 else 0
 
 

@@ -50,11 +50,6 @@ def selected_edges(mesh: bpy.types.Mesh) -> Mask:
     return np.array([edge.select for edge in bmesh.from_edit_mesh(mesh).edges], dtype=bool)
 
 
-def selected_faces(mesh: bpy.types.Mesh) -> Mask:
-    """Return the (f,) mask of the selected faces of a mesh in edit mode."""
-    return np.array([face.select for face in bmesh.from_edit_mesh(mesh).faces], dtype=bool)
-
-
 def deselect(bm: Any) -> None:
     """Take every vertex, edge and face out of the selection."""
     for element in (*bm.faces, *bm.edges, *bm.verts):

@@ -33,13 +33,6 @@ class FillOptions(Chosen):
     )
     spacing: float = shared.spacing()
     quads: bool = shared.quads()
-    islands: bool = option(
-        HOLES,
-        "Join Islands",
-        "Loose pieces of faces inside a hole are joined with it by one surface; otherwise the hole is closed over them",
-        False,
-        counts=lambda o: not o.bridge,
-    )
     longest: int = option(
         HOLES,
         "Most Edges",

@@ -135,11 +135,6 @@ class Chosen:
         return cls(**{each.name: stored[each.name] for each in table(cls) if each.name in stored})
 
 
-def differing(of: type[Chosen], options: Any) -> dict[str, Any]:
-    """Return the options that are not the default."""
-    return {each.name: getattr(options, each.name) for each in table(of) if each.is_set(options)}
-
-
 def named(of: type[Chosen], name: str) -> Option | None:
     return next((each for each in table(of) if each.name == name), None)
 

@@ -30,7 +30,6 @@ class Surface:
     normals: Floats  # (n, 3) unit, fitted
     curvature: Floats  # (n,) H in 1/length, negative where it is convex from outside
     deviation: Floats  # (n,) from the surface before the last run, in world space
-    boundary: Floats  # (e, 2, 3) edges around the patch
 
     def values(self, mode: str) -> Floats:
         """Return what is drawn in colours (n,): CURVATURE or DEVIATION."""
@@ -72,15 +71,7 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Float
             normals=fairing.vertex_normals(positions, triangles),
             curvature=fairing.mean_curvature(positions, triangles),
             deviation=np.zeros(len(used)) if deviation is None else deviation[used],
-            boundary=world.positions[_edges_around(world.triangles[world.in_patch[world.triangle_faces]])],
         )
-
-
-def _edges_around(triangles: Ints) -> Ints:
-    """Return the edges (e, 2) of one triangle alone."""
-    edges, uses = fairing.edges_with_uses(triangles)
-    around: Ints = edges[uses == 1]
-    return around
 
 
 def _grown(triangles: Ints, shown: Mask) -> Mask:

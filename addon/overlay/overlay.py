@@ -5,7 +5,6 @@ Measured after each change of the mesh (a timer on the main thread), drawn at ea
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import bpy
@@ -52,8 +51,7 @@ class Overlay:
         matrix = np.array(obj.matrix_world, dtype=np.float64)
         wanted = bpy.context.window_manager.fairing_overlay.mode == "DEVIATION"
         try:
-            surface = make_surface(mesh, matrix, whole, _deviation(obj.name, mesh, matrix) if wanted else None)
-            return surface if obj.data.is_editmode else replace(surface, boundary=np.empty((0, 2, 3)))
+            return make_surface(mesh, matrix, whole, _deviation(obj.name, mesh, matrix) if wanted else None)
         except ValueError as cause:  # no surface: a message instead of a wrong picture
             self.message = said("named", name=obj.name, text=str(cause))
             return None
@@ -74,9 +72,6 @@ class Overlay:
             batch.draw(self._shader)
         gpu.state.blend_set("NONE")
         gpu.state.depth_test_set("NONE")
-        for surface in self.surfaces:
-            if len(surface.boundary):
-                legend.draw_boundary(context, surface.boundary)
 
     def clear(self) -> None:
         self.surfaces, self._batches, self.message = (), [], ""

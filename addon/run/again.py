@@ -8,9 +8,12 @@ from dataclasses import asdict, replace
 from typing import Any
 
 import bpy
+import numpy as np
 from bpy.props import EnumProperty
 
 from ..host.polling import require, require_edit_mode
+from ..options.options import FairOptions
+from ..selection.selection import left_out_faces
 from ..verdict.verdict import (
     ADD_LEFT_OUT,
     ALL_KEYS,
@@ -20,7 +23,7 @@ from ..verdict.verdict import (
     WRITE,
 )
 from ..words.words import said
-from . import last_run
+from . import job, last_run
 
 # Each button, what helps most first: what it changes in the options, its name and its tooltip.
 _WAYS: dict[str, tuple[dict[str, Any], str, str]] = {
@@ -69,20 +72,20 @@ class MESH_OT_fair_again(bpy.types.Operator):
         return require_edit_mode(cls, context) and require(cls, last_run.has_regions(), said("nothing_faired"))
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        """Select what the last run had, change one thing, run; what is no better than before isn't written."""
+        """Run on what the last run had, with one change; what is no better than before isn't written."""
         options = replace(last_run.options(), **{"allow_folds": False, **_WAYS[self.way][0]})
         status = {"CANCELLED"}
         try:
-            last_run.select_region(context)
+            faces = last_run.faces(context)
             if self.way == ADD_LEFT_OUT:
-                bpy.ops.mesh.fair_select(what="LEFT_OUT")
-            bpy.ops.ed.undo_push(message="Select Region")  # what the redo panel goes back to
-            last_run.try_way("" if self.way == WRITE else self.way)
+                read = {task.object_name: task.mesh for task in job.read(context, FairOptions(), faces)}
+                faces = {name: np.flatnonzero(left_out_faces(mesh) | mesh.in_patch) for name, mesh in read.items()}
+            last_run.try_way("" if self.way == WRITE else self.way, faces)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
             status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
-        except (last_run.Changed, RuntimeError) as error:  # RuntimeError: what the run has reported
+        except (last_run.Changed, job.Refused, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
         finally:
-            last_run.try_way("")  # a run that did not begin has not taken it
+            last_run.way_to_try()  # a run that did not begin has not taken it
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

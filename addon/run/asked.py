@@ -50,11 +50,7 @@ class Asked:
         try:
             return self.finish(context, answer(), say)
         except job.Refused as refusal:
-            return self.refuse(context, refusal, say)
-
-    def refuse(self, context: bpy.types.Context, refusal: job.Refused, say: Say) -> set[str]:
-        """Say why nothing is written."""
-        return refuse(context, refusal, say)
+            return refuse(context, refusal, say)
 
     def swap(self, _context: bpy.types.Context) -> bool:
         """Let the meshes as they were read show the result before, or the other way round; return whether they do."""

@@ -135,7 +135,7 @@ class Watched:
         try:
             asked = self._read(context)
         except job.Refused as refusal:
-            return self._refuse(context, refusal)
+            return refuse(context, refusal, self.report)
         if asked is None:
             return {"CANCELLED"}
         self._asked, asked.begin = asked, begin
@@ -143,9 +143,6 @@ class Watched:
 
     def _at_once(self, context: bpy.types.Context) -> set[str]:
         return self._asked.settle(context, lambda: at_once(context, self._asked.work), self.report)
-
-    def _refuse(self, context: bpy.types.Context, refusal: job.Refused) -> set[str]:
-        return refuse(context, refusal, self.report)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the thread; Esc leaves the mesh as it is, and so does what calls `stop_all`."""

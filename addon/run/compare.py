@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import bpy
 import numpy as np
@@ -17,7 +18,7 @@ from ..remesh.remeshing import Remeshed
 from ..translations import translated
 from ..verdict.outcome import Moves
 from ..words.words import said
-from .job import Task, objects_in_mode
+from .job import objects_in_mode
 
 ENOUGH = 1000  # vertices that tell whether a run was undone: each step of undo asks
 
@@ -42,35 +43,22 @@ class _Last:
 _last = _Last()
 
 
-def remember(tasks: list[Task], outcomes: Sequence[Moves]) -> None:
-    """Keep both states of a run that will be written now."""
-    _remember(
-        [
-            (task.object_name, task.mesh.positions, outcome, free_normals(bpy.data.objects[task.object_name].data))
-            for task, outcome in zip(tasks, outcomes, strict=True)
-        ]
-    )
-
-
-def remember_one(object_name: str, before: Floats, outcome: Moves, normals: Floats | None) -> None:
-    """Keep both states of a run outside edit mode; before: positions (n, 3) of the whole mesh, normals: free ones."""
-    _remember([(object_name, before, outcome, normals)])
-
-
-def _remember(runs: list[tuple[str, Floats, Moves, Floats | None]]) -> None:
-    _last.pairs = tuple(_pair(*run) for run in runs)
-    if any(isinstance(outcome, Remeshed) or outcome.keys for _, _, outcome, _ in runs):
+def remember(tasks: Sequence[Any], outcomes: Sequence[Moves]) -> None:
+    """Keep both states of a run that will be written now; tasks: with `object_name` and `mesh`."""
+    _last.pairs = tuple(_pair(task, outcome) for task, outcome in zip(tasks, outcomes, strict=True))
+    if any(isinstance(outcome, Remeshed) or outcome.keys for outcome in outcomes):
         forget()  # there are no pairs, or more than these
 
 
-def _pair(object_name: str, before: Floats, outcome: Moves, normals: Floats | None) -> Pair:
+def _pair(task: Any, outcome: Moves) -> Pair:
+    before = task.mesh.positions
     return Pair(
-        object_name=object_name,
+        object_name=task.object_name,
         vertex_count=len(before),
         vertices=outcome.vertices,
         before=before[outcome.vertices],
         after=outcome.positions.astype(np.float32).astype(np.float64),
-        normals=normals,
+        normals=free_normals(bpy.data.objects[task.object_name].data),
     )
 
 

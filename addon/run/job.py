@@ -6,7 +6,7 @@ Nothing is written unless all objects can be done.
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import Any, Protocol, TypeVar
@@ -32,7 +32,6 @@ from ..words.words import said
 
 Answer = TypeVar("Answer")
 Done = TypeVar("Done")
-Each = TypeVar("Each", bound="AsRead")
 
 
 class Refused(Exception):
@@ -77,23 +76,28 @@ class Task:
         return self.mesh if self.whole is None else self.whole.mesh
 
 
-def read(context: bpy.types.Context, options: FairOptions) -> list[Task]:
-    """Read every object in edit mode that has selected faces, free vertices or not; raises Refused."""
+def read(context: bpy.types.Context, options: FairOptions, faces: Mapping[str, Ints] | None = None) -> list[Task]:
+    """Read every object in edit mode that has selected faces, free vertices or not; raises Refused.
+
+    faces: by the names of objects, which stand in for the selection.
+    """
     tasks = []
     for obj in edited_objects(context):
+        if faces is not None and obj.name not in faces:
+            continue
         with refusing(obj.name, ValueError):
-            task = read_object(obj, options)
+            task = read_object(obj, options, None if faces is None else faces[obj.name])
         if task.mesh.in_patch.any():
             tasks.append(task)
     return tasks
 
 
-def read_object(obj: bpy.types.Object, options: FairOptions) -> Task:
+def read_object(obj: bpy.types.Object, options: FairOptions, faces: Ints | None = None) -> Task:
     """Read one object in edit mode; raises ValueError where it can't be faired."""
     key = mesh_io.writable_key(obj)
     if options.remesh:
         mesh_io.check_new_faces(obj)
-    mesh = mesh_io.read_edit_mesh(obj, options)
+    mesh = mesh_io.read_edit_mesh(obj, options, faces)
     if options.all_keys and not options.remesh:
         mesh = replace(mesh, keys=all_keys.read_keys(obj), shown_offsets=None)
     matrix = np.array(obj.matrix_world, dtype=np.float64)
@@ -150,9 +154,9 @@ def solve(
 
 
 def each_of(
-    tasks: Sequence[Each], solve_one: Callable[[Each, Progress | None], Answer], progress: Progress
+    tasks: Sequence[Any], solve_one: Callable[[Any, Progress | None], Answer], progress: Progress
 ) -> list[Answer]:
-    """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled."""
+    """Solve task after task, on arrays alone, each with its `object_name`; raises Refused and fairing.Cancelled."""
     outcomes = []
     ends = np.cumsum([0, *(getattr(task, "free_count", 0) or 1 for task in tasks)])
     for task, begin, end in zip(tasks, ends[:-1] / ends[-1], ends[1:] / ends[-1], strict=True):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import bpy
 import numpy as np
 
+from ..arrays.region import nothing
 from ..arrays.types import Floats, Ints
 from ..mesh import selecting
 from ..mesh.remeshed import Written
@@ -34,10 +35,10 @@ class _Last:
 
     def __init__(self) -> None:
         self.regions: tuple[Region, ...] = ()
-        self.seen: tuple[Region, ...] = ()  # whose selection gave way to some vertices
+        self.refused: tuple[Region, ...] = ()  # that a refusal is about
         self.options = FairOptions()
         self.standing: tuple[int, float] = (0, 0.0)
-        self.way = ""  # that the next run is to try
+        self.next: tuple[str, dict[str, Ints] | None] = ("", None)  # the way that it is to try, on which faces
 
 
 _last = _Last()
@@ -47,12 +48,7 @@ def remember(tasks: list[Task], outcomes: list[Fairing], options: FairOptions, r
     """Keep what a run was about, and what came of it."""
     _last.options, _last.standing = options, standing(report)
     _last.regions = tuple(_region(task, outcome.verdict.spots) for task, outcome in zip(tasks, outcomes, strict=True))
-    _last.seen = _last.regions
-
-
-def keep_selection(tasks: list[Task]) -> None:
-    """Keep which faces are selected, as something else will be."""
-    _last.seen = tuple(_region(task, np.empty(0, dtype=np.int64)) for task in tasks)
+    _last.refused = ()
 
 
 def _region(task: Task, spots: Ints) -> Region:
@@ -60,10 +56,10 @@ def _region(task: Task, spots: Ints) -> Region:
 
 
 def point_out(context: bpy.types.Context, name: str, vertices: Ints) -> None:
-    """Keep which vertices of an object a refusal is about, where that is in edit mode, and which faces are selected."""
+    """Keep which vertices of an object a refusal is about, where that is in edit mode."""
     if len(vertices) and context.mode == "EDIT_MESH":
-        faces = selecting.selected_faces(objects_in_mode(context)[name].data)
-        _last.seen = (Region(name, len(faces), np.flatnonzero(faces), vertices),)
+        count = selecting.face_count(objects_in_mode(context)[name].data)
+        _last.refused = (Region(name, count, nothing(), vertices),)
 
 
 def renumber(written: list[Written | None]) -> None:
@@ -72,23 +68,22 @@ def renumber(written: list[Written | None]) -> None:
         region if new is None else Region(region.object_name, new.face_count, new.faces, new.spots)
         for region, new in zip(_last.regions, written, strict=True)
     )
-    _last.seen = _last.regions
 
 
 def forget() -> None:
-    _last.regions = _last.seen = ()
-    _last.way = ""
+    _last.regions = _last.refused = ()
+    _last.next = ("", None)
 
 
-def try_way(way: str) -> None:
-    """Have the next run written only where it comes out better than the last one; empty: in any case."""
-    _last.way = way
+def try_way(way: str, faces: dict[str, Ints]) -> None:
+    """Have the next run take these faces, and written only where it comes out better than the last; "": in any case."""
+    _last.next = (way, faces)
 
 
-def way_to_try() -> str:
+def way_to_try() -> tuple[str, dict[str, Ints] | None]:
     """Return what try_way has set, once."""
-    way, _last.way = _last.way, ""
-    return way
+    found, _last.next = _last.next, ("", None)
+    return found
 
 
 def is_improved_by(report: Report) -> bool:
@@ -105,7 +100,7 @@ def options() -> FairOptions:
 
 
 def has_spots() -> bool:
-    return any(len(region.spots) for region in _last.regions or _last.seen)
+    return any(len(region.spots) for region in _last.regions or _last.refused)
 
 
 class Changed(Exception):
@@ -128,7 +123,7 @@ def _found(context: bpy.types.Context, regions: tuple[Region, ...]) -> list[tupl
 
 def worst_spot(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
     """Return where in world space the worst of the spots is, its normal, and how much around it is of interest."""
-    region, mesh = next(pair for pair in _found(context, _last.regions or _last.seen) if len(pair[0].spots))
+    region, mesh = next(pair for pair in _found(context, _last.regions or _last.refused) if len(pair[0].spots))
     place, normal, edge = selecting.surroundings(mesh, int(region.spots[0]))
     matrix = np.array(objects_in_mode(context)[region.object_name].matrix_world)
     linear = matrix[:3, :3]
@@ -136,34 +131,22 @@ def worst_spot(context: bpy.types.Context) -> tuple[Floats, Floats, float]:
     return linear @ place + matrix[:3, 3], np.linalg.solve(linear.T, normal), SIGHT * edge * size
 
 
-def can_reselect(context: bpy.types.Context) -> bool:
-    """Return whether the faces of the last run, or those that were looked at, are there still."""
-    try:
-        return bool(_found(context, _last.seen))
-    except Changed:
-        return False
-
-
-def reselect(context: bpy.types.Context) -> None:
-    """Select these faces, in face mode; raises Changed."""
-    _select_faces(context, _last.seen)
-
-
 def select_spots(context: bpy.types.Context) -> None:
     """Select the vertices that the verdict or the refusal is about, in vertex mode; raises Changed."""
-    found = _found(context, _last.regions or _last.seen)
+    found = _found(context, _last.regions or _last.refused)
     context.tool_settings.mesh_select_mode = (True, False, False)
     for region, mesh in found:
         selecting.select_vertices(mesh, region.spots)
 
 
+def faces(context: bpy.types.Context) -> dict[str, Ints]:
+    """Return the faces that were faired, by the names of objects; raises Changed."""
+    return {region.object_name: region.faces for region, _ in _found(context, _last.regions)}
+
+
 def select_region(context: bpy.types.Context) -> None:
     """Select the faces that were faired, in face mode; raises Changed."""
-    _select_faces(context, _last.regions)
-
-
-def _select_faces(context: bpy.types.Context, regions: tuple[Region, ...]) -> None:
-    found = _found(context, regions)
+    found = _found(context, _last.regions)
     context.tool_settings.mesh_select_mode = (False, False, True)
     for region, mesh in found:
         selecting.select_faces(mesh, region.faces)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import bpy
 
+from ..arrays.types import Ints
 from ..host.polling import NO_FACE, NO_FREE, SELECT_FACES, require_edit_mode, require_idle
 from ..options.options import FairOptions
 from ..options.redo_panel import draw_options
@@ -35,12 +37,14 @@ class InEditMode(Redone):
         last_run.forget()
         self.report({kind}, translated(reason))
 
-    def read_faces(self, context: bpy.types.Context, options: FairOptions) -> tuple[list[job.Task], list[job.Task]]:
+    def read_faces(
+        self, context: bpy.types.Context, options: FairOptions, faces: Mapping[str, Ints] | None = None
+    ) -> tuple[list[job.Task], list[job.Task]]:
         """Return the selected faces of each object where some vertex is free, and those where none is.
 
         Says so where there are none of the first; raises Refused.
         """
-        selected = job.read(context, options)
+        selected = job.read(context, options, faces)
         free = [task for task in selected if task.free_count]
         if not free:
             self.nothing(context, NO_FREE if selected else NO_FACE, "INFO")

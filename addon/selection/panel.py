@@ -32,8 +32,6 @@ class VIEW3D_PT_fairing_selection(SidebarPanel, bpy.types.Panel):
             return
         for found in watch.found:
             _draw_inspection(self.layout, found, len(watch.found) > 1)
-        if not any(found.faces for found in watch.found) and last_run.can_reselect(context):
-            draw_select(self.layout, "REGION", icon="FILE_REFRESH")
         if last_run.has_spots() and not last_run.has_regions():  # of a refusal
             draw_select(self.layout, "SPOTS", icon="VIEWZOOM")
 

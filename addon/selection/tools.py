@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 from bpy.props import EnumProperty
 
+from ..arrays.region import nothing
 from ..fair.engine import REFUSALS, bad_outline
 from ..host.context import edited_objects
 from ..host.polling import require_edit_mode
@@ -35,7 +36,6 @@ def _bad(context: bpy.types.Context) -> bool:
     found = [bad_outline(problem_of(task.mesh, task.matrix)) for task in tasks]
     if not any(map(len, found)):
         return False
-    last_run.keep_selection(tasks)
     context.tool_settings.mesh_select_mode = _VERTICES
     objects = job.objects_in_mode(context)
     for task, vertices in zip(tasks, found, strict=True):
@@ -62,26 +62,19 @@ def _spots(context: bpy.types.Context) -> bool:
     return True
 
 
-def _region(context: bpy.types.Context) -> bool:
-    if not last_run.can_reselect(context):
-        return False
-    last_run.reselect(context)
-    return True
-
-
 def _live(context: bpy.types.Context) -> bool:
     meshes = [obj.data for obj in edited_objects(context)]
     if not any(map(live_mesh.has_region, meshes)):
         return False
     context.tool_settings.mesh_select_mode = _FACES  # the others would select faces between the region's vertices, too
     for mesh in meshes:
-        live_mesh.select_region(mesh)
+        faces = live_mesh.region_faces(mesh)
+        selecting.select_faces(mesh, nothing() if faces is None else faces)
     return True
 
 
 _WHAT = (
     ("SPOTS", "Show Worst Spots", "Select the spots that the verdict is about and turn the view to them"),
-    ("REGION", "Select Region Again", "Select the faces of the last run again, or those whose boundary was examined"),
     (
         "BAD",
         "Select Bad Boundary",
@@ -95,7 +88,6 @@ NAMES = {identifier: name for identifier, name, _ in _WHAT}
 # Each selects, and returns whether there was something; raises last_run.Changed and what reading does.
 _SELECTS: dict[str, Callable[[bpy.types.Context], bool]] = {
     "SPOTS": _spots,
-    "REGION": _region,
     "BAD": _bad,
     "LEFT_OUT": _left_out,
     "LIVE": _live,
@@ -109,7 +101,7 @@ class MESH_OT_fair_select(bpy.types.Operator):
     bl_label = "Fair Select"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
-    what: EnumProperty(name="What", description="What is selected", items=_WHAT, default="REGION")
+    what: EnumProperty(name="What", description="What is selected", items=_WHAT, default="SPOTS")
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:

@@ -1,4 +1,4 @@
-"""Tools of the toolbar: draw around faces or paint over them and let go, drag on an edge, click a face set.
+"""Tools of the toolbar: draw around faces and let go, drag on an edge, click a face set.
 
 In edit mode each is a macro: Blender's own way to select, then ours. One step of undo takes both back.
 """
@@ -26,15 +26,6 @@ class MESH_OT_fair_lasso(bpy.types.Macro):
     steps = ("VIEW3D_OT_select_lasso", "MESH_OT_fair_region")
 
 
-class MESH_OT_fair_paint(bpy.types.Macro):
-    """Paint over the faces to be faired and let go"""
-
-    bl_idname = "mesh.fair_paint"
-    bl_label = "Fair Paint"
-    bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
-    steps = ("MESH_OT_fair_stroke", "MESH_OT_fair_region")
-
-
 class MESH_OT_fair_fillet_edge(bpy.types.Macro):
     """Press on an edge and drag: its loop is rounded as far as the mouse goes"""
 
@@ -44,7 +35,7 @@ class MESH_OT_fair_fillet_edge(bpy.types.Macro):
     steps = ("MESH_OT_loop_select", "MESH_OT_fair_fillet")
 
 
-MACROS = (MESH_OT_fair_lasso, MESH_OT_fair_paint, MESH_OT_fair_fillet_edge)
+MACROS = (MESH_OT_fair_lasso, MESH_OT_fair_fillet_edge)
 
 
 class _Tool:
@@ -61,24 +52,9 @@ class FairLassoTool(_Tool, bpy.types.WorkSpaceTool):
     bl_keymap = ((MESH_OT_fair_lasso.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),)
 
     def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        _draw_fair(layout, tool, MESH_OT_fair_lasso.bl_idname)
-
-
-class FairPaintTool(_Tool, bpy.types.WorkSpaceTool):
-    bl_context_mode = "EDIT_MESH"
-    bl_idname = "intrinsic_fairing.paint"
-    bl_label = "Fair Paint"
-    bl_description = "Paint over the faces to be faired and let go"
-    bl_icon = "ops.generic.select_circle"
-    bl_keymap = ((MESH_OT_fair_paint.bl_idname, {"type": "LEFTMOUSE", "value": "PRESS"}, None),)
-
-    def draw_settings(_context: bpy.types.Context, layout: Any, tool: Any) -> None:
-        properties = tool.operator_properties(MESH_OT_fair_paint.bl_idname)
-        layout.prop(properties.MESH_OT_fair_stroke, "radius")
-        _draw_fair(layout, tool, MESH_OT_fair_paint.bl_idname)
-
-    def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
-        _draw_circle(xy, tool.operator_properties(MESH_OT_fair_paint.bl_idname).MESH_OT_fair_stroke.radius)
+        properties = tool.operator_properties(MESH_OT_fair_lasso.bl_idname).MESH_OT_fair_region
+        for name in _IN_HEADER:
+            layout.prop(properties, name)
 
 
 class FairFilletTool(_Tool, bpy.types.WorkSpaceTool):
@@ -115,7 +91,8 @@ class FairBrushTool(_Tool, bpy.types.WorkSpaceTool):
             layout.prop(properties, name)
 
     def draw_cursor(_context: bpy.types.Context, tool: Any, xy: tuple[int, int]) -> None:
-        _draw_circle(xy, tool.operator_properties(MESH_OT_fair_brush.bl_idname).radius)
+        radius = tool.operator_properties(MESH_OT_fair_brush.bl_idname).radius
+        draw_circle_2d(xy, (1.0, 1.0, 1.0, 0.8), radius, segments=32)
 
 
 class _FaceSetTool(_Tool):
@@ -149,22 +126,11 @@ class FairFaceSetObjectTool(_FaceSetTool, bpy.types.WorkSpaceTool):
 
 TOOLS: tuple[Any, ...] = (
     FairLassoTool,
-    FairPaintTool,
     FairFilletTool,
     FairBrushTool,
     FairFaceSetSculptTool,
     FairFaceSetObjectTool,
 )
-
-
-def _draw_circle(xy: tuple[int, int], radius: int) -> None:
-    draw_circle_2d(xy, (1.0, 1.0, 1.0, 0.8), radius, segments=32)
-
-
-def _draw_fair(layout: Any, tool: Any, macro: str) -> None:
-    properties = tool.operator_properties(macro).MESH_OT_fair_region
-    for name in _IN_HEADER:
-        layout.prop(properties, name)
 
 
 def register() -> None:

@@ -12,7 +12,6 @@ from ..host.text import SidebarPanel, draw_text, pair
 from ..live.live import live
 from ..live.operators import MESH_OT_fair_live_forget
 from ..live.start import MESH_OT_fair_live_region
-from ..options import chosen as chosen_options
 from ..options.preset_operators import MESH_MT_fair_fill_runs, MESH_MT_fair_region_runs
 from ..overlay.overlay import overlay
 from ..run.compare import MESH_OT_fair_compare
@@ -39,7 +38,6 @@ class VIEW3D_PT_fairing(SidebarPanel, bpy.types.Panel):
         if context.mode == "EDIT_MESH":
             _draw_button(column, MESH_OT_fair_region, "MOD_SMOOTH", MESH_MT_fair_region_runs)
             _draw_button(column, MESH_OT_fair_fill, "MESH_ICOSPHERE", MESH_MT_fair_fill_runs)
-            chosen_options.draw(layout, context)
         else:
             _draw_masked(column, context)
         layout.operator(MESH_OT_fair_compare.bl_idname, icon="ARROW_LEFTRIGHT")

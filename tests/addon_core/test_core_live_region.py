@@ -12,7 +12,7 @@ from addon.arrays.types import Floats, Ints
 from addon.fair.boundary import boundary
 from addon.fair.held_curves import none, with_pinned_edges
 from addon.fair.solve import solve
-from addon.live.region import LiveRegion, first, sought, surroundings
+from addon.live.region import LiveRegion, sought, surroundings
 from addon.options.options import FairOptions
 
 import fairing
@@ -214,21 +214,24 @@ def region(solvable: str, tried: list[str], failing: type[Exception] | None = No
 def test_a_search_that_was_stopped_tries_no_other_way() -> None:
     tried: list[str] = []
     go_on = iter([True, False])
-    assert sought(region("stand_in", tried), NOWHERE, NOWHERE, lambda *_: next(go_on)).positions is None
-    assert tried == ["answer"]
+    with pytest.raises(fairing.Cancelled):
+        sought(region("stand_in", tried, fairing.Cancelled), NOWHERE, NOWHERE, lambda *_: next(go_on))
+    assert tried == ["afresh"]
 
 
-def test_a_new_region_without_any_surface_is_refused() -> None:
-    with pytest.raises(fairing.SolverError, match="No fair surface was found for the region"):
-        first(region("", []), NOWHERE, NOWHERE, lambda *_: True)
-
-
-@pytest.mark.parametrize("kind", [fairing.Cancelled, ValueError])
-def test_who_cancels_or_gives_bad_input_gets_no_other_surface(kind: type[Exception]) -> None:
+@pytest.mark.parametrize("kind", [None, fairing.Cancelled, fairing.SolverError])
+def test_where_there_is_none_in_time_another_surface_stands_in(kind: type[Exception] | None) -> None:
     tried: list[str] = []
-    with pytest.raises(kind):
-        first(region("stand_in", tried, kind), NOWHERE, NOWHERE, lambda *_: True)
-    assert tried == ["answer"]
+    assert sought(region("stand_in", tried, kind), NOWHERE, NOWHERE, None).stands_in
+    assert tried == ["afresh", "stand_in"]
+    assert sought(region("", [], kind), NOWHERE, NOWHERE, None).positions is None
+
+
+def test_bad_input_gets_no_other_surface() -> None:
+    tried: list[str] = []
+    with pytest.raises(ValueError, match="no"):
+        sought(region("stand_in", tried, ValueError), NOWHERE, NOWHERE, None)
+    assert tried == ["afresh"]
 
 
 def test_the_first_surface_is_near_the_answer() -> None:

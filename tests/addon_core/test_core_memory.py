@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 from addon.arrays.harmonic import blended, columns, limited_like
-from addon.arrays.places import as_indices, edge_keys, pair_keys, places_of, renumbered
+from addon.arrays.places import as_indices, edge_keys, pair_keys, places_of
 from addon.arrays.triangulation import split_quads, zigzag
 from addon.arrays.types import Ints
 from addon.fair.memory import Memory, digest
@@ -157,26 +157,6 @@ def test_numbers_and_masks_are_understood(given: Any, meant: list[int]) -> None:
 def test_anything_else_is_refused_by_name(given: Any, error: type[Exception], reported: str) -> None:
     with pytest.raises(error, match=reported):
         as_indices("faces", given, 4)
-
-
-def test_points_in_another_order_are_found() -> None:
-    rng = np.random.default_rng(5)
-    before = rng.integers(-3, 4, (200, 3)).astype(float)
-    before = np.unique(before, axis=0)[rng.permutation(len(np.unique(before, axis=0)))]
-    order = rng.permutation(len(before))
-    now = np.empty_like(before)
-    now[order] = before
-    np.testing.assert_array_equal(renumbered(before, now), order)
-    np.testing.assert_array_equal(renumbered(before, before), np.arange(len(before)))
-
-
-def test_other_points_and_points_in_one_place_are_not() -> None:
-    before = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
-    assert renumbered(before, before[:2]) is None
-    assert renumbered(before, before + 1e-9) is None
-    twice = before[[0, 1, 1]]
-    assert renumbered(twice, twice[[1, 0, 2]]) is None
-    np.testing.assert_array_equal(renumbered(twice, twice), [0, 1, 2])  # nothing was mixed
 
 
 # Means of turns, which keep their lengths, and how many vertex groups a new vertex is in.

@@ -150,7 +150,7 @@ def begin_run():
     return part("run.runner").Run(partial(endless, solve))
 
 def begin_search():
-    search = part("live.session")
+    search = part("live.live")
     search.sought = lambda region, points, matrix, progress: endless(partial(region.afresh, points, matrix), progress)
     scene()
     home = part("live.live")
@@ -160,7 +160,7 @@ def begin_search():
     bpy.context.object.scale.z = 2.0
     bpy.context.view_layer.update()
     assert home.settle_all()
-    return home.live.sessions["Grid"].search._run
+    return home.live.sessions["Grid"].search
 
 def begun():
     run = begin()

@@ -189,7 +189,7 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     meshes.enter(obj, faces)
     options = module("options.options").FairOptions(bulge=0.4)
     session = module("live.session").candidate(obj, options)
-    first = module("live.region").first(session.region, session.positions, session.matrix, lambda *_: True)
+    first = module("live.region").sought(session.region, session.positions, session.matrix, lambda *_: True)
     live.take(obj, session, options, first)
     switch(True)
     height = now()[:, 2].max()
@@ -309,6 +309,29 @@ def test_what_cannot_be_live_is_refused() -> None:
         session.candidate(obj, options.FairOptions(boundary_normals="CUSTOM"))
     assert np.array_equal(now(), before)
     assert not module("mesh.live_mesh").has_region(obj.data)
+
+
+def test_what_live_refuses_is_said_as_of_any_run() -> None:
+    """The report has the reason, a button what it is about; the mesh and its selection are as before."""
+    obj = meshes.grid(12)
+    points = meshes.positions(obj)
+    (middle,) = np.flatnonzero((points[:, :2] == 0.0).all(axis=1))
+    points[middle] = np.nan
+    meshes.move(obj, points)
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: not max(abs(c.x), abs(c.y)) > 0.6))
+    bpy.context.window_manager.fairing_report.free_vertices = 7  # of a run before
+    before = now()
+    selected = [face.select for face in bmesh.from_edit_mesh(obj.data).faces]
+    with pytest.raises(RuntimeError, match=f"Vertex {middle} "):
+        bpy.ops.mesh.fair_live_region()
+    report = meshes.report()
+    assert (report.verdict, report.objects, report.free_vertices) == ("UNUSABLE", obj.name, 0)
+    assert np.array_equal(now(), before, equal_nan=True)
+    assert [face.select for face in bmesh.from_edit_mesh(obj.data).faces] == selected
+    assert not module("mesh.live_mesh").has_region(obj.data)
+    assert not bpy.context.window_manager.fairing_live.on
+    assert bpy.ops.mesh.fair_select(what="SPOTS") == {"FINISHED"}
+    assert [vertex.index for vertex in bmesh.from_edit_mesh(obj.data).verts if vertex.select] == [middle]
 
 
 @pytest.mark.parametrize("mode", [(True, False, False), (False, False, True)])

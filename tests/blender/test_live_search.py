@@ -169,7 +169,7 @@ def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, wa
     else:
         bpy.data.meshes.remove(bpy.data.objects["Grid"].data)
     assert tick(home) is None
-    assert search.stopped
+    assert search.cancelled
     slow.go.set()
     module("run.runner").stop_all()
     assert tick(home) is None

@@ -216,23 +216,6 @@ def test_other_redo_panels_are_of_the_same_kind(operator: str) -> None:
     assert {*everything} == {*asdict(options_of(operator)())}
 
 
-def test_what_the_last_run_had_is_shown_and_reset() -> None:
-    """By its label; the cross brings the default back."""
-    chosen = module("options.chosen")
-    last = bpy.context.window_manager.operator_properties_last("mesh.fair_region")
-    for name in chosen.last_chosen(bpy.context):
-        last.property_unset(name)
-    assert chosen.last_chosen(bpy.context) == {}
-    last.factor, last.remesh, last.shape = 0.5, True, "MINIMAL_ENERGY"
-    layout = Layout()
-    chosen.draw(layout, bpy.context)
-    labels = [text for text in layout.reported if not text.startswith("mesh.")]
-    assert labels == ["Factor", "0.5", "Shape", "Minimal Energy", "Remesh", "on", "Fair with These"]
-    for name in ("factor", "remesh", "shape"):
-        assert bpy.ops.mesh.fair_reset(option=name) == {"FINISHED"}
-    assert chosen.last_chosen(bpy.context) == {}
-
-
 def footprint() -> dict[str, Any]:
     """Everything that an add-on may leave behind."""
     handlers = bpy.app.handlers

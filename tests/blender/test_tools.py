@@ -35,7 +35,7 @@ def test_they_go_with_the_extension() -> None:
     addon_utils.disable(ID)
     assert in_toolbar("EDIT_MESH") == in_toolbar("SCULPT") == in_toolbar("OBJECT") == []
     addon_utils.enable(ID)
-    assert in_toolbar("EDIT_MESH") == ["lasso", "paint", "fillet"]
+    assert in_toolbar("EDIT_MESH") == ["lasso", "fillet"]
 
 
 def test_what_they_press_exists() -> None:
@@ -52,22 +52,11 @@ def test_what_they_press_exists() -> None:
 
 
 def test_a_stroke_leaves_no_gap() -> None:
-    between = module("fair.strokes").between
+    between = module("fair.brush").between
     assert list(between((0, 0), (0, 0), 5.0)) == [(0, 0)]
     places = np.array([(3.0, 1.0), *between((3, 1), (33, -39), 7.0)])
     assert np.linalg.norm(np.diff(places, axis=0), axis=1).max() <= 7.0
     np.testing.assert_allclose(places[-1], (33, -39))
-
-
-def test_blender_may_end_the_wait_for_a_click() -> None:
-    """As it does where it closes the window or the add-on goes: pointer and status bar are as before."""
-    left: list[Any] = []
-    window = SimpleNamespace(
-        cursor_modal_restore=lambda: left.append("pointer"), workspace=SimpleNamespace(status_text_set=left.append)
-    )
-    context = SimpleNamespace(window=None, window_manager=SimpleNamespace(windows=[window]))
-    module("host.picking").Picks().cancel(context)
-    assert left == ["pointer", None]
 
 
 def test_a_timer_finds_another_window_or_none(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,6 +1,5 @@
 """Nothing bad is written silently; what helps is a button; a run that was undone is not shown as the last."""
 
-from dataclasses import replace
 from typing import Any
 
 import bmesh
@@ -100,46 +99,6 @@ def pulled_pin(aside: float = 0.25) -> bpy.types.Object:
     return obj
 
 
-@pytest.fixture
-def takes_any_texture(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Automatic looks at no spike beforehand: a fold may come of other shapes, too."""
-    monkeypatch.setattr(module("mesh.mesh_io"), "is_spoilt", lambda _mesh: False)
-
-
-@pytest.mark.usefixtures("takes_any_texture")
-@pytest.mark.parametrize("aside", [0.01, 0.25])
-def test_automatic_keeps_no_texture_that_folds(aside: float) -> None:
-    results = {}
-    for choice in ("UNIFORM", "AUTOMATIC"):
-        obj = pulled_pin(aside)
-        meshes.run(pin_group="Pin", inner_fairness=choice)
-        was_fair = choice == "AUTOMATIC" and aside < 0.1  # its texture is that of the surface as it lies
-        assert meshes.report().verdict == ("LOOK" if was_fair else "GOOD")
-        assert meshes.report().reason.startswith("Nothing changed") == was_fair
-        meshes.leave()
-        results[choice] = meshes.positions(obj).tobytes()
-    folds = aside > 0.1
-    assert ("Uniform was used instead" in meshes.report().warnings) == folds
-    assert (results["AUTOMATIC"] == results["UNIFORM"]) == folds
-
-
-@pytest.mark.usefixtures("takes_any_texture")
-def test_automatic_refuses_where_even_vertices_are_not_usable_either(monkeypatch: pytest.MonkeyPatch) -> None:
-    pulled_pin()
-    home, tried = module("fair.fair_arrays"), []
-
-    def unusable(mesh: Any, matrix: Any, options: Any, solved: Any, progress: Any) -> Any:
-        tried.append(options.inner_fairness)
-        found = module("verdict.outcome").outcome(mesh, matrix, options, solved, progress)
-        return replace(found, verdict=replace(found.verdict, grade="UNUSABLE"))
-
-    monkeypatch.setattr(home, "outcome", unusable)
-    with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
-        meshes.run(pin_group="Pin")
-    assert tried == ["AUTOMATIC", "UNIFORM"]
-    assert "Uniform was used instead" not in meshes.report().warnings
-
-
 def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
     """The old mesh folds at the pin, and so does what keeps its texture; evenly spread vertices don't."""
     pulled_pin()
@@ -151,7 +110,7 @@ def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
 
 
 def test_another_way_that_is_no_better_is_not_written() -> None:
-    """A good result is as good as it gets: the mesh, the report and the selection stay, the button goes."""
+    """A good result is as good as it gets: the mesh, the report and the user's selection stay, the button goes."""
     obj = meshes.grid(16)
     points = meshes.positions(obj)
     points[:, 2] = 0.2 * np.exp(-20 * (points**2).sum(axis=1))
@@ -163,28 +122,33 @@ def test_another_way_that_is_no_better_is_not_written() -> None:
     assert report.verdict == "GOOD"
     report.remedies = "EVEN_SPREAD,ALL_KEYS"
     free = report.free_vertices
+    bpy.ops.mesh.select_less()
+    chosen = selected_faces(obj)
+    assert 0 < len(chosen) < np.count_nonzero(faces)
     before = meshes.contents_in_edit_mode(obj.name)
     for way, left in (("ALL_KEYS", "EVEN_SPREAD"), ("EVEN_SPREAD", "")):
         assert bpy.ops.mesh.fair_again(way=way) == {"CANCELLED"}
         assert (report.remedies, report.free_vertices) == (left, free)
         assert meshes.contents_in_edit_mode(obj.name) == before
-        assert selected_faces(bpy.data.objects[obj.name]) == np.flatnonzero(faces).tolist()
+        assert selected_faces(bpy.data.objects[obj.name]) == chosen
 
 
-def test_the_region_is_selected_again() -> None:
-    """After the spots of a run and after Select Bad Boundary."""
-    obj, faces = thorn()
+def test_what_is_refused_again_leaves_the_selection_of_the_user() -> None:
+    obj, faces = kinked()
+    inside = int(np.flatnonzero(meshes.free_vertices(obj, faces))[0])
     meshes.enter(obj, faces)
-    meshes.run()
-    for other in ("SPOTS", "BAD"):
-        assert bpy.ops.mesh.fair_select(what=other) == {"FINISHED"}
-        assert selected_faces(obj) == []
-        module("selection.watch").watch.look(bpy.context)
-        assert "Select Region Again" in drawn("VIEW3D_PT_fairing_selection")
-        assert bpy.ops.mesh.fair_select(what="REGION") == {"FINISHED"}
-        assert selected_faces(obj) == np.flatnonzero(faces).tolist()
-        module("selection.watch").watch.look(bpy.context)
-        assert "Select Region Again" not in drawn("VIEW3D_PT_fairing_selection")
+    with pytest.raises(RuntimeError, match="Not usable"):
+        meshes.run(**NONE)
+    bpy.ops.mesh.select_less()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.verts[inside].co.x = float("nan")
+    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+    before = meshes.contents_in_edit_mode(obj.name)
+    with pytest.raises(RuntimeError, match=f"Vertex {inside} "):
+        bpy.ops.mesh.fair_again(way="WRITE")
+    assert meshes.contents_in_edit_mode(obj.name) == before
+    assert tuple(bpy.context.tool_settings.mesh_select_mode) == (True, False, False)
 
 
 def test_the_view_goes_to_the_worst_spot() -> None:
@@ -225,16 +189,18 @@ def test_an_undone_run_is_not_the_last() -> None:
 
 def test_nothing_is_said_in_both_panels() -> None:
     obj = meshes.grid(9)
-    hole = meshes.faces_where(obj, lambda c: c.length < 0.05)
-    faces = meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7) & ~hole
-    meshes.enter(obj, faces)
+    with meshes.rebuilt(obj) as bm:
+        for face in bm.faces:
+            if face.calc_center_median().x > 0.7:
+                face.normal_flip()
+    meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7))
     meshes.run()
     watch = module("selection.watch").watch
     watch.look(bpy.context)
-    assert "single face" in meshes.report().warnings  # scripts get all of it
-    assert "single face" in drawn("VIEW3D_PT_fairing_selection").replace("\n", " ")
+    assert "wound against" in meshes.report().warnings  # scripts get all of it
+    assert "wound against" in drawn("VIEW3D_PT_fairing_selection").replace("\n", " ")
     shown = drawn("VIEW3D_PT_fairing_report").replace("\n", " ")
-    assert "single face" not in shown
+    assert "wound against" not in shown
     assert "Free Vertices" not in shown
 
 

@@ -44,7 +44,7 @@ class _Held:
 
 
 def _hold_searches() -> None:
-    home = module("live.session")
+    home = module("live.live")
     seek = home.sought
 
     def sought(*arguments: Any) -> Any:
