@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .outline import outline_edges, two_sided_edges
+from .places import numbers_in
 from .region import MeshArrays, Patch, vertices_of
 from .types import Floats, Ints, Mask
 
@@ -93,8 +94,7 @@ def numbered(patch: Patch, *triangles: Ints) -> tuple[Ints, ...]:
     """Return (q,) mesh vertices, the patch's first, then those of the triangles alone; and these in their numbers."""
     others = np.setdiff1d(np.concatenate(triangles), patch.vertices)
     vertices = np.concatenate([patch.vertices, others])
-    number = np.zeros(int(vertices.max(initial=-1)) + 1, dtype=np.int64)
-    number[vertices] = np.arange(len(vertices))
+    number = numbers_in(vertices, int(vertices.max(initial=-1)) + 1)
     return vertices, *(number[part] for part in triangles)
 
 

@@ -59,6 +59,17 @@ def places_of(wanted: Ints, keys: Ints) -> Ints:
     return found
 
 
+def numbers_in(chosen: Ints, count: int) -> Ints:
+    """Return (count,): which of the chosen ones each is, in their order; -1 for none."""
+    numbers = np.full(count, -1, dtype=np.int64)
+    numbers[chosen] = np.arange(len(chosen))
+    return numbers
+
+
+def no_pairs() -> Ints:
+    return np.empty((0, 2), dtype=np.int64)
+
+
 def area_vectors(positions: Floats, triangles: Ints) -> Floats:
     """Return (m, 3): twice the area times the normal of each triangle."""
     a, b, c = (positions[column] for column in triangles.T)

@@ -13,6 +13,7 @@ import fairing
 from ..words.findings import Finding, Origin
 from ..words.sentences import refusal
 from ..words.words import said
+from .places import numbers_in
 from .triangulation import split_quads, zigzag
 from .types import Floats, Ints, Mask
 
@@ -199,8 +200,7 @@ def make_patch(mesh: MeshArrays, by_connectivity: bool = True) -> Patch:
     _check_edges(mesh)
     inside = vertices_of(mesh, mesh.in_patch)
     vertices = np.flatnonzero(inside)
-    number = np.full(len(inside), -1, dtype=np.int64)
-    number[vertices] = np.arange(len(vertices))
+    number = numbers_in(vertices, len(inside))
     free = free_vertices(mesh)
     mesh = replace(mesh, in_patch=mesh.in_patch & ~fins(mesh))
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])

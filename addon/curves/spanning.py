@@ -9,6 +9,7 @@ import numpy as np
 import fairing
 
 from ..arrays.harmonic import harmonic, nearest
+from ..arrays.places import numbers_in
 from ..arrays.region import MeshArrays, nothing, to_local
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import Progress
@@ -97,9 +98,8 @@ def _spanned(
     if folds or not (result.converged or result.equation == _PLATE):
         raise ValueError(NOT_SPANNED)
     outline = np.unique(result.triangles[result.triangles < len(points)]).astype(np.int64)
-    number = np.full(len(points) + len(result.vertices), -1, dtype=np.int64)
-    number[outline] = np.arange(len(outline))
-    number[len(points) :] = len(outline) + np.arange(len(result.vertices))
+    new = len(points) + np.arange(len(result.vertices))
+    number = numbers_in(np.concatenate([outline, new]), len(points) + len(new))
     triangles = number[result.triangles]
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         triangles = triangles[:, ::-1]

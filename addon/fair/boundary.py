@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from ..arrays.outline import face_normals, turned_over
-from ..arrays.places import sum_at, unit
+from ..arrays.places import numbers_in, sum_at, unit
 from ..arrays.region import MeshArrays, Patch
 from ..arrays.types import Floats, Ints, Mask
 from ..words.words import said
@@ -99,8 +99,7 @@ def _fit(mesh: MeshArrays, patch: Patch, side: str, outside: Ints) -> _Fits:
         return _Fits(found, None)
     inside = patch.vertices[patch.triangles]
     used = np.unique(np.concatenate([inside.ravel(), outside.ravel()]))
-    number = np.zeros(len(mesh.positions), dtype=np.int64)
-    number[used] = np.arange(len(used))
+    number = numbers_in(used, len(mesh.positions))
     fits = fairing.boundary_normals(
         mesh.positions[used], number[inside], number[fixed[found]], outside=number[outside], side=side,
         creases=hard_edges_of(mesh, used, number),

@@ -10,6 +10,7 @@ import numpy as np
 import fairing
 
 from ..arrays.around import joined_by_weight, staying
+from ..arrays.places import numbers_in
 from ..arrays.region import MeshArrays, Patch
 from ..arrays.types import Floats, Ints
 from ..options.options import FairOptions
@@ -57,9 +58,7 @@ def _faded(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, feathe
     if not np.isin(patch.triangles, outside).any():
         return np.zeros(len(vertices))
     points = mesh.positions[vertices]
-    number = np.zeros(len(mesh.positions), dtype=np.int64)
-    number[vertices] = np.arange(len(vertices))
-    creases = hard_edges_of(mesh, vertices, number)
+    creases = hard_edges_of(mesh, vertices, numbers_in(vertices, len(mesh.positions)))
     return np.array(
         fairing.feather_weights(points, patch.triangles, outside, feather, fixed=patch.fixed, creases=creases)
     )

@@ -10,6 +10,7 @@ import fairing
 
 from ..arrays.around import nearby
 from ..arrays.outline import edges_inside
+from ..arrays.places import numbers_in
 from ..arrays.region import MeshArrays, free_vertices, nothing
 from ..arrays.types import Floats, Ints, Mask
 from ..options.options import FairOptions
@@ -90,7 +91,8 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
     start[mesh.triangles[own]] = True
     outside = nearby(mesh.triangles[known & ~own], start, ALONG + _COMPARED)
     triangles = np.concatenate([mesh.triangles[own & known], outside])
-    used, number = _numbered(triangles, len(mesh.positions))
+    used = np.flatnonzero(np.bincount(triangles.ravel()))
+    number = numbers_in(used, len(mesh.positions))
     numbered, inside = number[triangles], len(triangles) - len(outside)
     first, second = number[mesh.edges].T
     edges = np.flatnonzero((first >= 0) & (second >= 0))
@@ -104,16 +106,6 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
         wanted = {tuple(pair) for pair in np.concatenate([found.edges, found.onward]).tolist()}
         hard[edges] = [tuple(pair) in wanted for pair in ends.tolist()]
     return hard
-
-
-def _numbered(triangles: Ints, count: int) -> tuple[Ints, Ints]:
-    """Return the vertices that triangles have, ascending, and which of them each of `count` vertices is; -1: none."""
-    has = np.zeros(count, dtype=bool)
-    has[triangles] = True
-    used = np.flatnonzero(has)
-    number = np.full(count, -1, dtype=np.int64)
-    number[used] = np.arange(len(used))
-    return used, number
 
 
 def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.filleting.edges.FairEdges | None]:

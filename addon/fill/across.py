@@ -9,13 +9,10 @@ import numpy as np
 
 import fairing
 
+from ..arrays.places import no_pairs, numbers_in
 from ..arrays.region import MeshArrays, nothing
 from ..arrays.types import Floats, Ints, Mask
 from ..words.words import joined, said
-
-
-def _no_edges() -> Ints:
-    return np.empty((0, 2), dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -49,7 +46,7 @@ def drawn_edges(loose: Loose, outline: Ints) -> Ints:
 
 def marked_edges(mesh: MeshArrays) -> Ints:
     """Return the (m, 2) edges that are marked sharp."""
-    return _no_edges() if mesh.sharp is None else mesh.edges[mesh.sharp]
+    return no_pairs() if mesh.sharp is None else mesh.edges[mesh.sharp]
 
 
 def within(edges: Ints, vertices: Ints) -> Ints:
@@ -64,8 +61,8 @@ class Across:
     """What runs across one hole; edges in numbers of the surface's points."""
 
     drawn: Ints = field(default_factory=nothing)  # (d,) mesh vertices of drawn edges, the first points inside
-    edges: Ints = field(default_factory=_no_edges)  # (c, 2)
-    sharp: Ints = field(default_factory=_no_edges)  # (s, 2) those among them that continue marked ones
+    edges: Ints = field(default_factory=no_pairs)  # (c, 2)
+    sharp: Ints = field(default_factory=no_pairs)  # (s, 2) those among them that continue marked ones
     hard: int = 0  # curves that continue hard edges
     as_drawn: int = 0  # curves that were drawn
     bands: int = 0  # bevels and rolled edges that run on, whose rows are among the edges
@@ -91,10 +88,8 @@ class Numbering:
         """vertices: (q,) of the mesh that the engine was given, ascending."""
         lying = np.unique(np.concatenate([nothing(), *result.curves]))
         drawn = np.setdiff1d(vertices[lying[lying < len(vertices)]], outline)
-        of = np.full(len(vertices) + len(result.vertices), -1, dtype=np.int64)
-        of[np.searchsorted(vertices, outline)] = np.arange(len(outline))
-        of[np.searchsorted(vertices, drawn)] = len(outline) + np.arange(len(drawn))
-        of[len(vertices) :] = len(outline) + len(drawn) + np.arange(len(result.vertices))
+        old, new = np.searchsorted(vertices, np.concatenate([outline, drawn])), np.arange(len(result.vertices))
+        of = numbers_in(np.concatenate([old, len(vertices) + new]), len(vertices) + len(new))
         return cls(outline, drawn, of)
 
     def places(self, positions: Floats, new: Floats) -> Floats:
@@ -110,7 +105,7 @@ class Numbering:
         )
         as_drawn = sum(tuple(sorted(part[0].tolist())) in drawn for part in parts)
         marked = [part for part, is_marked in zip(parts, result.marked, strict=True) if is_marked]
-        whole, sharp = (self.of[np.concatenate([_no_edges(), *chosen])] for chosen in (parts + rows, marked))
+        whole, sharp = (self.of[np.concatenate([no_pairs(), *chosen])] for chosen in (parts + rows, marked))
         return Across(self.drawn, whole, sharp, len(parts) - as_drawn, as_drawn, len(result.bands))
 
 

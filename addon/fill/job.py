@@ -12,6 +12,7 @@ import fairing
 
 from ..arrays.around import RINGS, Neighbourhood
 from ..arrays.border import BorderRefusal
+from ..arrays.places import no_pairs, numbers_in
 from ..arrays.region import MeshArrays, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress
@@ -70,7 +71,7 @@ class Job:
 
     def _local(self, outline: Ints, rings: int = RINGS) -> Local:
         """Return what is around an outline, with edges that are drawn across."""
-        drawn = drawn_edges(self.loose, outline) if self.options.runs_on and len(self.loose.edges) else _no_edges()
+        drawn = drawn_edges(self.loose, outline) if self.options.runs_on and len(self.loose.edges) else no_pairs()
         around = self.near.around(np.unique(outline), rings)
         vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
         return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
@@ -137,17 +138,11 @@ class Local:
         return Origin(self.vertices, self.around, np.zeros(len(self.around), np.int64))
 
 
-def _no_edges() -> Ints:
-    return np.empty((0, 2), dtype=np.int64)
-
-
 def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:
     """Return the surroundings with the boundary first; around: triangles in numbers of `vertices`."""
     others = np.setdiff1d(vertices, outline)
     order = np.concatenate([outline, others])
-    number = np.empty(len(vertices), dtype=np.int64)
-    number[np.searchsorted(vertices, order)] = np.arange(len(order))
-    return Surroundings(order, number[around], matrix)
+    return Surroundings(order, numbers_in(np.searchsorted(vertices, order), len(vertices))[around], matrix)
 
 
 def _spacing(world: MeshArrays, loops: list[Ints], options: FillOptions) -> float:

@@ -2,23 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 import fairing
 
-from ..arrays.places import edge_keys
+from ..arrays.places import edge_keys, no_pairs, numbers_in
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints
 from ..remesh.faces import Faces, faces_in_rows, faces_of
-from ..remesh.new_part import NewPart, Stencil, corner_numbers
+from ..remesh.new_part import Edge, NewPart, Stencil, corner_numbers, sides_of
 
 FLAT = 1e-4  # of its size: how far the corners of a face may lie off its plane, or its pieces stay triangles
 _ON_SIDE = 1e-6  # weights below are none: the place is on the side between the other two corners
-
-Edge = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -41,9 +38,8 @@ def rounded_part(mesh: MeshArrays, result: fairing.results.FilletResult) -> Roun
     parents = np.concatenate([again, result.parent]).astype(np.int64)
     outside = len(again) + result.outside
     stay = np.unique(triangles[triangles < count])
-    number = np.full(count + len(result.vertices), -1, dtype=np.int64)
-    number[stay] = np.arange(len(stay))
-    number[count:] = len(stay) + np.arange(len(result.vertices))
+    new = count + np.arange(len(result.vertices))
+    number = numbers_in(np.concatenate([stay, new]), count + len(new))
     places = _CornerPlaces(mesh, result).of(triangles, parents, outside)
     corner_of = corner_numbers(mesh, mesh.triangle_faces, mesh.triangles)
     touched = np.unique(mesh.triangles[np.isin(mesh.triangle_faces, gone_faces)])
@@ -55,7 +51,7 @@ def rounded_part(mesh: MeshArrays, result: fairing.results.FilletResult) -> Roun
         fixed_count=len(stay),
         held_count=len(stay),
         triangles=numbered,
-        lines=np.empty((0, 2), dtype=np.int64),
+        lines=no_pairs(),
         vertices=Stencil(sources, result.origin[1]),
         corners=Stencil(corner_of[places[0]], places[1]),
         faces=mesh.triangle_faces[parents],
@@ -234,7 +230,7 @@ def _new_faces(triangles: Ints, result: fairing.results.FilletResult, outside: i
     if result.quads is None:
         own = faces_of(triangles[outside:])
     else:
-        own = faces_in_rows(triangles[outside:], result.quads.pairs - result.outside, np.empty((0, 2), np.int64))
+        own = faces_in_rows(triangles[outside:], result.quads.pairs - result.outside, no_pairs())
     return Faces(own.polygons, own.triangles + outside, own.corners + 3 * outside)
 
 
@@ -253,18 +249,9 @@ def _is_flat(mesh: MeshArrays, face: int) -> bool:
     return bool(spread[-1] <= FLAT * spread[0])
 
 
-def _directed(triangles: Ints, rows: list[int]) -> Iterator[tuple[Edge, int]]:
-    """Yield the sides of some triangles, each with its corner 3 · row + k."""
-    for row in rows:
-        a, b, c = triangles[row].tolist()
-        yield (a, b), 3 * row
-        yield (b, c), 3 * row + 1
-        yield (c, a), 3 * row + 2
-
-
 def _pieces(triangles: Ints, rows: Ints) -> list[list[int]]:
     """Return the rows in lists that hang together across sides."""
-    sides = dict(_directed(triangles, rows.tolist()))
+    sides = dict(sides_of(triangles, rows.tolist()))
     left, found = set(rows.tolist()), []
     while left:
         waiting, piece = [min(left)], []
@@ -274,14 +261,14 @@ def _pieces(triangles: Ints, rows: Ints) -> list[list[int]]:
                 continue
             left.discard(row)
             piece.append(row)
-            waiting += [sides[b, a] // 3 for (a, b), _ in _directed(triangles, [row]) if (b, a) in sides]
+            waiting += [sides[b, a] // 3 for (a, b), _ in sides_of(triangles, [row]) if (b, a) in sides]
         found.append(sorted(piece))
     return found
 
 
 def _outline(triangles: Ints, piece: list[int]) -> list[int] | None:
     """Return the corners around a piece, None where it has a hole, touches or covers itself: no polygon then."""
-    sides = dict(_directed(triangles, piece))
+    sides = dict(sides_of(triangles, piece))
     around = {a: (b, corner) for (a, b), corner in sides.items() if (b, a) not in sides}
     once = len(sides) == 3 * len(piece) and len(around) == sum((b, a) not in sides for a, b in sides)
     if not once or not around:

@@ -10,6 +10,7 @@ import numpy as np
 import fairing
 
 from ..arrays.around import RINGS, outside_triangles
+from ..arrays.places import numbers_in
 from ..arrays.region import OF_EDGES, OF_FACES, OF_VERTICES, MeshArrays, Patch, chosen_of, make_patch, nothing, to_local
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.boundary import boundary
@@ -38,18 +39,11 @@ def surroundings(mesh: MeshArrays, patch: Patch) -> Surroundings:
         faces[mesh.corner_faces[near[mesh.corner_vertices]]] = True
         near[mesh.corner_vertices[faces[mesh.corner_faces]]] = True
     vertices = np.flatnonzero(near)
-    number = _numbers(near)
     return Surroundings(
         vertices=vertices,
         mesh=_part(mesh, faces, near),
-        patch=replace(patch, vertices=number[patch.vertices]),
+        patch=replace(patch, vertices=numbers_in(vertices, len(near))[patch.vertices]),
     )
-
-
-def _numbers(chosen: Mask) -> Ints:
-    number = np.full(len(chosen), -1, dtype=np.int64)
-    number[chosen] = np.arange(np.count_nonzero(chosen))
-    return number
 
 
 def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
@@ -58,7 +52,7 @@ def _part(mesh: MeshArrays, faces: Mask, vertices: Mask) -> MeshArrays:
     triangles = faces[mesh.triangle_faces]
     used_edges = np.zeros(len(mesh.edges), dtype=bool)
     used_edges[mesh.corner_edges[corners]] = True
-    vertex, edge, face = _numbers(vertices), _numbers(used_edges), _numbers(faces)
+    vertex, edge, face = (numbers_in(np.flatnonzero(mask), len(mask)) for mask in (vertices, used_edges, faces))
     normals = mesh.corner_normals
     mesh = replace(mesh, parts=None, sharp=None, held_by_angle=None)
     return replace(

@@ -12,7 +12,7 @@ from itertools import product
 
 import numpy as np
 
-from ..arrays.places import edge_keys
+from ..arrays.places import edge_keys, numbers_in
 from ..arrays.region import MeshArrays, Patch, Reflection
 from ..arrays.types import Floats, Ints, Mask
 from ..words.words import said
@@ -161,8 +161,7 @@ def _corners(point: Floats) -> set[Box]:
 
 def _faces(mesh: MeshArrays, patch: Patch) -> list[Loop]:
     """Return the polygons of the patch as loops of patch indices."""
-    number = np.full(len(mesh.positions), -1, dtype=np.int64)
-    number[patch.vertices] = np.arange(len(patch.vertices))
+    number = numbers_in(patch.vertices, len(mesh.positions))
     chosen = mesh.in_patch[mesh.corner_faces]
     starts = np.flatnonzero(np.diff(mesh.corner_faces[chosen])) + 1
     return [loop.tolist() for loop in np.split(number[mesh.corner_vertices[chosen]], starts)]

@@ -8,6 +8,7 @@ import numpy as np
 
 import fairing
 
+from ..arrays.places import numbers_in
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats, Ints, Mask
 from ..words.findings import Origin
@@ -62,8 +63,7 @@ def make_surface(mesh: MeshArrays, matrix: Floats, whole: bool, deviation: Float
     used, triangles = np.unique(near, return_inverse=True)
     triangles = triangles.reshape(-1, 3).astype(np.int64)
     positions = world.positions[used]
-    number = np.zeros(len(world.positions), dtype=np.int64)
-    number[used] = np.arange(len(used))
+    number = numbers_in(used, len(world.positions))
     with in_mesh_words(Origin(used, triangles, world.triangle_faces[grown])):
         return Surface(
             positions=positions,

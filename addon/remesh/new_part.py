@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 import fairing
 
-from ..arrays.places import pair_keys, places_of
+from ..arrays.places import no_pairs, numbers_in, pair_keys, places_of
 from ..arrays.region import MeshArrays, Patch
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import Problem
@@ -35,10 +35,6 @@ class Stencil:
         """The (k,) sources with the largest weights, for what has no mean."""
         found: Ints = self.sources[np.arange(len(self.sources)), self.weights.argmax(axis=1)]
         return found
-
-
-def no_pairs() -> Ints:
-    return np.empty((0, 2), dtype=np.int64)
 
 
 @dataclass(frozen=True)
@@ -74,10 +70,7 @@ def new_part(mesh: MeshArrays, problem: Problem, result: fairing.RemeshResult, l
     on_line = np.flatnonzero(result.old >= 0)
     new = np.flatnonzero(result.old < 0)
     stay = np.concatenate([fixed, result.old[on_line]]).astype(np.int64)
-    number = np.full(count + len(result.old), -1, dtype=np.int64)
-    number[fixed] = np.arange(len(fixed))
-    number[count + on_line] = len(fixed) + np.arange(len(on_line))
-    number[count + new] = len(stay) + np.arange(len(new))
+    number = numbers_in(np.concatenate([fixed, count + on_line, count + new]), count + len(result.old))
     numbered = number[triangles]
     origin = result.origin[0][new].astype(np.int64), result.origin[1][new]
     walls = _walls(patch, lines, mesh)
@@ -102,9 +95,7 @@ def _pairs_in_rows(result: fairing.RemeshResult, rows: Ints) -> Ints:
     """Return (q, 2): the quads that the result has in rows, as pairs of the triangles that are new; rows: of these."""
     if result.quads is None or any(warning.code == "NO_QUAD_ROWS" for warning in result.warnings):
         return no_pairs()
-    number = np.full(len(result.triangles), -1, dtype=np.int64)
-    number[rows] = np.arange(len(rows))
-    pairs = number[result.quads.pairs]
+    pairs = numbers_in(rows, len(result.triangles))[result.quads.pairs]
     whole: Ints = pairs[(pairs >= 0).all(axis=1)]
     return whole
 
@@ -145,7 +136,7 @@ def _faces_that_stay(patch: Patch, triangles: Ints, gone: Ints) -> dict[tuple[in
 
 def _wall_edges(triangles: Ints, stay: Ints, walls: dict[Edge, int]) -> Ints:
     """Return the (l, 2) sides of new triangles that are walls."""
-    between = [(a, b) for (a, b), _ in _sides(triangles) if a < len(stay) and b < len(stay)]
+    between = [(a, b) for (a, b), _ in sides_of(triangles) if a < len(stay) and b < len(stay)]
     known = [(a, b) for a, b in between if (int(stay[a]), int(stay[b])) in walls]
     return np.array(known, dtype=np.int64).reshape(-1, 2)
 
@@ -164,9 +155,10 @@ def _diagonals_of_old_quads(patch: Patch, triangles: Ints, stay: Ints) -> Ints:
     return edges[again]
 
 
-def _sides(triangles: Ints) -> Iterator[tuple[Edge, int]]:
-    """Yield each directed side with 3 · its triangle + the corner where it begins."""
-    for t, (a, b, c) in enumerate(triangles.tolist()):
+def sides_of(triangles: Ints, rows: Sequence[int] | None = None) -> Iterator[tuple[Edge, int]]:
+    """Yield each directed side, all or those of some triangles, with 3 · its triangle + the corner where it begins."""
+    chosen = np.arange(len(triangles)) if rows is None else np.array(rows)
+    for t, (a, b, c) in zip(chosen.tolist(), triangles[chosen].tolist(), strict=True):
         yield (a, b), 3 * t
         yield (b, c), 3 * t + 1
         yield (c, a), 3 * t + 2
@@ -174,9 +166,8 @@ def _sides(triangles: Ints) -> Iterator[tuple[Edge, int]]:
 
 def _walls(patch: Patch, lines: Mask, mesh: MeshArrays) -> dict[Edge, int]:
     """Return the directed edges of the patch's border and of lines, each with its side of the old triangles."""
-    sides = dict(_sides(patch.triangles))
-    number = np.full(len(mesh.positions), -1, dtype=np.int64)
-    number[patch.vertices] = np.arange(len(patch.vertices))
+    sides = dict(sides_of(patch.triangles))
+    number = numbers_in(patch.vertices, len(mesh.positions))
     kept = {(a, b) for a, b in number[mesh.edges[lines]].tolist()}
     return {(a, b): side for (a, b), side in sides.items() if (b, a) not in sides or (a, b) in kept or (b, a) in kept}
 
@@ -197,8 +188,8 @@ def _corner_places(
     places[new] = 3 * origin[0][of][:, None] + np.arange(3)
     weights[new] = origin[1][of]
     weights[~new, 0] = 1.0
-    anywhere = {vertex: side for (vertex, _), side in _sides(patch.triangles)}
-    sides = dict(_sides(triangles))
+    anywhere = {vertex: side for (vertex, _), side in sides_of(patch.triangles)}
+    sides = dict(sides_of(triangles))
     for corner in np.flatnonzero(~new).tolist():
         side = _first_wall(corner, triangles, stay, (sides, walls))
         places[corner] = anywhere[int(stay[corners[corner]])] if side is None else side

@@ -11,9 +11,8 @@ import bpy
 import numpy as np
 
 from ..arrays.types import Floats, Ints
-from ..host.context import edited_objects
 from ..mesh import mesh_io
-from .job import Task, is_unchanged
+from .job import Task, is_unchanged, objects_in_mode
 
 
 @dataclass(frozen=True)
@@ -36,7 +35,7 @@ class Preview:
 
     def show(self) -> None:
         """Show what was given since the last call, where the mesh is as it was read; main thread."""
-        objects = _by_name() if self._given else {}
+        objects = objects_in_mode(bpy.context) if self._given else {}
         while self._given:
             name, vertices, positions = self._given.pop(0)
             task, obj = self._tasks[name], objects.get(name)
@@ -50,13 +49,9 @@ class Preview:
 
     def take_back(self) -> None:
         """Put everything back that is where it was shown; main thread, and no harm where nothing was."""
-        objects = _by_name()
+        objects = objects_in_mode(bpy.context)
         while self._shown:
             shown = self._shown.pop()
             obj = objects.get(shown.name)
             if obj is not None:
                 mesh_io.move_vertices_back(obj.data, shown.vertices, shown.there, shown.before)
-
-
-def _by_name() -> dict[str, bpy.types.Object]:
-    return {obj.name: obj for obj in edited_objects(bpy.context)}

@@ -16,25 +16,24 @@ def _reported() -> bool:
 
 def lasso_fairs() -> Story:
     """Drawn around and let go: fair, in one step of undo."""
-    for tool in ("lasso",):
-        scenes.ear()
-        with in_view():
-            bpy.ops.view3d.view_selected()
-            bpy.ops.mesh.select_all(action="DESELECT")
-            bpy.ops.wm.tool_set_by_id(name=f"intrinsic_fairing.{tool}")
-        yield 0.5
-        before = scenes.positions()
-        report().free_vertices = 0
-        yield from drag_over(AROUND)
-        yield from wait_until(_reported, 20.0)
-        yield 1.0
-        screenshot(f"stroke_{tool}")
-        assert abs(scenes.positions() - before).max() > 1e-4
-        press("Z", *middle(), ctrl=True)
-        yield 1.0
-        assert (scenes.positions() == before).all(), f"{tool}: one step back is not where it began"
-        with in_view():
-            bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
+    scenes.ear()
+    with in_view():
+        bpy.ops.view3d.view_selected()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.wm.tool_set_by_id(name="intrinsic_fairing.lasso")
+    yield 0.5
+    before = scenes.positions()
+    report().free_vertices = 0
+    yield from drag_over(AROUND)
+    yield from wait_until(_reported, 20.0)
+    yield 1.0
+    screenshot("stroke_lasso")
+    assert abs(scenes.positions() - before).max() > 1e-4
+    press("Z", *middle(), ctrl=True)
+    yield 1.0
+    assert (scenes.positions() == before).all(), "one step back is not where it began"
+    with in_view():
+        bpy.ops.wm.tool_set_by_id(name="builtin.select_box")
 
 
 SCREENS = (lasso_fairs,)
