@@ -58,7 +58,6 @@ def test_digest_tells_inputs_apart() -> None:
         (zeros, 1.0),
         (zeros, True),
         (zeros, None),
-        (zeros, "None"),
     ]
     assert len({digest(*given) for given in inputs}) == len(inputs)
     assert digest(zeros, FairOptions()) == digest(np.zeros((2, 3)), FairOptions())

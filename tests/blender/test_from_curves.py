@@ -112,6 +112,9 @@ def test_an_open_end_is_shown() -> None:
     obj = wired([*circles(), [(1.0, 0.0, 0.0), (2.0, 0.0, 0.0)]])
     with pytest.raises(RuntimeError, match="A curve of edges ends"):
         run(obj)
+    meshes.edit(obj)
+    assert bpy.ops.mesh.fair_select(what="SPOTS") == {"FINISHED"}
+    meshes.leave()
     assert [vertex.co.x for vertex in obj.data.vertices if vertex.select] == [2.0]
 
 
