@@ -183,20 +183,6 @@ def test_two_islands_go_on_by_themselves_to_the_middle(turned_over: bool) -> Non
     assert sides[beyond.argmax()] != sides[beyond.argmin()]
 
 
-def test_a_single_seam_ends_inside() -> None:
-    """The outline of a strip around a pole."""
-    surface = disc()
-    loop = surface.loops[0]
-    after = np.column_stack([loop / 48, np.zeros(48)])
-    before = np.column_stack([(loop - 1) % 48 + 1, 0 * loop]) / 48.0
-    found = unwrapped(surface, RimUVs(after, before, np.zeros(48, bool)))
-    first, last = odd_ends(found.seams)
-    assert first == 0
-    assert np.linalg.norm(surface.points[last]) < 0.3 * RINGS
-    assert (areas(found) > 0).all()
-    assert found.distortion < 1.0
-
-
 def test_corners_at_the_outline_keep_their_bits() -> None:
     surface = disc()
     rng = np.random.default_rng(0)

@@ -9,7 +9,7 @@ from addon.arrays.region import MeshArrays, fins, free_vertices, make_patch
 from addon.arrays.types import Floats, Mask
 from addon.arrays.winding import with_one_winding
 from addon.fair.solve import solve
-from addon.mirror.symmetry import FLIP, NEAR, mirror_map, symmetrised, with_image
+from addon.mirror.symmetry import NEAR, mirror_map, with_image
 from addon.options.options import FairOptions
 from addon.selection.selection import enclosed_faces, left_out_faces
 from addon.verdict.outcome import outcome
@@ -101,10 +101,6 @@ def test_no_image_where_there_is_none() -> None:
 
 
 # From faces and a selection to the patch: counted by hand on small meshes.
-def test_free_are_the_vertices_whose_faces_are_all_selected() -> None:
-    mesh = grid(6, 0.67)  # 4 × 4 of 6 × 6 quads
-    free = np.flatnonzero(free_vertices(mesh))
-    assert free.tolist() == [7 * row + column for row in (2, 3, 4) for column in (2, 3, 4)]
 
 
 def test_an_open_border_and_a_pin_hold_vertices() -> None:
@@ -113,18 +109,6 @@ def test_an_open_border_and_a_pin_hold_vertices() -> None:
     pinned = everything.pinned.copy()
     pinned[12] = True
     assert np.flatnonzero(free_vertices(replace(everything, pinned=pinned))).tolist() == [6, 7, 8, 11, 13, 16, 17, 18]
-
-
-def test_patch_of_a_grid() -> None:
-    mesh = grid(6, 0.67)
-    patch = make_patch(mesh)
-    assert (len(patch.vertices), len(patch.triangles), len(patch.free), len(patch.fixed)) == (25, 32, 9, 16)
-    assert np.array_equal(patch.outline, patch.fixed)  # all that is fixed lies on the outline
-    assert patch.neighbours is not None
-    assert len(patch.neighbours) == 40  # edges of the 4 × 4 quads, none of the diagonals
-    assert np.array_equal(np.sort(np.concatenate([patch.free, patch.fixed])), np.arange(25))
-    corners = np.sort(mesh.corner_vertices[mesh.in_patch[mesh.corner_faces]])
-    assert np.array_equal(np.unique(corners), patch.vertices)
 
 
 @pytest.mark.parametrize(
@@ -287,12 +271,3 @@ def test_connectivity_must_be_symmetric() -> None:
     split = quads[5]  # inside, left of the middle: as two triangles
     mesh = polygon_mesh(grid_points(4), [*quads[:5], split[:3], [split[0], *split[2:]], *quads[6:]], [True] * 17)
     assert mirror_map(mesh, make_patch(mesh)) is None
-
-
-def test_symmetrised_is_symmetric_to_the_last_bit() -> None:
-    points = np.random.default_rng(2).normal(size=(25, 3))
-    image = expected_images(4, np.arange(25))
-    mean = symmetrised(points, image)
-    np.testing.assert_array_equal(mean, FLIP * mean[image])
-    assert np.array_equal(mean[2], [0.0, *points[2, 1:]])  # on the plane only x changes
-    np.testing.assert_allclose(mean[0] - points[0], FLIP * points[4] - mean[0], atol=1e-15)

@@ -111,6 +111,26 @@ def domed_grid() -> tuple[bpy.types.Object, Mask]:
     return obj, faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.7)
 
 
+def bumpy_grid(size: int = 16) -> bpy.types.Object:
+    """Add a grid with a hill as wide as it is."""
+    obj = grid(size)
+    points = positions(obj)
+    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
+    move(obj, points)
+    return obj
+
+
+def select_edges(obj: bpy.types.Object, chosen: Callable[[Any], Any]) -> None:
+    """Enter edit mode with exactly those of its bmesh's edges selected that `chosen` accepts."""
+    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+    enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in bm.edges:
+        edge.select_set(bool(chosen(edge)))
+    bm.select_flush_mode()
+    bmesh.update_edit_mesh(obj.data)
+
+
 def positions(obj: bpy.types.Object) -> Floats:
     """Return the (n, 3) positions of a mesh in object mode."""
     flat = np.empty(3 * len(obj.data.vertices), dtype=np.float32)

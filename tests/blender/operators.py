@@ -1,7 +1,5 @@
 """The operators as rows of a table: a scene with its selection in edit mode, and options of three runs."""
 
-import bmesh
-import bpy
 import numpy as np
 
 import meshes
@@ -20,11 +18,7 @@ def _fillet() -> None:
 
 def _curves() -> None:
     obj = wired(circles(16))
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    meshes.enter(obj, np.zeros(0, dtype=bool))
-    for edge in bmesh.from_edit_mesh(obj.data).edges:
-        edge.select_set(True)
-    bmesh.update_edit_mesh(obj.data)
+    meshes.select_edges(obj, lambda _: True)
 
 
 def _keys() -> None:

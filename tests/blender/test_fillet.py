@@ -48,13 +48,7 @@ def upright(ends: Any) -> bool:
 
 def enter(obj: bpy.types.Object, chosen: Any) -> None:
     """Edit the mesh with exactly these edges selected."""
-    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge, on in zip(bm.edges, chosen, strict=True):
-        edge.select_set(bool(on))
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(obj.data)
+    meshes.select_edges(obj, lambda edge: chosen[edge.index])
 
 
 def run(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:

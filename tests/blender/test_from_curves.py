@@ -48,35 +48,12 @@ def tube(count: int = 32) -> list[Any]:
 
 def run(obj: bpy.types.Object, chosen: Any = lambda edge: True, **properties: Any) -> set[str]:
     """Run it from and to object mode with these edges selected."""
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
+    meshes.select_edges(obj, chosen)
     try:
-        bm = bmesh.from_edit_mesh(obj.data)
-        for edge in bm.edges:
-            edge.select_set(bool(chosen(edge)))
-        bm.select_flush_mode()
-        bmesh.update_edit_mesh(obj.data)
         status: set[str] = bpy.ops.mesh.fair_from_curves("EXEC_DEFAULT", True, **properties)
         return status
     finally:
         meshes.leave()
-
-
-def radii(obj: bpy.types.Object) -> Any:
-    return np.linalg.norm(meshes.positions(obj), axis=1)
-
-
-def test_three_circles_become_a_sphere_and_keep_their_bits() -> None:
-    obj = wired(circles())
-    before = meshes.positions(obj)
-    assert run(obj) == {"FINISHED"}
-    after = meshes.positions(obj)
-    assert np.array_equal(after[: len(before)], before) and len(after) > 2 * len(before)
-    assert np.abs(radii(obj) - 1.0).max() < 1e-5
-    with meshes.rebuilt(obj, write=False) as bm:
-        assert all(edge.is_manifold and edge.is_contiguous for edge in bm.edges)
-        assert bm.calc_volume(signed=True) > 4.0  # outwards
-        assert all(face.select and face.smooth for face in bm.faces)
 
 
 def test_openings_stay_or_are_filled() -> None:

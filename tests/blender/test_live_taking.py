@@ -48,10 +48,7 @@ def clicked() -> Any:
 
 def mountain() -> bpy.types.Object:
     """A bumpy grid in edit mode with its middle selected."""
-    obj = meshes.grid(16)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
-    meshes.move(obj, points)
+    obj = meshes.bumpy_grid()
     meshes.enter(obj, meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < 0.6))
     return obj
 

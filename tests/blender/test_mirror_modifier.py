@@ -69,16 +69,6 @@ def test_the_plane_may_be_another_objects() -> None:
     np.testing.assert_allclose(on_plane(obj)[:, 0], 0.0, atol=1e-6)
 
 
-def test_scripts_get_the_half() -> None:
-    obj, faces = half_dome()
-    from bl_ext.user_default.intrinsic_fairing import fair_mesh
-
-    result = fair_mesh(obj.data, np.flatnonzero(faces).tolist())
-    assert off_sphere(obj) < 1e-4
-    corners = {vertex for face in np.flatnonzero(faces) for vertex in obj.data.polygons[face].vertices}
-    assert len(result.vertices) == len(corners)
-
-
 def seen(obj: bpy.types.Object) -> Any:
     """The mesh as the modifier shows it, as a bmesh."""
     bm = bmesh.new()
@@ -144,13 +134,7 @@ def half_box() -> bpy.types.Object:
 
 
 def select_edges(obj: bpy.types.Object, chosen: Callable[[Any, Any], bool]) -> None:
-    meshes.leave() if obj.mode == "EDIT" else None
-    meshes.edit(obj)
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge in bm.edges:
-        edge.select_set(chosen(*(vertex.co for vertex in edge.verts)))
-    bm.select_flush_mode()
+    meshes.select_edges(obj, lambda edge: chosen(*(vertex.co for vertex in edge.verts)))
 
 
 @pytest.mark.parametrize("quads", [False, True])
@@ -204,17 +188,6 @@ def test_curves_and_their_images_get_one_surface() -> None:
     bm = seen(obj)
     assert sum(edge.is_boundary for edge in bm.edges) == 64  # the rims
     bm.free()
-
-
-def test_what_is_refused_leaves_no_image() -> None:
-    obj = half_box()
-    before = meshes.positions(obj)
-    select_edges(obj, lambda a, b: a.z > 0.4 and b.z > 0.4 and max(a.x, b.x) > 0.5)
-    with pytest.raises(RuntimeError):
-        bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=1e3, clamp=False)
-    meshes.leave()
-    np.testing.assert_array_equal(meshes.positions(obj), before)
-    assert (len(obj.data.edges), len(obj.data.polygons)) == (12, 5)
 
 
 def test_a_face_in_the_plane_is_refused_by_name() -> None:
@@ -278,12 +251,7 @@ def cube() -> bpy.types.Object:
 def test_one_edge_stands_for_both() -> None:
     """Report 08."""
     obj = cube()
-    meshes.edit(obj)
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge in bm.edges:
-        edge.select_set(all(vertex.co.x > 0.0 and vertex.co.z > 0.0 for vertex in edge.verts))
-    bm.select_flush_mode()
+    select_edges(obj, lambda a, b: min(a.x, b.x, a.z, b.z) > 0.0)
     assert bpy.ops.mesh.fair_fillet("EXEC_DEFAULT", True, width=0.3) == {"FINISHED"}
     meshes.leave()
     points = meshes.positions(obj)

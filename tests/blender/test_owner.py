@@ -17,10 +17,7 @@ from test_modal import event, go_on, started  # noqa: F401 - likewise
 
 def beside_live() -> Any:
     """Edit a bumpy grid whose live region touches the faces that are selected; return object and mask."""
-    obj = meshes.grid(16)
-    points = meshes.positions(obj)
-    points[:, 2] = 0.3 * np.cos(2.0 * points[:, 0]) * np.cos(1.5 * points[:, 1])
-    meshes.move(obj, points)
+    obj = meshes.bumpy_grid()
     meshes.enter(obj, meshes.faces_where(obj, lambda c: -0.6 < c.x < 0.2 and abs(c.y) < 0.6))
     assert bpy.ops.mesh.fair_live_region("EXEC_DEFAULT", True) == {"FINISHED"}
     meshes.leave()

@@ -1,7 +1,7 @@
 """Graded irregular meshes: fine around one spot of a surface, coarse far from it.
 
 Random points, as dense as the local size asks for, triangulated by Delaunay and not smoothed; then every
-twelfth edge is flipped where the two triangles stay below an aspect of 12 (`measures.aspects`). `RATIO` gives a ratio
+twelfth edge is flipped where the two triangles stay below an aspect of 12. `RATIO` gives a ratio
 of longest to shortest edge of about 40.
 """
 

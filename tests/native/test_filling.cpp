@@ -114,54 +114,20 @@ TEST_CASE("two rings become a tube without caps, however far apart") {
 
 namespace {
 
-// A flat square of n × n quads, stretched so that a fan of its triangles has wide angles; the border is fixed.
-struct Stretched {
-    Patch patch;
-    Points points;
-};
-
-Stretched stretched_square(int n) {
-    const auto is_border = [n](int v) { return v / (n + 1) % n == 0 || v % (n + 1) % n == 0; };
-    Indices number((n + 1) * (n + 1));
-    PatchMembers members;
-    Indices order;
-    for (const bool border : {false, true}) {
-        for (int v = 0; v < (n + 1) * (n + 1); ++v) {
-            if (is_border(v) != border) continue;
-            number[v] = static_cast<int>(order.size());
-            order.push_back(v);
-            if (!border) ++members.free_count;
-        }
-    }
-    members.triangles.resize(3, 2 * n * n);
-    Eigen::Index t = 0;
-    for (int row = 0; row < n; ++row) {
-        for (int column = 0; column < n; ++column) {
-            const int a = row * (n + 1) + column;
-            members.triangles.col(t++) << number[a], number[a + 1], number[a + n + 2];
-            members.triangles.col(t++) << number[a], number[a + n + 2], number[a + n + 1];
-        }
-    }
-    members.to_input = first_numbers(static_cast<int>(order.size()));
-    members.input_triangle = first_numbers(2 * n * n);
-    members.pin.assign(order.size(), 0);
-    Points points(3, static_cast<Eigen::Index>(order.size()));
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        const double x = order[k] % (n + 1);
-        const double y = order[k] / (n + 1);
-        points.col(static_cast<Eigen::Index>(k)) << x + 0.8 * y, 0.3 * y, 0.0;  // sheared: angles beyond 120°
-    }
-    return {Patch(std::move(members)), points};
+// A flat square of n × n quads, sheared so that a fan of its triangles has angles beyond 120°; the border is fixed.
+test::Single stretched_square(int n) {
+    const auto sheared = [n](double u, double v) { return Vector3(n * (u + 0.8 * v), 0.3 * n * v, 0.0); };
+    return test::single_patch(test::grid(n, 0.0, sheared, false));
 }
 
 }  // namespace
 
 TEST_CASE("harmonic values stay within the range of those given, wide angles or not") {
-    const Stretched square = stretched_square(8);
-    const int fixed_count = square.patch.vertex_count() - square.patch.free_count;
+    const test::Single square = stretched_square(8);
+    const int fixed_count = square.patch().vertex_count() - square.patch().free_count;
     Eigen::MatrixXd given(fixed_count, 2);
     for (int k = 0; k < fixed_count; ++k) given.row(k) << (k == 3 ? 1.0 : 0.0), (k % 7 == 0 ? -1.0 : 2.0);
-    const auto inside = harmonic_values(square.patch, square.points, given);
+    const auto inside = harmonic_values(square.patch(), square.points, given);
     REQUIRE(inside);
     for (int c = 0; c < 2; ++c) {
         CHECK(inside->col(c).minCoeff() >= given.col(c).minCoeff() - 1e-12);
@@ -170,19 +136,19 @@ TEST_CASE("harmonic values stay within the range of those given, wide angles or 
 }
 
 TEST_CASE("a mesh over a crumpled surface does not grow without end") {
-    Stretched square = stretched_square(6);
+    test::Single square = stretched_square(6);
     std::mt19937 random(1);
     std::uniform_real_distribution<double> noise(-4.0, 4.0);
     const auto any = [&] { return Vector3(noise(random), noise(random), noise(random)); };
-    for (int v = 0; v < square.patch.free_count; ++v) square.points.col(v) += any();
+    for (int v = 0; v < square.patch().free_count; ++v) square.points.col(v) += any();
     const auto count = square.points.cols();
     Points normals(3, count);
     for (Eigen::Index v = 0; v < count; ++v) normals.col(v) = any().normalized();
-    const TargetSurface surface(square.patch, square.points, normals);
+    const TargetSurface surface(square.patch(), square.points, normals);
     const VectorX lengths = VectorX::Constant(count, 0.7);
-    EqualEdgeMesh mesh(square.patch, square.points, surface, lengths);
+    EqualEdgeMesh mesh(square.patch(), square.points, surface, lengths);
     mesh.equalise();
-    const double expected = expected_count(square.patch, square.points, lengths) + static_cast<double>(count);
+    const double expected = expected_count(square.patch(), square.points, lengths) + static_cast<double>(count);
     CHECK(static_cast<double>(mesh.result().points.cols()) < 3.0 * expected);  // six times without a limit
 }
 

@@ -54,29 +54,6 @@ TEST_CASE("threads: calls at the same time on the same arrays give what they giv
     }
 }
 
-TEST_CASE("threads: a run is watched and stopped from another thread") {
-    const DentedCap cap(8);
-    std::atomic<bool> stop = false;
-    std::atomic<double> seen = -1.0;
-    std::atomic<bool> cancelled = false;
-    std::thread worker([&] {
-        try {
-            for (;;) {
-                fair(cap.input, {}, options(Method::global), [&](double fraction, std::string_view) {
-                    seen = fraction;
-                    return !stop;
-                });
-            }
-        } catch (const Cancelled&) {
-            cancelled = true;
-        }
-    });
-    while (seen <= 0.0) std::this_thread::yield();
-    stop = true;
-    worker.join();
-    CHECK(cancelled);
-}
-
 TEST_CASE("threads: a loop runs every piece once, also within another loop") {
     for (const int threads : {1, 2, 5}) {
         const Threads team(threads);

@@ -1,10 +1,6 @@
 """What `fair` and `Solver` refuse, with which code and elements; what is solved with a warning; wrong arguments."""
 
 import dataclasses
-import os
-import subprocess
-import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -195,53 +191,6 @@ def test_a_callback_may_call_again() -> None:
     inner: list[Any] = []
     result = call(progress=lambda fraction, stage: inner.append(call().vertices) or True)
     assert inner and all(np.array_equal(vertices, result.vertices) for vertices in inner)
-
-
-BEGIN = """
-import os, resource, sys, threading, time
-sys.path.insert(0, sys.argv[1])
-import numpy as np, fairing, shapes
-patch = shapes.catenoid(2000)
-
-def fair(**options):
-    return fairing.fair(
-        patch.vertices, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals, **options).vertices
-"""
-# In a thread, whose stack is there from the start: the kernel ends a process whose main stack can't grow.
-STARVED = """
-def starve():
-    time.sleep(0.5)  # the main thread waits by then
-    for spare in [*range(0, 20_000_000, 1_000_000), 10**9]:
-        used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-        resource.setrlimit(resource.RLIMIT_AS, (used + spare, resource.RLIM_INFINITY))
-        for method in ("global", "paper"):
-            try:
-                assert np.isfinite(fair(method=method, max_iterations=10)).all()
-                print("solved", flush=True)
-            except (MemoryError, fairing.SolverError) as error:
-                print("refused", flush=True)
-
-thread = threading.Thread(target=starve)
-thread.start()
-thread.join()
-"""
-
-
-def run_alone(script: str) -> str:
-    """The script in a process of its own, with one heap for all threads: what it prints."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), "MALLOC_ARENA_MAX": "1"}
-    command = [sys.executable, "-c", BEGIN + script, str(Path(shapes.__file__).parent)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120, env=environment)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="RLIMIT_AS and /proc are Linux's")
-def test_without_memory_it_refuses_and_lives() -> None:
-    """The address space may grow by 0 … 19 MB and at last by 1 GB: wherever it ends, an error, and on it goes."""
-    words = run_alone(STARVED).split()
-    assert len(words) == 42
-    assert (words[0], words[-2:]) == ("refused", ["solved", "solved"])
 
 
 # Options in groups: what they hold, fields of them by name, and what is refused.

@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
-from scipy.spatial import cKDTree
+
+import fairing
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -37,54 +38,8 @@ def sampled(vertices: FloatArray, triangles: IntArray, steps: int) -> FloatArray
 
 
 def distance_to_mesh(points: FloatArray, vertices: FloatArray, triangles: IntArray) -> FloatArray:
-    """Exact distances (k,) from points (k, 3) to a triangle mesh.
-
-    Triangles go by octaves of their size, and within each are tried by the distance of their centroids, until
-    that exceeds the best distance so far by more than the largest centroid-to-corner distance there.
-    """
-    corners = vertices[triangles]
-    radius = np.linalg.norm(corners - corners.mean(axis=1)[:, None], axis=2).max(axis=1)
-    octave = np.round(np.log2(np.maximum(radius, 1e-12 * radius.max())))
-    best = np.full(len(points), np.inf)
-    numbers, counts = np.unique(octave, return_counts=True)
-    for number in numbers[np.argsort(-counts)]:
-        chosen = octave == number
-        _nearer(points, corners[chosen], float(radius[chosen].max()), best)
-    return best
-
-
-def _nearer(points: FloatArray, corners: FloatArray, reach: float, best: FloatArray) -> None:
-    """Lower `best` where one of these triangles, (m, 3, 3) and all within `reach` of their centroid, is nearer."""
-    tree = cKDTree(corners.mean(axis=1))
-    first = tree.query(points)[0]
-    pending, count = np.flatnonzero(first < best + reach), min(8, len(corners))
-    while len(pending):
-        away, nearest = tree.query(points[pending], k=[*range(1, count + 1)])
-        tried = [_to_triangles(points[pending], corners[nearest[:, k]]) for k in range(count)]
-        best[pending] = np.minimum(best[pending], np.min(tried, axis=0))
-        unsure = away[:, -1] < best[pending] + reach
-        pending = pending[unsure] if count < len(corners) else pending[:0]
-        count = min(4 * count, len(corners))
-
-
-def _to_triangles(points: FloatArray, corners: FloatArray) -> FloatArray:
-    """Distances (k,) from points (k, 3) to one triangle each, corners (k, 3, 3)."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    edges = [_to_segments(points, p, q) for p, q in ((a, b), (b, c), (c, a))]
-    normal = np.cross(b - a, c - a)
-    length = np.sqrt((normal**2).sum(axis=1))
-    inside = length > 0
-    for p, q in ((a, b), (b, c), (c, a)):
-        inside &= (np.cross(q - p, points - p) * normal).sum(axis=1) >= 0
-    height = np.abs(((points - a) * normal).sum(axis=1)) / np.where(length > 0, length, 1.0)
-    return np.asarray(np.where(inside, height, np.min(edges, axis=0)))
-
-
-def _to_segments(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
-    along = end - start
-    square = np.maximum((along**2).sum(axis=1), 1e-300)
-    share = np.clip(((points - start) * along).sum(axis=1) / square, 0.0, 1.0)
-    return np.asarray(np.linalg.norm(points - start - share[:, None] * along, axis=1))
+    """Exact distances (k,) from points (k, 3) to a triangle mesh."""
+    return np.abs(fairing.deviation(points, vertices, triangles))
 
 
 def directed_edges(triangles: IntArray) -> IntArray:
@@ -95,14 +50,6 @@ def directed_edges(triangles: IntArray) -> IntArray:
 def edges(triangles: IntArray) -> IntArray:
     """Every edge once, (e, 2), smaller index first."""
     return np.unique(np.sort(directed_edges(triangles), axis=1), axis=0)
-
-
-def aspects(vertices: FloatArray, triangles: IntArray) -> FloatArray:
-    """(m,) longest edge over height on it, times √3/2: 1 if equilateral."""
-    corners = vertices[triangles]
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    return np.asarray(0.5 * np.sqrt(3) * longest**2 / doubled)
 
 
 def valences(triangles: IntArray, count: int) -> IntArray:

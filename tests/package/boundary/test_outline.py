@@ -130,16 +130,6 @@ def test_a_fitted_boundary_that_folds_the_patch_is_given_up() -> None:
     assert len(answer["moved"]) and len(asked) == 1
 
 
-def with_a_spike() -> tuple[Ball, int]:
-    """An exact sphere but for one vertex in the ring outside the outline, which sticks out by half the radius."""
-    case = ball(0.0)
-    near = case.outside[np.isin(case.outside, case.outline).any(axis=1)]
-    spike = int(np.setdiff1d(near, case.outline)[3])
-    vertices = case.exact.copy()
-    vertices[spike] *= 1.5
-    return Ball(case.exact, vertices, case.triangles, case.above), spike
-
-
 @pytest.mark.parametrize("noise", [0.0, 0.144])
 def test_noise_everywhere_makes_no_vertex_bad(noise: float) -> None:
     case = ball(noise)
