@@ -100,12 +100,17 @@ void bind_solver(py::module_& module) {
                           &to_dict));
 }
 
-// An attribute whose values are words.
-template <typename Enum, std::size_t N>
-void add_words(py::class_<PaperOptions>& options, Enum PaperOptions::* member, const Words<Enum, N>& words) {
+// An option that Python sets; `of`: where it is.
+template <typename Group, typename Value>
+void add(py::class_<Group>& options, const char* name, Value& (*of)(Group&)) {
+    options.def_property(name, [of](Group& o) { return of(o); }, [of](Group& o, const Value& value) { of(o) = value; });
+}
+
+template <typename Group, typename Enum, std::size_t N>
+void add(py::class_<Group>& options, const Words<Enum, N>& words, Enum& (*of)(Group&)) {
     options.def_property(
-        std::string(words.option).c_str(), [&words, member](const PaperOptions& o) { return words.word(o.*member); },
-        [&words, member](PaperOptions& o, const std::string& word) { o.*member = words.value(word); });
+        std::string(words.option).c_str(), [&words, of](Group& o) { return words.word(of(o)); },
+        [&words, of](Group& o, const std::string& word) { of(o) = words.value(word); });
 }
 
 void bind_paper_options(py::module_& module) {
@@ -117,21 +122,9 @@ void bind_paper_options(py::module_& module) {
         .def_readwrite("vertex_sweeps", &PaperOptions::vertex_sweeps)
         .def_readwrite("epsilon", &PaperOptions::epsilon)
         .def_readwrite("levels", &PaperOptions::levels);
-    add_words(options, &PaperOptions::acceleration, acceleration_words);
-    add_words(options, &PaperOptions::virtual_points, virtual_point_words);
-    add_words(options, &PaperOptions::start, start_words);
-}
-
-// An option that Python sets; `of`: where it is.
-template <typename Value>
-void add(py::class_<Options>& options, const char* name, Value& (*of)(Options&)) {
-    options.def_property(name, nullptr, [of](Options& o, const Value& value) { of(o) = value; });
-}
-
-template <typename Enum, std::size_t N>
-void add(py::class_<Options>& options, const Words<Enum, N>& words, Enum& (*of)(Options&)) {
-    options.def_property(std::string(words.option).c_str(), nullptr,
-                         [&words, of](Options& o, const std::string& word) { of(o) = words.value(word); });
+    add(options, acceleration_words, +[](PaperOptions& o) -> Acceleration& { return o.acceleration; });
+    add(options, virtual_point_words, +[](PaperOptions& o) -> VirtualPoints& { return o.virtual_points; });
+    add(options, start_words, +[](PaperOptions& o) -> PaperStart& { return o.start; });
 }
 
 void bind_options(py::module_& module) {
@@ -159,33 +152,24 @@ void bind_options(py::module_& module) {
     options.def_property("paper", nullptr, &set_paper);
 }
 
-template <typename Enum, std::size_t N>
-void tell(py::dict& all, const Words<Enum, N>& words) {
-    py::list list;
-    for (const auto& [name, value] : words.list) list.append(std::string(name));
-    all[py::str(std::string(words.option))] = py::tuple(list);
-}
-
 // Option → its words.
-py::dict all_words() {
+template <typename... Words>
+py::dict listed(const Words&... of_options) {
     py::dict all;
-    tell(all, method_words);
-    tell(all, normal_words);
-    tell(all, equation_words);
-    tell(all, otherwise_words);
-    tell(all, fairness_words);
-    tell(all, virtual_point_words);
-    tell(all, start_words);
-    tell(all, border_words);
-    tell(all, acceleration_words);
-    tell(all, termination_words);
+    const auto tell = [&](const auto& words) {
+        py::list list;
+        for (const auto& each : words.list) list.append(each.first);
+        all[py::str(words.option)] = py::tuple(list);
+    };
+    (tell(of_options), ...);
     return all;
 }
 
 }  // namespace
 
 void bind_fair(py::module_& module) {
-    module.attr("WORDS") = all_words();
+    module.attr("WORDS") = listed(method_words, normal_words, equation_words, otherwise_words, fairness_words,
+                                  virtual_point_words, start_words, border_words, acceleration_words);
     bind_paper_options(module);
     bind_options(module);
     bind_solver(module);

@@ -32,96 +32,85 @@ Numbers<Scalar> numbers(py::handle source) {
     return array;
 }
 
-}  // namespace fairing::bindings
-
-// Arrays handed out are read-only copies.
-namespace pybind11::detail {
-
-// A column for each row.
+// An (n, 3) array is a column for each row.
 template <typename Scalar, int Rows>
-struct type_caster<Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>> {
-    using Columns = Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>;
-    PYBIND11_TYPE_CASTER(Columns, const_name("numpy.ndarray"));
-    bool load(handle source, bool /*convert*/) {
-        const auto array = fairing::bindings::numbers<Scalar>(source);
-        if (!array) return false;
-        value = Eigen::Map<const Columns>(array.data(), Rows, array.shape(0));
-        return true;
-    }
-    static handle cast(const Columns& columns, return_value_policy /*policy*/, handle /*parent*/) {
-        return fairing::bindings::read_only(array_t<Scalar>({columns.cols(), columns.rows()}, columns.data()));
-    }
-};
+void take(const Numbers<Scalar>& array, Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& columns) {
+    columns = Eigen::Map<const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>>(array.data(), Rows, array.shape(0));
+}
+template <typename Scalar, int Rows>
+py::array array_of(const Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>& columns) {
+    return py::array_t<Scalar>({columns.cols(), columns.rows()}, columns.data());
+}
 
-template <>
-struct type_caster<Eigen::VectorXd> {
-    PYBIND11_TYPE_CASTER(Eigen::VectorXd, const_name("numpy.ndarray"));
-    bool load(handle source, bool /*convert*/) {
-        const auto array = fairing::bindings::numbers<double>(source);
-        if (!array) return false;
-        value = Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
-        return true;
-    }
-    static handle cast(const Eigen::VectorXd& values, return_value_policy /*policy*/, handle /*parent*/) {
-        return fairing::bindings::read_only(array_t<double>(values.size(), values.data()));
-    }
-};
+inline void take(const Numbers<double>& array, VectorX& values) {
+    values = Eigen::Map<const VectorX>(array.data(), array.size());
+}
+inline py::array array_of(const VectorX& values) { return py::array_t<double>(values.size(), values.data()); }
 
-template <>
-struct type_caster<Eigen::MatrixXd> {
-    PYBIND11_TYPE_CASTER(Eigen::MatrixXd, const_name("numpy.ndarray"));
-    bool load(handle source, bool /*convert*/) {
-        const auto array = fairing::bindings::numbers<double>(source);
-        if (!array) return false;
-        value = Eigen::Map<const Eigen::MatrixXd>(array.data(), array.shape(1), array.shape(0)).transpose();
-        return true;
-    }
-    static handle cast(const Eigen::MatrixXd& rows, return_value_policy /*policy*/, handle /*parent*/) {
-        const Eigen::MatrixXd columns = rows.transpose();
-        return fairing::bindings::read_only(array_t<double>({rows.rows(), rows.cols()}, columns.data()));
-    }
-};
+// (n, c) stays a row for each row.
+inline void take(const Numbers<double>& array, Eigen::MatrixXd& rows) {
+    rows = Eigen::Map<const Eigen::MatrixXd>(array.data(), array.shape(1), array.shape(0)).transpose();
+}
+inline py::array array_of(const Eigen::MatrixXd& rows) {
+    const Eigen::MatrixXd columns = rows.transpose();
+    return py::array_t<double>({rows.rows(), rows.cols()}, columns.data());
+}
 
-// Flags are an array of bool in Python.
 template <typename Scalar, typename InPython>
-struct ListOfNumbers {
-    PYBIND11_TYPE_CASTER(std::vector<Scalar>, const_name("numpy.ndarray"));
-    bool load(handle source, bool /*convert*/) {
-        const auto array = fairing::bindings::numbers<InPython>(source);
-        if (!array) return false;
-        value.assign(array.data(), array.data() + array.size());
-        return true;
-    }
-    static handle cast(const std::vector<Scalar>& values, return_value_policy /*policy*/, handle /*parent*/) {
-        array_t<InPython> array(static_cast<ssize_t>(values.size()));
-        std::copy(values.begin(), values.end(), array.mutable_data());
-        return fairing::bindings::read_only(std::move(array));
-    }
-};
-template <>
-struct type_caster<std::vector<int>> : ListOfNumbers<int, int> {};
-template <>
-struct type_caster<std::vector<char>> : ListOfNumbers<char, bool> {};
+void take(const Numbers<InPython>& array, std::vector<Scalar>& values) {
+    values.assign(array.data(), array.data() + array.size());
+}
+inline py::array array_of(const std::vector<int>& values) {
+    return py::array_t<int>(py::ssize_t(values.size()), values.data());
+}
+inline py::array array_of(const std::vector<char>& flags) {
+    py::array_t<bool> array(static_cast<py::ssize_t>(flags.size()));
+    std::copy(flags.begin(), flags.end(), array.mutable_data());
+    return array;
+}
 
 // A row for each.
 template <std::size_t Size>
-struct type_caster<std::vector<std::array<int, Size>>> {
-    using Rows = std::vector<std::array<int, Size>>;
-    PYBIND11_TYPE_CASTER(Rows, const_name("numpy.ndarray"));
+void take(const Numbers<int>& array, std::vector<std::array<int, Size>>& rows) {
+    rows.resize(static_cast<std::size_t>(array.size()) / Size);
+    for (std::size_t k = 0; k < rows.size(); ++k) std::copy_n(array.data() + Size * k, Size, rows[k].begin());
+}
+template <std::size_t Size>
+py::array array_of(const std::vector<std::array<int, Size>>& rows) {
+    return py::array_t<int>({rows.size(), Size}, rows.empty() ? nullptr : rows[0].data());
+}
+
+}  // namespace fairing::bindings
+
+namespace pybind11::detail {
+
+// Arrays handed out are read-only copies.
+template <typename Type, typename Scalar>
+struct OfArray {
+    PYBIND11_TYPE_CASTER(Type, const_name("numpy.ndarray"));
     bool load(handle source, bool /*convert*/) {
-        const auto array = fairing::bindings::numbers<int>(source);
-        if (!array) return false;
-        value.resize(static_cast<std::size_t>(array.size()) / Size);
-        for (std::size_t k = 0; k < value.size(); ++k) std::copy_n(array.data() + Size * k, Size, value[k].begin());
-        return true;
+        const auto array = fairing::bindings::numbers<Scalar>(source);
+        if (array) fairing::bindings::take(array, value);
+        return static_cast<bool>(array);
     }
-    static handle cast(const Rows& rows, return_value_policy /*policy*/, handle /*parent*/) {
-        array_t<int> array({static_cast<ssize_t>(rows.size()), static_cast<ssize_t>(Size)});
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            std::copy(rows[k].begin(), rows[k].end(), array.mutable_data() + Size * k);
-        return fairing::bindings::read_only(std::move(array));
+    static handle cast(const Type& values, return_value_policy /*policy*/, handle /*parent*/) {
+        return fairing::bindings::read_only(fairing::bindings::array_of(values));
     }
 };
+
+template <typename Scalar, int Rows>
+struct type_caster<Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>>
+    : OfArray<Eigen::Matrix<Scalar, Rows, Eigen::Dynamic>, Scalar> {};
+template <>
+struct type_caster<Eigen::VectorXd> : OfArray<Eigen::VectorXd, double> {};
+template <>
+struct type_caster<Eigen::MatrixXd> : OfArray<Eigen::MatrixXd, double> {};
+template <>
+struct type_caster<std::vector<int>> : OfArray<std::vector<int>, int> {};
+template <>
+struct type_caster<std::vector<char>> : OfArray<std::vector<char>, bool> {};
+template <std::size_t Size>
+struct type_caster<std::vector<std::array<int, Size>>> : OfArray<std::vector<std::array<int, Size>>, int> {};
 
 template <>
 struct type_caster<fairing::Diagnostic> {

@@ -39,9 +39,7 @@ fairing_status fairing_fair_faces(const double* points, size_t point_count, cons
     return guarded(error, [&] {
         require(points && triangles && selected && result, "points, triangles, selected and result: none may be NULL");
         *result = nullptr;
-        require(!options || options->size == sizeof(fairing_options),
-                "options.size: sizeof(fairing_options) is needed");
-        const fairing_options given = options ? *options : fairing_default_options();
+        const fairing_options given = given_or(options, fairing_default_options());
         const FairOptions wanted = to_options(given);
         const SelectedMesh mesh({points, point_count}, {triangles, triangle_count}, selected);
         auto made = std::make_unique<fairing_result>();

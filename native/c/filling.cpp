@@ -95,6 +95,12 @@ void tell_of_each(fairing_filling& filling) {
     }
 }
 
+fairing_filling* told(std::unique_ptr<fairing_filling> filling, int old_count) {
+    join(*filling, old_count);
+    tell_of_each(*filling);
+    return filling.release();
+}
+
 FilledHole left_open(const LeftOpen& left) {
     FilledHole hole;
     hole.loops = {left.loop};
@@ -118,9 +124,7 @@ fairing_status fairing_fill(const double* points, size_t point_count, const int*
         require(points && triangles && filling, "points, triangles and filling: none may be NULL");
         require(loop_count == 0 || (loops && loop_sizes), "loops and loop_sizes: none may be NULL");
         *filling = nullptr;
-        require(!options || options->size == sizeof(fairing_fill_options),
-                "options.size: sizeof(fairing_fill_options) is needed");
-        const fairing_fill_options given = options ? *options : fairing_default_fill_options();
+        const fairing_fill_options given = given_or(options, fairing_default_fill_options());
         const FillOptions wanted = to_fill_options(given);
         const View<Points> all = points_of({points, point_count});
         const HoledMesh mesh({all, triangles_of({triangles, triangle_count}, point_count)});
@@ -131,9 +135,7 @@ fairing_status fairing_fill(const double* points, size_t point_count, const int*
         auto made = std::make_unique<fairing_filling>();
         made->holes = fill(mesh, found.holes, {}, wanted, calling(progress, user));
         std::ranges::transform(found.left, std::back_inserter(made->holes), left_open);
-        join(*made, static_cast<int>(point_count));
-        tell_of_each(*made);
-        *filling = made.release();
+        *filling = told(std::move(made), static_cast<int>(point_count));
     });
 }
 
@@ -143,9 +145,7 @@ fairing_status fairing_remesh(const double* points, size_t point_count, const in
     return guarded(error, [&] {
         require(points && triangles && selected && filling, "points, triangles, selected, filling: none may be NULL");
         *filling = nullptr;
-        require(!options || options->size == sizeof(fairing_fill_options),
-                "options.size: sizeof(fairing_fill_options) is needed");
-        const fairing_fill_options given = options ? *options : fairing_default_fill_options();
+        const fairing_fill_options given = given_or(options, fairing_default_fill_options());
         const FillOptions wanted = to_fill_options(given);
         const SelectedMesh mesh({points, point_count}, {triangles, triangle_count}, selected);
         NewPatch found = new_patch(mesh.input(given.surface.side), {},
@@ -157,9 +157,7 @@ fairing_status fairing_remesh(const double* points, size_t point_count, const in
         patch.vertices = std::move(found.vertices);
         patch.triangles = std::move(found.triangles);
         patch.report = std::move(found.report);
-        join(*made, static_cast<int>(point_count));
-        tell_of_each(*made);
-        *filling = made.release();
+        *filling = told(std::move(made), static_cast<int>(point_count));
     });
 }
 

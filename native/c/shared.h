@@ -15,6 +15,13 @@ fairing_status guarded(fairing_error* error, const std::function<void()>& work);
 // Throws std::invalid_argument with the message where it does not hold.
 void require(bool holds, const char* message);
 
+// The caller's options, or the usual ones where there are none.
+template <typename Options>
+Options given_or(const Options* given, const Options& usual) {
+    require(!given || given->size == sizeof(Options), "options.size: sizeof its struct is needed");
+    return given ? *given : usual;
+}
+
 // The caller's arrays, and how many triples there are.
 template <typename Number>
 struct Triples {

@@ -20,6 +20,8 @@ public:
     Solution run() {
         Stopwatch watch;
         if (options_.nested) coarser_ = coarsen(problem_.patch, symmetrised(pp_.weights));
+        if (pp_.paper.levels > 0 && coarser_.size() >= static_cast<std::size_t>(pp_.paper.levels))
+            coarser_.erase(coarser_.begin() + pp_.paper.levels - 1, coarser_.end());
         solution_.seconds["hierarchy"] = watch.lap();
         for (auto k = static_cast<int>(coarser_.size()); k >= 0; --k) {
             const auto [begin, end] = share(k);

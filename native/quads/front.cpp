@@ -49,7 +49,7 @@ Lattice Lattice::turned(int quarters) const {
 }
 
 QuadFront::QuadFront(const Indices& faces, const Eigen::Matrix2Xd& places, VectorX angles)
-    : angles_(std::move(angles)), faces_(faces) {
+    : angles_(std::move(angles)), faces_(faces), quads_at_(faces) {
     pattern_.boundary_count = pattern_.vertex_count = static_cast<int>(faces.size());
     for (int k = 0; k < pattern_.boundary_count; ++k) {
         vertices_.push_back(k);
@@ -68,10 +68,7 @@ std::optional<double> QuadFront::cost_of_turning(int at, int quarters) const {
     if (left < 1 || left > regular) return std::nullopt;
     if (is_new(at)) return 0.0;
     if (angles_.size() == 0) return std::nullopt;
-    // All quads at the boundary's vertex, those already made included.
-    int there = faces_[at];
-    for (const auto& quad : pattern_.quads)
-        there += static_cast<int>(std::count(quad.begin(), quad.end(), vertices_[at]));
+    const int there = quads_at_[vertices_[at]];
     const double angle = angles_[vertices_[at]] / (there - quarters);
     if (there - quarters < 1 || !(angle <= most_soft && angle >= least_soft)) return std::nullopt;
     const double own = angles_[vertices_[at]];
@@ -234,9 +231,13 @@ bool QuadFront::add_short_row() {
 }
 
 bool QuadFront::place(const std::vector<Pole>& poles) {
+    const auto lose = [&](int at, int count) {
+        faces_[at] -= count;
+        if (!is_new(at)) quads_at_[vertices_[at]] -= count;
+    };
     for (const Pole& pole : poles) {
-        faces_[pole.at] -= pole.quarters;
-        if (pole.triangle) --faces_[after(pole.at)];
+        lose(pole.at, pole.quarters);
+        if (pole.triangle) lose(after(pole.at), 1);
     }
     if (*std::min_element(faces_.begin(), faces_.end()) < 1) return false;
     for (auto pole = poles.rbegin(); pole != poles.rend(); ++pole) {

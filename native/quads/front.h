@@ -91,6 +91,7 @@ private:
     VectorX angles_;  // at the boundary
     Indices vertices_;
     Indices faces_;
+    Indices quads_at_;                         // each vertex of the boundary, made or still to come
     std::vector<Eigen::Vector2d> places_;      // of the walk's vertices
     std::vector<Eigen::Vector2d> new_places_;  // of all new vertices
 };

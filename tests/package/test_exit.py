@@ -75,34 +75,24 @@ def wait(fraction, stage):
 start(lambda: fair(progress=wait))
 begun.wait()
 """,
-    # It comes back after the end has stopped to wait, and while the interpreter takes its time to go.
-    "its callback is still asleep when the interpreter is gone": """
+}
+# It comes back after the end has stopped to wait, and while the interpreter takes its time to go.
+DAEMONS |= {
+    f"its {what} is still asleep when the interpreter is gone": f"""
 class Slow:
     def __del__(self, sleep=time.sleep):
         sleep(2)
 
-def wait(fraction, stage):
+def wait(*_):
     begun.set()
     time.sleep(3)
     return True
 
 sys.modules["slow"] = Slow()
-start(lambda: fair(progress=wait))
+start(lambda: fair({what}=wait))
 begun.wait()
-""",
-    "and so is what it shows its first surface": """
-class Slow:
-    def __del__(self, sleep=time.sleep):
-        sleep(2)
-
-def wait(vertices):
-    begun.set()
-    time.sleep(3)
-
-sys.modules["slow"] = Slow()
-start(lambda: fair(preview=wait))
-begun.wait()
-""",
+"""
+    for what in ("progress", "preview")
 }
 
 

@@ -83,6 +83,11 @@ def test_both_methods_solve_the_same_discrete_equation(n_free: int, kind: str) -
 # Options
 
 
+def test_levels_are_as_many_as_wanted() -> None:
+    patch = shapes.cap(500, MILD, half_angle=60.0)
+    assert [len(fair(patch, levels=most).levels) for most in (1, 2)] == [1, 2]
+
+
 def test_options_of_the_paper_are_refused_by_the_global_method() -> None:
     for options in (fairing.PaperOptions(), fairing.PaperOptions(damping=0.5)):
         with pytest.raises(ValueError, match="paper: holds options of method 'paper'"):

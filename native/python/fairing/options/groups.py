@@ -57,7 +57,7 @@ def engine_options(method: str, levels: int, given: PaperOptions | None) -> _cor
     result = _core.PaperOptions()
     for name, value in vars(given or PaperOptions()).items():
         setattr(result, name, value)
-    result.levels = arguments.whole("levels", levels, 0, 1)
+    result.levels = arguments.whole("levels", levels, 0, None if method == "paper" else 1)
     return result
 
 
@@ -223,7 +223,7 @@ class Solving:
     """One of "global" | "paper": The fast solver, or the factorised multigrid iteration of §7, step for step."""
 
     levels: int = 0
-    """int. 0: from coarse to fine where that is faster; 1: on the mesh alone."""
+    """int. 0: from coarse to fine where that is faster; 1: on the mesh alone; of "paper" also more, at most so many."""
 
     tolerance: float = _checked(1e-6, arguments.positive)
     """float. "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -49,17 +49,6 @@ class Band:
     weights: FloatArray
 
 
-@dataclass(frozen=True)
-class Part:
-    """Patches whose bands meet: triangles ``inside``, around them, and vertices that stay; D, the band's mean width."""
-
-    inside: IntArray
-    outside: IntArray
-    fixed: IntArray
-    diameter: float
-    width: float
-
-
 def fade_of(skin: Skin, refused: dict[str, bool], count: int, threads: int, progress: Any) -> Fade | None:
     """How a change fades out, checked; None where it does not.
 
@@ -94,9 +83,8 @@ def solve_feathered(call: Call, given: Boundary, around: Surroundings, fade: Fad
         )
     weights = _faded(given, around, fade.how) if isinstance(fade.how, float) else fade.how
     band = _band(given, around, weights)
-    parts = _parts(given.vertices, around, band)
     answer = call(given)
-    full, base = _rounded(answer, parts, band, fade)
+    full, base = _rounded(answer, around, band, fade)
     moving = (band.faired | band.freed) & (weights > 0.0)
     detail = answer["vertices"] - base
     for name, shown in (("vertices", fade.detail), ("base", 0.0)):
@@ -108,19 +96,20 @@ def solve_feathered(call: Call, given: Boundary, around: Surroundings, fade: Fad
     return surroundings.with_join(answer, around)
 
 
-def _rounded(answer: Answer, parts: list[Part], band: Band, fade: Fade) -> tuple[FloatArray, FloatArray]:
-    """The faired mesh (n, 3), its detail included, with round joins; and its base without that."""
+def _rounded(answer: Answer, around: Surroundings, band: Band, fade: Fade) -> tuple[FloatArray, FloatArray]:
+    """The faired mesh (n, 3), its detail included, with round joins; and its base without that.
+
+    Patches whose bands meet are rounded together, with what lies around them. MeshError where nothing would stay.
+    """
     points = answer["vertices"]
     full, base = points.copy(), np.where(band.faired[:, None], answer["base"], points)
     ask = None if fade.progress is None else partial(_ask, fade.progress)
-    for part in parts:
-        triangles = np.concatenate([part.inside, part.outside])
-        sizes = (fade.detail_size, part.diameter, part.width)
-        fair, soft = _core.soft_base(
-            points, triangles, part.fixed, answer["base"], band.faired, sizes, fade.threads, ask
-        )
-        near = _core.feather_weights(points, part.outside, part.inside, part.width, part.fixed[:0])
-        free = np.setdiff1d(triangles, part.fixed)
+    for inside, outside, fixed in _parts(len(points), around, band):
+        diameter, width = _sizes(points, inside, outside, band.weights)
+        triangles, sizes = np.concatenate([inside, outside]), (fade.detail_size, diameter, width)
+        fair, soft = _core.soft_base(points, triangles, fixed, answer["base"], band.faired, sizes, fade.threads, ask)
+        near = _core.feather_weights(points, outside, inside, width, fixed[:0])
+        free = np.setdiff1d(triangles, fixed)
         base[free] = fair[free]
         full[free] += near[free, None] * (soft - fair)[free]
     return full, base
@@ -185,27 +174,32 @@ def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
     count = len(given.vertices)
     beyond = marked(around.outside, count)
     fixed = marked(around.rim if given.fixed is None else given.fixed, count)
-    odd = _at_odd_edges(np.concatenate([around.inside, around.outside]), count)
+    edges, uses = edges_with_uses(np.concatenate([around.inside, around.outside]))
     ends = marked(_hard(given.vertices, around, arguments.NO_EDGES), count) & (weights == 0.0)
-    held = odd | (fixed & ~beyond) | ends
+    held = marked(edges[uses != 2], count) | (fixed & ~beyond) | ends
     return Band(marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
 
 
-def _parts(points: FloatArray, around: Surroundings, band: Band) -> list[Part]:
-    """The patches that have a band, with what lies around it. Raises MeshError where nothing would stay."""
-    if not band.freed.any():
-        return []
+def _parts(count: int, around: Surroundings, band: Band) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
+    """Patches whose bands meet: triangles inside, triangles around them, and vertices that stay.
+
+    On a closed mesh that is all near, vertices without a weight stay.
+    """
     near = _around_band(around, band)
     both = np.concatenate([around.inside, around.outside[near]])
-    fixed = band.held | marked(around.outside[~near], len(points))
-    component = _core.components(both, np.flatnonzero(fixed & marked(both, len(points))).astype(np.int32), len(points))
+    stays = band.held | marked(around.outside[~near], count)
+    component = _core.components(both, np.flatnonzero(stays & marked(both, count)).astype(np.int32), count)
     is_inside = np.arange(len(both)) < len(around.inside)
-    parts = []
     for number in range(component.max(initial=-1) + 1):
         inside, outside = both[(component == number) & is_inside], both[(component == number) & ~is_inside]
-        if len(inside) and band.freed[outside].any():
-            parts.append(_part(points, (inside, outside), fixed, band))
-    return parts
+        if not len(inside) or not band.freed[outside].any():
+            continue
+        own = np.union1d(inside, outside)
+        fixed = own[stays[own]] if stays[own].any() else own[~(band.faired | band.freed)[own]]
+        if not len(fixed):
+            text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
+            raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
+        yield inside, outside, fixed.astype(np.int32)
 
 
 def _around_band(around: Surroundings, band: Band) -> Marks:
@@ -225,32 +219,17 @@ def _around_band(around: Surroundings, band: Band) -> Marks:
     return np.asarray(reached[around.outside].all(axis=1))
 
 
-def _part(points: FloatArray, triangles: tuple[IntArray, IntArray], fixed: Marks, band: Band) -> Part:
-    """Of triangles inside and outside. On a closed mesh that is all near, vertices without a weight stay."""
-    inside, outside = triangles
-    own = np.union1d(inside, outside)
-    stays = own[fixed[own]]
-    if not len(stays):
-        stays = own[~(band.faired | band.freed)[own]]
-    if not len(stays):
-        text = "feather: the band covers all that lies around the patch, so nothing stays: make it narrower"
-        raise MeshError(Diagnostic("NO_BOUNDARY", text, np.unique(inside).astype(np.int32), "vertex", {}))
+def _sizes(points: FloatArray, inside: IntArray, outside: IntArray, weights: FloatArray) -> tuple[float, float]:
+    """D of the triangles inside, and the mean width of the band around them."""
     edges, uses = edges_with_uses(inside)
-    in_band = marked(outside, len(points))
-    rim = edges[(uses == 1) & in_band[edges].all(axis=1)]
+    rim = edges[(uses == 1) & marked(outside, len(points))[edges].all(axis=1)]
     length = np.linalg.norm(points[rim[:, 0]] - points[rim[:, 1]], axis=1).sum()
     corners = points[outside]
     areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2.0
-    width = 2.0 * float((areas * band.weights[outside].mean(axis=1)).sum() / length)
-    return Part(inside, outside, stays.astype(np.int32), _diameter(points[np.unique(rim)]), width)
+    width = 2.0 * float((areas * weights[outside].mean(axis=1)).sum() / length)
+    return _diameter(points[np.unique(rim)]), width
 
 
 def _diameter(outline: FloatArray) -> float:
     """D of a patch with this boundary (k, 3)."""
     return 2.0 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
-
-
-def _at_odd_edges(triangles: IntArray, count: int) -> Marks:
-    """Marks (n,) of the ends of edges that don't have two triangles."""
-    edges, uses = edges_with_uses(triangles)
-    return marked(edges[uses != 2], count)
