@@ -36,16 +36,6 @@ def test_normals_from_the_part_are_those_from_the_whole(source: str) -> None:
     np.testing.assert_allclose(part, whole, atol=1e-13)
 
 
-def answer_after(move: Floats, **options: object) -> tuple[LiveRegion, Floats, MeshArrays]:
-    """The answer of a region that was made on the sphere, for positions under a 3×3 map."""
-    mesh = sphere()
-    region = LiveRegion(mesh, EYE, FairOptions(**options))
-    moved = mesh.positions @ move.T
-    answer = region.answer(moved[region.vertices], EYE)
-    assert answer is not None
-    return region, answer, replace(mesh, positions=moved)
-
-
 def test_a_refusal_names_the_vertices_of_the_whole_mesh() -> None:
     """Not those of the part that the region keeps."""
     mesh = sphere()
@@ -57,18 +47,6 @@ def test_a_refusal_names_the_vertices_of_the_whole_mesh() -> None:
     with pytest.raises(fairing.MeshError, match=f"^Vertex {spoilt} has") as refusal:
         region.answer(positions[region.vertices], EYE)
     assert refusal.value.elements.tolist() == [spoilt]
-
-
-def test_answers_do_not_depend_on_what_came_before() -> None:
-    mesh = sphere()
-    stretch = np.diag([1.0, 1.2, 0.9])
-    region, direct, moved = answer_after(stretch)
-    wandering = LiveRegion(mesh, EYE, FairOptions())
-    for size in (1.1, 0.7, 1.4):
-        wandering.answer(size * mesh.positions[region.vertices], EYE)
-    again = wandering.answer(moved.positions[region.vertices], EYE)
-    assert again is not None
-    np.testing.assert_allclose(again, direct, atol=1e-5)
 
 
 def test_no_convergence_is_no_answer_and_a_stop_is_heard(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,10 +1,9 @@
 """Fair Fill over hard edges, in rows of quads, over seams of UVs: each goes on."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -94,51 +93,6 @@ def test_a_drawn_edge_is_taken_with_its_own_vertices() -> None:
     distances = np.linalg.norm(places[:, None] - places[None], axis=2) + np.eye(len(places))
     assert distances.min() > 1e-3
     assert mesh.validate(verbose=True) is False
-
-
-# Fair Fill with Quads: rows go on through the hole, one step of undo takes them back, a refusal changes nothing.
-def pipe(columns: int = 32, rows: int = 20) -> bpy.types.Object:
-    """An open cylinder of quads around the z-axis, without those of a window 8 wide and 6 high."""
-    turn, height = np.meshgrid(2 * np.pi * np.arange(columns) / columns, np.linspace(-1.5, 1.5, rows + 1))
-    points = np.stack([np.cos(turn), np.sin(turn), height], axis=-1).reshape(-1, 3)
-    faces = [
-        [columns * j + i, columns * j + (i + 1) % columns, columns * (j + 1) + (i + 1) % columns, columns * (j + 1) + i]
-        for j in range(rows)
-        for i in range(columns)
-        if not (8 <= i < 16 and 7 <= j < 13)
-    ]
-    return meshes.add(points, faces, "Pipe")
-
-
-def select_border(obj: bpy.types.Object, chosen: Callable[[Any], bool]) -> None:
-    bpy.context.tool_settings.mesh_select_mode = (True, False, False)
-    meshes.enter(obj, np.zeros(len(obj.data.polygons), dtype=bool))
-    bm = bmesh.from_edit_mesh(obj.data)
-    for vertex in bm.verts:
-        vertex.select = vertex.is_boundary and chosen(vertex.co)
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(obj.data)
-
-
-def test_a_region_is_meshed_anew_in_rows() -> None:
-    """Its rows go on from those around, and its corners carry what the old ones did."""
-    obj = pipe()
-    select_border(obj, lambda place: abs(place.z) < 1.2)
-    assert bpy.ops.mesh.fair_fill("EXEC_DEFAULT", quads=True) == {"FINISHED"}
-    meshes.leave()
-    layer = obj.data.uv_layers.new(name="Map")
-    for corner in obj.data.loops:
-        layer.uv[corner.index].vector = (obj.data.vertices[corner.vertex_index].co.z, 0.5)
-    count = len(obj.data.polygons)
-    chosen = [abs(polygon.center.z) < 0.5 and polygon.center.x > 0.3 for polygon in obj.data.polygons]
-    meshes.enter(obj, np.array(chosen))
-    assert bpy.ops.mesh.fair_region("EXEC_DEFAULT", remesh=True, quads=True) == {"FINISHED"}
-    meshes.leave()
-    assert [len(polygon.vertices) for polygon in obj.data.polygons] == [4] * count
-    for corner in obj.data.loops:
-        u = obj.data.uv_layers["Map"].uv[corner.index].vector[0]
-        assert abs(u - obj.data.vertices[corner.vertex_index].co.z) < 0.01
-    assert "no rows" not in bpy.context.window_manager.fairing_report.warnings
 
 
 # Fair Fill over seams of UVs: each island goes on by itself, with its scale and its turn; seams go on with it.

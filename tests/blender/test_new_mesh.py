@@ -15,7 +15,7 @@ import meshes
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "scripts"))
 
-from test_fill import border_edges, with_a_wide_key
+from test_fill import with_a_wide_key
 
 UPPER = 0.45  # faces of the sphere above are selected
 
@@ -26,20 +26,6 @@ def dented() -> tuple[bpy.types.Object, Any]:
     with_a_wide_key(obj)
     heights = np.array([polygon.center.normalized().z for polygon in obj.data.polygons])
     return obj, heights > UPPER
-
-
-def spoil(obj: bpy.types.Object, chosen: Any) -> None:
-    """Push in the vertices that have chosen faces only, in Basis and key alike."""
-    polygons = zip(obj.data.polygons, chosen, strict=True)
-    outside = {v for polygon, inside in polygons if not inside for v in polygon.vertices}
-    inner = np.array([v for v in range(len(obj.data.vertices)) if v not in outside])
-    points = meshes.positions(obj)
-    before = points.copy()
-    points[inner, 2] -= 0.1 + 0.05 * np.cos(7.0 * points[inner, 0])
-    obj.data.vertices.foreach_set("co", points.astype(np.float32).ravel())
-    for block in obj.data.shape_keys.key_blocks if obj.data.shape_keys else ():
-        places = np.array([point.co[:] for point in block.data]) + points - before
-        block.data.foreach_set("co", places.astype(np.float32).ravel())
 
 
 def fair_new(obj: bpy.types.Object, chosen: Any, **properties: Any) -> set[str]:
@@ -60,36 +46,6 @@ def inner_vertices(obj: bpy.types.Object) -> Any:
     """Those of new faces only."""
     outside = {v for polygon in obj.data.polygons if not polygon.select for v in polygon.vertices}
     return np.array(sorted({v for polygon in new_polygons(obj) for v in polygon.vertices} - outside))
-
-
-def halved(obj: bpy.types.Object) -> None:
-    """Two islands of UVs, left and right of x = 0, each with the places of the other's mirror image far away."""
-    mesh = obj.data
-    points = meshes.positions(obj)
-    centres = np.array([polygon.center.x for polygon in mesh.polygons for _ in polygon.loop_indices])
-    places = points[[loop.vertex_index for loop in mesh.loops], :2] + np.where(centres > 0.0, 5.0, -5.0)[:, None]
-    layer = mesh.uv_layers["Map"] if "Map" in mesh.uv_layers else mesh.uv_layers.new(name="Map")
-    layer.uv.foreach_set("vector", places.astype(np.float32).ravel())
-
-
-def test_a_seam_inside_stays_and_parts_the_islands() -> None:
-    obj, chosen = dented()
-    halved(obj)
-    spoil(obj, chosen)
-    assert fair_new(obj, chosen, spacing=0.7) == {"FINISHED"}
-    assert border_edges(obj) == 0
-    points = meshes.positions(obj)
-    assert np.abs(np.linalg.norm(points, axis=1) - 1.0).max() < 2e-3
-    uv = obj.data.uv_layers["Map"].uv
-    sides = []
-    for polygon in new_polygons(obj):
-        u = np.array([uv[corner].vector[0] for corner in polygon.loop_indices])
-        x = points[list(polygon.vertices), 0]
-        assert abs(u - x - np.sign(u) * 5.0).max() < 0.1  # no corner is of the other island
-        assert np.ptp(np.sign(u)) == 0
-        sides.append(float(np.sign(u[0])))
-        assert (np.sign(u[0]) * x).min() > -5e-3  # no face runs across
-    assert set(sides) == {-1.0, 1.0}
 
 
 def test_marks_and_borders_of_materials_stay() -> None:

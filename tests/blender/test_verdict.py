@@ -227,23 +227,3 @@ def test_scripts_are_reported_by_an_exception() -> None:
     result = package.fair_mesh(obj.data, indices, allow_folds=True, **NONE)
     assert not result.converged
     assert meshes.contents(obj) != before
-
-
-def test_a_texture_is_kept_without_being_asked() -> None:
-    """Automatic is Keep Texture on a patch with a UV map, Even without one, to the bit."""
-    results = {}
-    for mapped in (False, True):
-        for choice in ("AUTOMATIC", "UNIFORM", "CONFORMAL"):
-            obj, faces = meshes.domed_grid()
-            points = meshes.positions(obj)
-            points[:, 2] = 0.2 * np.cos(2.0 * points[:, 0])  # nothing that Automatic could take for crumpled
-            meshes.move(obj, points)
-            if mapped:
-                layer = obj.data.uv_layers.new(name="UVMap")
-                for corner, place in zip(obj.data.loops, layer.uv, strict=True):
-                    place.vector = obj.data.vertices[corner.vertex_index].co.xy
-            meshes.fair(obj, faces, inner_fairness=choice)
-            results[mapped, choice] = meshes.positions(obj).tobytes()
-    assert results[False, "AUTOMATIC"] == results[False, "UNIFORM"]
-    assert results[True, "AUTOMATIC"] == results[True, "CONFORMAL"]
-    assert results[True, "UNIFORM"] != results[True, "CONFORMAL"]

@@ -3,12 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <functional>
-#include <numbers>
 
 #include "api/fair_solver.h"
-#include "api/remesh.h"
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "meshes.h"
@@ -34,11 +31,10 @@ bool is_cancelled(int k, const std::function<void(const ProgressCallback&)>& run
     return cancelled;
 }
 
-// How often the run can be cancelled. `every`: only at each so-manieth place, unless the environment asks for all.
-int cancel_everywhere(const std::function<void(const ProgressCallback&)>& run, int every = 1) {
-    const int step = std::getenv("FAIRING_EVERY_CHECKPOINT") ? 1 : every;
+// How often the run can be cancelled.
+int cancel_everywhere(const std::function<void(const ProgressCallback&)>& run) {
     int k = 1;
-    while (is_cancelled(k, run)) k += step;
+    while (is_cancelled(k, run)) ++k;
     return k - 1;
 }
 
@@ -46,37 +42,7 @@ bool same_bits(const Points& one, const Points& other) {
     return one.cols() == other.cols() && one.cwiseEqual(other).all();
 }
 
-struct Cap {
-    explicit Cap(int n)
-        : mesh(test::grid(n, 0.2, test::sphere)), before(mesh), input{mesh.points, mesh.triangles, {}, {}} {}
-    [[nodiscard]] bool is_untouched() const {
-        return same_bits(mesh.points, before.points) && mesh.triangles.cwiseEqual(before.triangles).all();
-    }
-    test::Mesh mesh;
-    test::Mesh before;
-    MeshInput input;
-};
-
-FairOptions with_threads(int threads, FairOptions options = {}) {
-    options.threads = threads;
-    return options;
-}
-
-// Cancelled everywhere, the call leaves its input as it is, and gives afterwards what it gave before.
-void check_fair(int n, const FairOptions& options, int least) {
-    const Cap cap(n);
-    const Points wanted = fair(cap.input, {}, options, {}).vertices;
-    const int places = cancel_everywhere([&](const ProgressCallback& stop) { fair(cap.input, {}, options, stop); });
-    CHECK(places > least);
-    CHECK(cap.is_untouched());
-    CHECK(same_bits(fair(cap.input, {}, options, {}).vertices, wanted));
-}
-
 }  // namespace
-
-TEST_CASE("threads: a small solve is cancelled at every checkpoint") {
-    for (const int threads : {1, 2}) check_fair(6, with_threads(threads), 10);
-}
 
 // More threads than cores: the caller waits for helpers that have begun and don't run.
 TEST_CASE("threads: a nested solve is cancelled at every checkpoint") {
@@ -102,13 +68,14 @@ TEST_CASE("threads: a nested solve is cancelled at every checkpoint") {
 }
 
 TEST_CASE("threads: a Solver that was cancelled at any checkpoint goes on as if it had not been asked") {
-    const Cap cap(5);
-    Points moved = cap.mesh.points;
+    const test::Mesh cap = test::grid(5, 0.2, test::sphere);
+    Points moved = cap.points;
     moved.row(0) *= 1.05;
-    const FairOptions options = with_threads(2);
+    FairOptions options;
+    options.threads = 2;
     const auto after = [&](const std::function<void(FairSolver&)>& between) {
-        FairSolver solver(cap.mesh.triangles, {}, {}, options);
-        solver.solve(cap.mesh.points, {}, {}, {}, {});
+        FairSolver solver(cap.triangles, {}, {}, options);
+        solver.solve(cap.points, {}, {}, {}, {});
         between(solver);
         return solver.solve(moved, {}, {}, {}, {}).vertices;
     };
