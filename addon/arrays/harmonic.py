@@ -14,16 +14,8 @@ def harmonic(points: Floats, triangles: Ints, values: Floats) -> Floats:
 
     No value leaves the range of its column; a constant one keeps its bits. What is not finite counts as 0.
     """
-    values = np.where(np.isfinite(values), values, 0.0)
-    # The first row is taken off and put back, so that nothing is left to solve for a constant.
-    given = values - values[0]
-    varied = np.flatnonzero(given.any(axis=0))
-    inside = np.zeros((len(points) - len(values), values.shape[1]))
-    if len(inside) and len(varied):
-        rim = np.arange(len(values))
-        inside[:, varied] = fairing.maps.interpolate(points, triangles, rim, given[:, varied])[len(values) :]
-    carried: Floats = np.clip(inside + values[0], values.min(axis=0), values.max(axis=0))
-    return carried
+    finite = np.where(np.isfinite(values), values, 0.0)
+    return fairing.maps.interpolate(points, triangles, np.arange(len(values)), finite)[len(values) :]
 
 
 def nearest(triangles: Ints, count: int, known: int) -> Ints:
