@@ -60,12 +60,12 @@ private:
     };
 
     // Whether the normals at a triangle's corners are of one side with its own: at walls that meet they are means, over
-    // which it must not be curved.
+    // which it must not be curved. Beside edges of 60° a fillet turns by 25° from one vertex to the next.
     static bool is_smooth(const Part& part, int triangle) {
         const Vector3 own = part.target.face_normal(triangle);
         const auto corners = part.old.patch.triangles.col(triangle);
         return std::all_of(corners.begin(), corners.end(),
-                           [&](int v) { return part.old.normals.col(v).dot(own) > std::cos(corner_angle); });
+                           [&](int v) { return part.old.normals.col(v).dot(own) > std::cos(2.0 * corner_angle); });
     }
 
     const FilletSurface& surface_;
@@ -163,11 +163,10 @@ private:
                 whole = false;
                 Indices from{a};
                 from.insert(from.end(), kept.begin(), kept.end());
-                from.push_back(b);
+                from.insert(from.end(), {b, quad[(k + 2) % 4], quad[(k + 3) % 4]});
                 const auto at = [&](int v) { return on_->place(v); };
                 const Vector3 up = (at(quad[2]) - at(quad[0])).cross(at(quad[3]) - at(quad[1]));
-                for (const Eigen::Vector3i& each :
-                     zipped(from, {quad[(k + 3) % 4], quad[(k + 2) % 4]}, at, [&](int) { return up; }, whatever))
+                for (const Eigen::Vector3i& each : roundest(from, at, [&](int) { return up; }, whatever))
                     triangles_.push_back(each);
             }
             if (whole) rows_.quads.push_back(quad);

@@ -143,21 +143,17 @@ FirstMesh first_mesh(CutPieces cut, const VectorX& spacings) {
     for (const auto& [a, b] : cut.seams)
         for (const int v : {a, b})
             if (++uses[v] > 2) stays[v] = 1;
-    std::vector<Pair> tiny_ones;
+    std::vector<Pair> all;
     for (const auto& ends : make_edges(first.triangles, count).ends)
-        if ((cut.points.col(ends[0]) - cut.points.col(ends[1])).norm() < tiny * spacings[ends[0]])
-            tiny_ones.push_back(ends);
-    std::vector<Pair> all = tiny_ones;
+        if ((cut.points.col(ends[0]) - cut.points.col(ends[1])).norm() < tiny * spacings[ends[0]]) all.push_back(ends);
     all.insert(all.end(), cut.seams.begin(), cut.seams.end());
-    for (const auto* lines : {&all, &tiny_ones}) {
-        const Indices into = merged(*lines, cut.points, stays, brief * spacings);
-        const Triangles moved = first.triangles.unaryExpr([&](int v) { return into[v]; });
-        Indices rows;
-        for (int t = 0; t < static_cast<int>(moved.cols()); ++t)
-            if (moved(0, t) != moved(1, t) && moved(1, t) != moved(2, t) && moved(2, t) != moved(0, t))
-                rows.push_back(t);
-        const Triangles closed = moved(Eigen::all, rows);
-        if (!is_like(closed, first.triangles, count)) continue;
+    const Indices into = merged(all, cut.points, stays, brief * spacings);
+    const Triangles moved = first.triangles.unaryExpr([&](int v) { return into[v]; });
+    Indices rows;
+    for (int t = 0; t < static_cast<int>(moved.cols()); ++t)
+        if (moved(0, t) != moved(1, t) && moved(1, t) != moved(2, t) && moved(2, t) != moved(0, t)) rows.push_back(t);
+    const Triangles closed = moved(Eigen::all, rows);
+    if (is_like(closed, first.triangles, count)) {
         std::set<Pair> ends;
         for (const auto& [a, b] : cut.seams)
             if (into[a] != into[b]) ends.insert({std::min(into[a], into[b]), std::max(into[a], into[b])});
@@ -165,7 +161,6 @@ FirstMesh first_mesh(CutPieces cut, const VectorX& spacings) {
         for (int& row : rows) row = first.pieces[row];
         first.pieces = std::move(rows);
         first.triangles = closed;
-        break;
     }
     first.lines = between(cut.seams, first.triangles, cut.points, spacings);
     first.inside = std::move(cut.inside);

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "base/columns.h"
+#include "fillet/row_surface.h"
 
 namespace fairing {
 
@@ -13,14 +14,6 @@ namespace {
 
 constexpr double flat = 1e-6;   // of a piece's longest side squared: as little area is none
 constexpr double plane = 1e-3;  // radians: pieces that are turned by more are not in one plane
-
-// Twice a piece's area over the square of its longest side, negative where it is turned over.
-double roundness(const std::array<Vector3, 3>& at, const Vector3& up) {
-    const double area = (at[1] - at[0]).cross(at[2] - at[0]).dot(up);
-    const double longest =
-        std::max({(at[1] - at[0]).squaredNorm(), (at[2] - at[1]).squaredNorm(), (at[0] - at[2]).squaredNorm()});
-    return longest > 0.0 ? area / longest : 0.0;
-}
 
 }  // namespace
 
@@ -47,7 +40,8 @@ bool ClosedPieces::drop(const Indices& points) {
     }
     const Indices rim = around({star.begin(), star.end()}, points);
     if (rim.size() < 3) return false;
-    const std::vector<Piece> made = meshed(rim);
+    up.normalize();
+    const std::vector<Piece> made = roundest(rim, [&](int v) { return at(v); }, [&](int) { return up; }, flat);
     if (made.empty()) return false;
     const int parent = cut_.parent[*star.begin()];
     for (const int t : star) remove(t);
@@ -122,42 +116,6 @@ Indices ClosedPieces::around(const std::vector<int>& star, const Indices& group)
             rim.push_back(v);
     }
     return rim.size() + inner == border.size() && inner == group.size() ? rim : Indices{};
-}
-
-// Of all ways to cut a polygon into triangles that whose flattest one is roundest; empty where one would turn over.
-std::vector<ClosedPieces::Piece> ClosedPieces::meshed(const Indices& rim) const {
-    const int count = static_cast<int>(rim.size());
-    Vector3 up = Vector3::Zero();
-    for (int k = 1; k + 1 < count; ++k) up += (at(rim[k]) - at(rim[0])).cross(at(rim[k + 1]) - at(rim[0]));
-    up.normalize();
-    struct Best {
-        double roundness;
-        int middle;
-    };
-    std::vector<std::vector<Best>> best(count, std::vector<Best>(count, {2.0, none}));
-    for (int width = 2; width < count; ++width) {
-        for (int i = 0; i + width < count; ++i) {
-            Best& own = best[i][i + width] = {-2.0, none};
-            for (int k = i + 1; k < i + width; ++k) {
-                const double found = std::min({best[i][k].roundness, best[k][i + width].roundness,
-                                               roundness({at(rim[i]), at(rim[k]), at(rim[i + width])}, up)});
-                if (found > own.roundness) own = {found, k};
-            }
-        }
-    }
-    if (best.front().back().roundness < flat) return {};
-    std::vector<Piece> found;
-    std::vector<VertexPair> open{{0, count - 1}};
-    while (!open.empty()) {
-        const auto [i, j] = open.back();
-        open.pop_back();
-        const int k = best[i][j].middle;
-        if (k == none) continue;
-        found.emplace_back(rim[i], rim[k], rim[j]);
-        open.push_back({i, k});
-        open.push_back({k, j});
-    }
-    return found;
 }
 
 }  // namespace fairing

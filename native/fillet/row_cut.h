@@ -20,7 +20,6 @@ private:
     void add(const Piece& piece, int parent);
     void remove(int t);
     [[nodiscard]] Indices around(const std::vector<int>& star, const Indices& group) const;
-    [[nodiscard]] std::vector<Piece> meshed(const Indices& rim) const;
     [[nodiscard]] Vector3 at(int v) const { return vertices_.col(v); }
 
     const Points& vertices_;

@@ -6,26 +6,13 @@ namespace {
 
 constexpr double end_room = 0.4;  // of the width: so long are the triangles between the last column and others
 
-void add_columns(const std::vector<Column>& columns, std::vector<Quad>& quads) {
-    for (std::size_t k = 0; k + 1 < columns.size(); ++k) add_quads({columns[k].ids, columns[k + 1].ids}, quads);
-}
-
 }  // namespace
 
 void RowPieces::lay() {
-    strip_.quads.clear();
     strip_.triangles.clear();
     strip_.edges.clear();
     surface_.leave(owner_);
-    for (int turn = 0; strip_.closed; ++turn) {
-        std::vector<Column> columns = columns_.columns(strip_, strip_.first_pair(), strip_.last_pair());
-        const int bad = columns_.mend(strip_, columns);
-        if (bad == none) return add_columns(columns, strip_.quads);
-        if (turn == 0)
-            strip_.turn_to(columns[columns.size() / 2].at);  // its begin may be the bad place
-        else
-            strip_.open_at(columns[bad + 1].at);
-    }
+    if (strip_.closed) return add(columns_.columns(strip_, strip_.first_pair(), strip_.last_pair()));
     lay({{strip_.first_pair(), strip_.last_pair()}, strip_.ends});
 }
 
@@ -35,37 +22,24 @@ void RowPieces::lay(Piece piece) {
     for (const int which : {0, 1}) {
         if (is_whole_wall(piece, which)) walls[which] = strip_.walls[which];
     }
-    std::vector<Column> columns = columns_.columns(strip_, first, last, walls);
-    if (const int bad = columns_.mend(strip_, columns); bad != none) {
-        const bool one = lay_part({{piece.outer[0], columns[bad].at}, {piece.ends[0], RowEnd::open}});
-        const bool two = lay_part({{columns[bad + 1].at, piece.outer[1]}, {RowEnd::open, piece.ends[1]}});
-        if (!one && !two) throw NoRows();
-        return;
-    }
-    const std::size_t triangles = strip_.triangles.size();
-    const std::size_t edges = strip_.edges.size();
+    const std::vector<Column> columns = columns_.columns(strip_, first, last, walls);
+    add(columns);
     for (const int which : {0, 1}) {
         const Column& end = which == 0 ? columns.front() : columns.back();
         if (piece.ends[which] == RowEnd::corner) strip_.last[which] = end;
         if (add_end(end, piece, which)) continue;
-        strip_.triangles.resize(triangles);
-        strip_.edges.resize(edges);
+        strip_.triangles.clear();
+        strip_.edges.clear();
         if (piece.ends[which] == RowEnd::open) piece.outer[which] = end.at;  // further in
         piece.ends[which] = RowEnd::open;
         return lay(piece);
     }
-    add_columns(columns, strip_.quads);
 }
 
-// False where the surface's triangles stay.
-bool RowPieces::lay_part(const Piece& piece) {
-    try {
-        lay(piece);
-        return true;
-    } catch (const NoRows&) {
-        if (piece.ends[0] != RowEnd::open || piece.ends[1] != RowEnd::open) throw;
-        return false;
-    }
+void RowPieces::add(const std::vector<Column>& columns) {
+    strip_.quads.clear();
+    for (std::size_t k = 0; k + 1 < columns.size(); ++k) add_quads({columns[k].ids, columns[k + 1].ids}, strip_.quads);
+    if (!surface_.are_good(strip_.quads)) throw NoRows();
 }
 
 bool RowPieces::is_whole_wall(const Piece& piece, int which) const {

@@ -1,4 +1,4 @@
-// The rows of one band laid: in pieces where there are places without rows, with triangles at their ends.
+// The rows of one band laid, with triangles at their ends.
 #pragma once
 
 #include "fillet/row_strip.h"
@@ -11,7 +11,7 @@ public:
     RowPieces(RowColumns& columns, RowSurface& surface, const RowSizes& sizes, RowStrip& strip, int owner)
         : columns_(columns), surface_(surface), sizes_(sizes), strip_(strip), owner_(owner) {}
 
-    // Throws NoRows where none fit, or where they don't come to a corner or a wall to which they should.
+    // Throws NoRows where none fit, or one would be bad.
     void lay();
 
 private:
@@ -21,7 +21,7 @@ private:
         std::array<RowEnd, 2> ends;
     };
     void lay(Piece piece);
-    bool lay_part(const Piece& piece);
+    void add(const std::vector<Column>& columns);
     [[nodiscard]] std::array<Pair, 2> bounds(Piece& piece) const;
     [[nodiscard]] bool is_whole_wall(const Piece& piece, int which) const;
     bool add_end(const Column& last, const Piece& piece, int which);

@@ -49,8 +49,7 @@ Pair RowStrip::last_pair() const {
     return {static_cast<int>(sides[right].vertices.size()) - 1, static_cast<int>(sides[left].vertices.size()) - 1};
 }
 
-void RowStrip::open_at(const Pair& at) {
-    closed = false;
+void RowStrip::turn_to(const Pair& at) {
     for (const Side side : {right, left}) {
         BandSide& own = sides[side];
         own.vertices.pop_back();
@@ -59,15 +58,8 @@ void RowStrip::open_at(const Pair& at) {
         for (int k = 0; k < begin; ++k) own.ways[k] += arc->length();
         std::rotate(own.vertices.begin(), own.vertices.begin() + begin, own.vertices.end());
         std::rotate(own.ways.begin(), own.ways.begin() + begin, own.ways.end());
-    }
-}
-
-void RowStrip::turn_to(const Pair& at) {
-    open_at(at);
-    closed = true;
-    for (BandSide& side : sides) {
-        side.vertices.push_back(side.vertices.front());
-        side.ways.push_back(side.ways.front() + arc->length());
+        own.vertices.push_back(own.vertices.front());
+        own.ways.push_back(own.ways.front() + arc->length());
     }
 }
 
@@ -268,28 +260,6 @@ bool RowColumns::is_bent(const Column& one, const Column& middle, const Column& 
         bulge = std::min(bulge, (at(middle.ids[j]) - chord).norm());
     }
     return off > std::max(bent * bulge, flat * sizes_.width);
-}
-
-int RowColumns::mend(const RowStrip& strip, std::vector<Column>& columns) {
-    const auto is_good = [&](std::size_t one, std::size_t two) {
-        std::vector<Quad> quads;
-        add_quads({columns[one].ids, columns[two].ids}, quads);
-        return surface_.are_good(quads);
-    };
-    for (std::size_t k = 0; k + 1 < columns.size();) {
-        const auto place = columns.begin() + static_cast<std::ptrdiff_t>(k);
-        if (is_good(k, k + 1))
-            ++k;
-        else if (k + 2 < columns.size() && is_good(k, k + 2))
-            columns.erase(place + 1);
-        else if (k > 0 && is_good(k - 1, k + 1))
-            columns.erase(place);
-        else if (const auto at = between(strip, columns[k], columns[k + 1]))
-            columns.insert(place + 1, column(strip, *at));
-        else
-            return static_cast<int>(k);
-    }
-    return none;
 }
 
 }  // namespace fairing

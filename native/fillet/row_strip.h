@@ -36,9 +36,7 @@ struct RowStrip {
 
     [[nodiscard]] Pair first_pair() const { return {0, 0}; }
     [[nodiscard]] Pair last_pair() const;
-    // A closed one begins there; as an open one it ends there, too.
-    void turn_to(const Pair& at);
-    void open_at(const Pair& at);
+    void turn_to(const Pair& at);  // a closed one begins there
 };
 
 // A closed band begins where its seam turns or an edge outside comes to it, on both sides at one place of the seam.
@@ -57,9 +55,6 @@ public:
     // `given`: the first and the last one, or empty.
     std::vector<Column> columns(const RowStrip& strip, const Pair& first, const Pair& last,
                                 const std::array<Indices, 2>& given = {});
-    // Takes columns out between which quads would be bad, or puts one between; the place of two between which they
-    // still are, or `none`.
-    int mend(const RowStrip& strip, std::vector<Column>& columns);
     // As on the seam, `way` along it.
     void lift(int vertex, const SeamArc& arc, double way);
 

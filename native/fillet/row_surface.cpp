@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/nearest_first.h"
+
 namespace fairing {
 
 namespace {
@@ -88,26 +90,18 @@ Indices RowSurface::between(int from, int to, int parts) {
 }
 
 Indices RowSurface::way_within(int from, int to) const {
-    std::map<int, double> reached{{from, 0.0}};
-    std::map<int, int> come;
-    std::set<std::pair<double, int>> open{{0.0, from}};
-    while (!open.empty() && open.begin()->second != to) {
-        const auto [length, v] = *open.begin();
-        open.erase(open.begin());
+    NearestFirst reached(VectorX::Constant(count(), std::numeric_limits<double>::infinity()));
+    Indices come(static_cast<std::size_t>(count()), none);
+    reached.lower(from, 0.0);
+    for (int v = reached.next(); v != to; v = reached.next()) {
+        if (v == none) throw NoRows();
         for (const int other : beside_[v]) {
             if (other == to ? v == from : !is_passable(other)) continue;
-            const double more = length + (place(other) - place(v)).norm();
-            const auto known = reached.find(other);
-            if (known != reached.end() && known->second <= more) continue;
-            if (known != reached.end()) open.erase({known->second, other});
-            reached[other] = more;
-            come[other] = v;
-            open.insert({more, other});
+            if (reached.lower(other, reached[v] + (place(other) - place(v)).norm())) come[other] = v;
         }
     }
-    if (open.empty()) throw NoRows();
     Indices way{to};
-    while (way.back() != from) way.push_back(come.at(way.back()));
+    while (way.back() != from) way.push_back(come[way.back()]);
     std::reverse(way.begin(), way.end());
     return way;
 }
@@ -130,48 +124,55 @@ bool RowSurface::are_good(const std::vector<Quad>& quads) const {
 }
 
 std::vector<Eigen::Vector3i> RowSurface::zip(const Indices& from, const Indices& to) const {
-    return zipped(from, to, [&](int v) { return place(v); }, [&](int v) { return normal(v); }, least_round);
+    Indices polygon = from;
+    polygon.insert(polygon.end(), to.rbegin(), to.rend());
+    polygon.erase(std::unique(polygon.begin(), polygon.end()), polygon.end());
+    if (polygon.front() == polygon.back()) polygon.pop_back();
+    return roundest(polygon, [&](int v) { return place(v); }, [&](int v) { return normal(v); }, least_round);
 }
 
-std::vector<Eigen::Vector3i> zipped(const Indices& from, const Indices& to, const VertexVector& place,
-                                    const VertexVector& normal, double least) {
-    const std::size_t n = from.size();
-    const std::size_t m = to.size();
-    const auto corners = [&](std::size_t i, std::size_t j, bool steps) {
-        return steps ? Eigen::Vector3i(from[i], from[i + 1], to[j]) : Eigen::Vector3i(from[i], to[j + 1], to[j]);
-    };
-    const auto is_none = [](const Eigen::Vector3i& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; };
-    const auto roundness = [&](const Eigen::Vector3i& t) {
-        if (is_none(t)) return 2.0;
-        const Vector3 a = place(t[0]);
-        const Vector3 b = place(t[1]);
-        const Vector3 c = place(t[2]);
-        const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-        return (b - a).cross(c - a).dot((normal(t[0]) + normal(t[1]) + normal(t[2])).normalized()) / longest;
+std::vector<Eigen::Vector3i> roundest(const Indices& polygon, const VertexVector& place, const VertexVector& normal,
+                                      double least) {
+    const auto count = static_cast<int>(polygon.size());
+    std::vector<Vector3> at;
+    std::vector<Vector3> up;
+    for (const int v : polygon) {
+        at.push_back(place(v));
+        up.push_back(normal(v));
+    }
+    const auto roundness = [&](int i, int j, int k) {
+        const double longest =
+            std::max({(at[j] - at[i]).squaredNorm(), (at[k] - at[j]).squaredNorm(), (at[i] - at[k]).squaredNorm()});
+        const double area = (at[j] - at[i]).cross(at[k] - at[i]).dot((up[i] + up[j] + up[k]).normalized());
+        return longest > 0.0 ? area / longest : 0.0;
     };
     struct Best {
-        double roundness = -2.0;
-        bool steps = false;  // with which it was reached
+        double roundness;
+        int middle;
     };
-    std::vector<std::vector<Best>> best(n, std::vector<Best>(m));
-    best[0][0] = {2.0, false};
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < m; ++j) {
-            for (const bool steps : {true, false}) {
-                if (steps ? i == 0 : j == 0) continue;
-                const Best& before = steps ? best[i - 1][j] : best[i][j - 1];
-                const double found =
-                    std::min(before.roundness, roundness(steps ? corners(i - 1, j, true) : corners(i, j - 1, false)));
-                if (found > best[i][j].roundness) best[i][j] = {found, steps};
+    std::vector<std::vector<Best>> best(count, std::vector<Best>(count, {2.0, none}));
+    for (int width = 2; width < count; ++width) {
+        for (int i = 0; i + width < count; ++i) {
+            Best& own = best[i][i + width] = {-2.0, none};
+            for (int k = i + 1; k < i + width; ++k) {
+                const double known = std::min(best[i][k].roundness, best[k][i + width].roundness);
+                if (known <= own.roundness) continue;
+                const double found = std::min(known, roundness(i, k, i + width));
+                if (found > own.roundness) own = {found, k};
             }
         }
     }
     std::vector<Eigen::Vector3i> made;
-    if (best[n - 1][m - 1].roundness < least) return made;
-    for (std::size_t i = n - 1, j = m - 1; i + j > 0;) {
-        const bool steps = best[i][j].steps;
-        steps ? --i : --j;
-        if (const Eigen::Vector3i t = corners(i, j, steps); !is_none(t)) made.push_back(t);
+    if (best.front().back().roundness < least) return made;
+    std::vector<std::array<int, 2>> open{{0, count - 1}};
+    while (!open.empty()) {
+        const auto [i, j] = open.back();
+        open.pop_back();
+        const int k = best[i][j].middle;
+        if (k == none) continue;
+        made.emplace_back(polygon[i], polygon[k], polygon[j]);
+        open.push_back({i, k});
+        open.push_back({k, j});
     }
     return made;
 }

@@ -53,7 +53,8 @@ public:
     void leave(int owner);
 
     [[nodiscard]] bool are_good(const std::vector<Quad>& quads) const;  // convex, and not turned over
-    // As zipped below.
+    // The gap between two chains that begin and end beside each other or in one vertex; `to` lies on the left of
+    // `from`. As roundest below.
     [[nodiscard]] std::vector<Eigen::Vector3i> zip(const Indices& from, const Indices& to) const;
 
     [[nodiscard]] const std::vector<RowVertex>& made() const { return made_; }
@@ -76,11 +77,11 @@ private:
 
 using VertexVector = std::function<Vector3(int)>;
 
-// Of all ways to fill a gap with triangles that whose flattest one is roundest: between two chains of vertices that
-// begin and end beside each other or in one vertex; `to` lies on the left of `from`. Empty where one would have less
-// than `least` of twice its area over its longest side squared, which is negative where it is turned over.
-std::vector<Eigen::Vector3i> zipped(const Indices& from, const Indices& to, const VertexVector& place,
-                                    const VertexVector& normal, double least);
+// Of all ways to fill a polygon with triangles that whose flattest one is roundest (G. T. Klincsek 1980). Empty where
+// one would have less than `least` of twice its area over its longest side squared, which is negative where it is
+// turned over.
+std::vector<Eigen::Vector3i> roundest(const Indices& polygon, const VertexVector& place, const VertexVector& normal,
+                                      double least);
 
 // Degrees: the widest angle of a quad; above 180 where it is not convex.
 double widest_angle(const std::array<Vector3, 4>& corners);

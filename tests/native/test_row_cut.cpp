@@ -12,8 +12,8 @@ TEST_CASE("rows: a gap between two chains is filled with triangles that are not 
         0.0, 0.0, 0.0, 0.0, 0.0;
     const auto place = [&](int v) { return Vector3(points.col(v)); };
     const auto up = [](double z) { return [z](int) { return Vector3(0.0, 0.0, z); }; };
-    CHECK(zipped({0, 1, 2}, {3, 4}, place, up(1.0), 1e-3).size() == 3);
-    CHECK(zipped({0, 1, 2}, {3, 4}, place, up(-1.0), 1e-3).empty());
+    CHECK(roundest({0, 1, 2, 4, 3}, place, up(1.0), 1e-3).size() == 3);
+    CHECK(roundest({0, 1, 2, 4, 3}, place, up(-1.0), 1e-3).empty());
 }
 
 TEST_CASE("rows: a concave quad has an angle above 180 degrees") {
