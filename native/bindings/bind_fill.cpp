@@ -12,15 +12,14 @@ namespace {
 
 using namespace py::literals;
 
-// Spacing, or one of each vertex; least count, whether one length holds everywhere, and whether the old triangles are
-// flat.
-using Wanted = std::tuple<std::variant<double, VectorX>, int, bool, bool>;
+// Spacing, or one of each vertex; whether one length holds everywhere, and whether the old triangles are flat.
+using Wanted = std::tuple<std::variant<double, VectorX>, bool, bool>;
 
 WantedLengths to_lengths(const Wanted& wanted) {
-    const auto& [spacing, least_count, even, flat] = wanted;
+    const auto& [spacing, even, flat] = wanted;
     const Spread spread = even ? Spread::equal : Spread::boundary;
-    if (const auto* each = std::get_if<VectorX>(&spacing)) return {0.0, least_count, spread, *each, flat};
-    return {std::get<double>(spacing), least_count, spread, {}, flat};
+    if (const auto* each = std::get_if<VectorX>(&spacing)) return {0.0, 0, spread, *each, flat};
+    return {std::get<double>(spacing), 0, spread, {}, flat};
 }
 
 // Fixed vertices on creases, and on smooth curves.

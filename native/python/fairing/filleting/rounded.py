@@ -79,12 +79,12 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
     rim = np.isin(cut["boundary"], np.concatenate(boundary_loops(triangles)))
     patch = Patch(placed, triangles, cut["boundary"][rim], np.ascontiguousarray(cut["normals"][rim]))
     spacing = Spacing(wishes.spacing, even=True, flat=True, each=cut["spacings"])
-    new, origin, on_seam = patch.meshed_anew(len(placed), lines, (spacing, 0), wishes.options, watch.part(0.2, 0.4))
+    new, origin, on_seam = patch.remeshed(len(placed), lines, spacing, wishes.options, watch.part(0.2, 0.4))
     watch.lap("mesh")
     chosen = dict(wishes.options)
     if chosen.get("continuity", "G1") == "G2":
         chosen["fixed_curvatures"] = cut["curvatures"][rim]
-    report = new.faired("given", None, chosen, watch.part(0.4, 1.0))
+    report = new.faired(chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
     old, weights = _origins(cut, origin, pieces, count)
     values = report_fields(report, count)

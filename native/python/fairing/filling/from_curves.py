@@ -134,7 +134,7 @@ class _Task:
         usual = first.expected_new(Spacing(0.0, False))
         refuse_large(first.expected_new(self.length), usual, self.max_vertices, self.held.all)
         options = {"creases": self.held.all, "threads": self.threads}
-        new, _ = first.remeshed(len(self.points), self.length, 0, options, watch.part(0.3, 0.4))
+        new = first.remeshed(len(self.points), arguments.NO_EDGES, self.length, options, watch.part(0.3, 0.4))[0]
         watch.lap("mesh")
         report = solved(
             new.vertices, new.triangles, Boundary(new.fixed, new.normals), self._options, watch.part(0.4, 1.0),

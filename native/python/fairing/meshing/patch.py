@@ -72,8 +72,9 @@ class Spacing:
     each: FloatArray | None = None
     """(n,) of the vertices, in place of the length."""
 
-    def wanted(self, least: int) -> tuple[float | FloatArray, int, bool, bool]:
-        return self.length if self.each is None else self.each, least, self.even, self.flat
+    @property
+    def wanted(self) -> tuple[float | FloatArray, bool, bool]:
+        return self.length if self.each is None else self.each, self.even, self.flat
 
 
 @dataclass(frozen=True)
@@ -88,28 +89,20 @@ class Patch:
     def expected_new(self, spacing: Spacing) -> float:
         """About how many vertices of a mesh of that spacing are new: half as many as the boundary has are not."""
         mine = self.triangles[_core.components(self.triangles, self.fixed, len(self.vertices)) >= 0]
-        count = _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted(0))
+        count = _core.expected_count(self.vertices, self.triangles, self.fixed, self.normals, spacing.wanted)
         return count - 0.5 * sum(map(len, _core.boundary_loops(mine)))
 
     def remeshed(
-        self, old_count: int, spacing: Spacing, least: int, options: dict[str, Any], progress: Progress | None
-    ) -> tuple[Patch, Origin]:
-        """On the first ``old_count`` of these vertices and new ones."""
-        new, origin, _ = self.meshed_anew(old_count, arguments.NO_EDGES, (spacing, least), options, progress)
-        return new, origin
-
-    def meshed_anew(
-        self,
-        old_count: int,
-        lines: IntArray,
-        wanted: tuple[Spacing, int],
-        options: dict[str, Any],
-        progress: Progress | None,
+        self, old_count: int, lines: IntArray, spacing: Spacing, options: dict[str, Any], progress: Progress | None
     ) -> tuple[Patch, Origin, IntArray]:
-        """The same with edges that stay, and with the old vertex that each new one is, or −1."""
+        """On the first ``old_count`` of these vertices and new ones, with edges that stay: where each new vertex lies.
+
+        Last the old vertex that each new one is, or −1.
+        """
+        given = {name: options.get(name) for name in ("creases", "smooth_curves")}
+        free_slopes = tuple(arguments.integers(name, [] if at is None else at, None) for name, at in given.items())
         mesh = _core.remesh(
-            self.vertices, self.triangles, self.fixed, self.normals, free_slopes(options), lines,
-            wanted[0].wanted(wanted[1]),
+            self.vertices, self.triangles, self.fixed, self.normals, free_slopes, lines, spacing.wanted,
             arguments.whole("threads", options.get("threads", 0), 0), progress,
         )  # fmt: skip
         triangles = mesh["triangles"].copy()
@@ -118,20 +111,12 @@ class Patch:
         new = Patch(placed, read_only(triangles), self.fixed, self.normals)
         return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
 
-    def faired(self, start: str, outside: Any, options: dict[str, Any], progress: Progress | None) -> FairResult:
+    def faired(self, options: dict[str, Any], progress: Progress | None) -> FairResult:
+        """Begun at these vertices."""
         chosen = {"inner_fairness": "conformal", **options}
         threads = chosen.pop("threads", 0)
-        joined = {name: chosen.pop(f"fixed_{name}", None) for name in ("curvatures", "continuity")}
-        around = outside if outside is not None and len(outside) else None
-        boundary = Boundary(self.fixed, self.normals, outside=around, **joined)
-        return solved(self.vertices, self.triangles, boundary, Options.of(**chosen, start=start), progress, threads)
-
-
-def free_slopes(options: dict[str, Any]) -> tuple[IntArray, IntArray]:
-    """Fixed vertices on creases, and on smooth curves."""
-    given = {name: options.get(name) for name in ("creases", "smooth_curves")}
-    creases, curves = (arguments.integers(name, [] if at is None else at, None) for name, at in given.items())
-    return creases, curves
+        boundary = Boundary(self.fixed, self.normals, chosen.pop("fixed_curvatures", None))
+        return solved(self.vertices, self.triangles, boundary, Options.of(**chosen, start="given"), progress, threads)
 
 
 _MADE_HERE = ("reference", "neighbours", "outline", "start")

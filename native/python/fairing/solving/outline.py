@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,7 +17,7 @@ from fairing.solving.surroundings import Boundary, Surroundings
 
 @dataclass(frozen=True, eq=False)
 class SurroundingNormals:
-    """What :func:`surrounding_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
+    """What :func:`surrounding_normals` gives back. All arrays are read-only."""
 
     normals: FloatArray
     """(k, 3) unit normals; rows of zeros where no triangle is adjacent."""
@@ -41,9 +40,6 @@ class SurroundingNormals:
         largest = float(np.abs(self.curvatures[self.fitted]).max())
         usual = max(4.0 * float(np.median(errors[self.fitted])), 0.25 * largest)
         return np.where(errors <= usual, self.curvatures, np.nan)
-
-    def __iter__(self) -> Iterator[npt.NDArray[Any]]:
-        return iter((self.normals, self.fitted))
 
 
 def _bounded(
@@ -93,7 +89,7 @@ SIDES = ("automatic", "outside", "inside")
 
 @dataclass(frozen=True, eq=False)
 class BoundaryNormals(SurroundingNormals):
-    """What :func:`boundary_normals` gives back; unpacks as ``normals, fitted``. All arrays are read-only."""
+    """What :func:`boundary_normals` gives back. All arrays are read-only."""
 
     from_inside: npt.NDArray[np.bool_]
     """(k,) whether the slope is not that of the triangles outside."""
