@@ -1,5 +1,7 @@
 #include "api/hole_job.h"
 
+#include <set>
+
 #include "api/remesh.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
@@ -71,28 +73,6 @@ NewSurface first_over(const std::vector<BoundaryLoop>& loops, const SplitBoundar
     }
 }
 
-Indices once(Indices vertices) {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    return vertices;
-}
-
-// Each fixed vertex once, with its largest angles: the boundary may pass some several times.
-void name_once(FairResult& report) {
-    Indices fixed = once(report.fixed);
-    if (fixed.size() == report.fixed.size()) return;
-    VectorX angles = VectorX::Zero(static_cast<Eigen::Index>(fixed.size()));
-    VectorX joins = angles;
-    for (std::size_t k = 0; k < report.fixed.size(); ++k) {
-        const auto at = std::lower_bound(fixed.begin(), fixed.end(), report.fixed[k]) - fixed.begin();
-        angles[at] = std::max(angles[at], report.boundary_angle[static_cast<Eigen::Index>(k)]);
-        joins[at] = std::max(joins[at], report.join[static_cast<Eigen::Index>(k)]);
-    }
-    report.fixed = std::move(fixed);
-    report.boundary_angle = angles;
-    report.join = joins;
-}
-
 bool is_usable(const FairResult& report) { return report.converged && std::ranges::none_of(report.warnings, is_fold); }
 
 }  // namespace
@@ -122,14 +102,11 @@ void measure_join(FairResult& report, const HolePatch& patch, const Triangles& a
     if (around.cols() == 0) return;
     const JoinedMesh mesh{report.vertices, patch.triangles, around, std::nullopt};
     const VectorX degrees = visible_join(mesh, report.fixed).degrees;
-    Indices outside(around.reshaped().begin(), around.reshaped().end());
-    outside = once(std::move(outside));
-    Indices inside(patch.triangles.reshaped().begin(), patch.triangles.reshaped().end());
-    inside = once(std::move(inside));
-    const auto in = [](const Indices& sorted, int v) { return std::binary_search(sorted.begin(), sorted.end(), v); };
+    const std::set<int> outside(around.reshaped().begin(), around.reshaped().end());
+    const std::set<int> inside(patch.triangles.reshaped().begin(), patch.triangles.reshaped().end());
     for (Eigen::Index k = 0; k < degrees.size(); ++k) {
         const int v = report.fixed[k];
-        if (in(outside, v) && in(inside, v)) report.join[k] = degrees[k];
+        if (outside.contains(v) && inside.contains(v)) report.join[k] = degrees[k];
     }
 }
 
@@ -199,13 +176,15 @@ FilledHole HoleJob::filled(const Progress& progress) const {
         if (auto made = along(*through_, progress.range(0.0, 0.5))) return timed(std::move(*made));
     }
     if (auto made = fan(progress)) return timed(finished(std::move(*made), split_));
-    FilledHole made = finished(surface(progress.range(0.0, 0.95)), split_);
     const SolverOptions& solver = options_.fair.solver;
-    const bool may_differ = !options_.bridge && solver.otherwise != Otherwise::stop;
-    if (may_differ && solver.equation != Equation::soap_film && !is_usable(made.report)) {
-        if (auto other = film(progress.range(0.95, 1.0))) return timed(std::move(*other));
+    const bool may_differ =
+        !options_.bridge && solver.otherwise != Otherwise::stop && solver.equation != Equation::soap_film;
+    std::optional<SolvedHole> made = surface(may_differ, progress.range(0.0, 0.9));
+    if (may_differ && !(made && is_usable(made->report))) {
+        if (auto other = film(progress.range(0.9, 0.95))) return timed(std::move(*other));
+        if (!made) made = surface(false, progress.range(0.95, 1.0));
     }
-    return timed(std::move(made));
+    return timed(finished(std::move(*made), split_));
 }
 
 std::optional<FilledHole> HoleJob::closed_by_face() const {
@@ -326,7 +305,9 @@ std::optional<FilledHole> HoleJob::film(const Progress& progress) const {
     return made;
 }
 
-SolvedHole HoleJob::surface(const Progress& progress) const {
+// Nothing where none was found on a small mesh and another kind may close the hole: a fine mesh takes most of the time
+// there, in vain.
+std::optional<SolvedHole> HoleJob::surface(bool may_differ, const Progress& progress) const {
     const SolverOptions& solver = options_.fair.solver;
     const double flat = flat_count();
     const Limit most = Limit::of(flat, options_.max_vertices);
@@ -335,6 +316,7 @@ SolvedHole HoleJob::surface(const Progress& progress) const {
     if (const auto made = from_fan(progress.range(0.0, 0.1))) return coarser(*made, progress.range(0.9, 1.0));
     Stopwatch watch;
     const NewSurface first = first_over(loops_, split_, taken(), first_equation(options_), progress.range(0.1, 0.2));
+    if (may_differ && !first.converged) return std::nullopt;
     const double first_seconds = watch.lap();
     HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals(), taken()};
     if (solver.equation == Equation::soap_film) patch.normals = std::nullopt;
@@ -377,10 +359,10 @@ FilledHole HoleJob::finished(SolvedHole solved, const SplitBoundary& split) cons
     report.vertices.resize(3, 0);
     report.base.resize(3, 0);
     std::transform(report.fixed.begin(), report.fixed.end(), report.fixed.begin(), number);
-    name_once(report);
     for (Diagnostic& warning : report.warnings) {
         if (warning.kind != ElementKind::vertex) continue;
         std::transform(warning.elements.begin(), warning.elements.end(), warning.elements.begin(), number);
+        std::sort(warning.elements.begin(), warning.elements.end());
     }
     made.report = std::move(report);
     made.is_cut = solved.is_cut;

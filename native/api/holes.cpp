@@ -122,12 +122,15 @@ public:
             is_bare.push_back(loop.is_bare ? 1 : 0);
         }
         check_boundary(loops, is_bare, mesh_.mesh().vertices);
+        for (BoundaryLoop& loop : hole_.loops) {
+            loop.shape.points = mesh_.mesh().vertices(Eigen::all, loop.vertices);
+            loop.begin_anew();
+            if (named_.vertex_normals.cols() > 0) loop.shape.normals = named_.vertex_normals(Eigen::all, loop.vertices);
+            if (named_.vertex_curvatures.size() > 0) loop.curvatures = named_.vertex_curvatures(loop.vertices);
+        }
         const Indices at = vertices_of(hole_);
         const LocalMesh local = mesh_.around(at);
         for (BoundaryLoop& loop : hole_.loops) {
-            loop.shape.points = mesh_.mesh().vertices(Eigen::all, loop.vertices);
-            if (named_.vertex_normals.cols() > 0) loop.shape.normals = named_.vertex_normals(Eigen::all, loop.vertices);
-            if (named_.vertex_curvatures.size() > 0) loop.curvatures = named_.vertex_curvatures(loop.vertices);
             if (!loop.is_bare) loop.shape.angles = turns_by_angles(local, loop);
         }
         take_normals(at, normals_around(mesh_, local, at, true));
@@ -200,12 +203,13 @@ private:
 HoledMesh::HoledMesh(BorderedMesh mesh)
     : mesh_(std::move(mesh)), stars_(mesh_.triangles, static_cast<int>(mesh_.vertices.cols())) {}
 
-LocalMesh HoledMesh::around(const Indices& vertices, Indices also) const {
+LocalMesh HoledMesh::around(const Indices& vertices, const Indices& also) const {
     constexpr int rings = 8;  // that slopes and the hard edges around them depend on (boundary/surrounding_fit)
     Indices near = stars_.around(vertices, rings);
     std::erase_if(near, [&](int t) { return !mesh_.vertices(Eigen::all, mesh_.triangles.col(t)).allFinite(); });
-    also.insert(also.end(), vertices.begin(), vertices.end());
-    return {mesh_.vertices, mesh_.triangles, near, also};
+    Indices first = vertices;
+    first.insert(first.end(), also.begin(), also.end());
+    return {mesh_.vertices, mesh_.triangles, near, first};
 }
 
 namespace {

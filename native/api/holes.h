@@ -55,8 +55,8 @@ public:
     ~HoledMesh() = default;
 
     [[nodiscard]] const BorderedMesh& mesh() const { return mesh_; }
-    // Finite triangles within the rings that slopes depend on, all of these vertices, and others.
-    [[nodiscard]] LocalMesh around(const Indices& vertices, Indices also = {}) const;
+    // These vertices, others, and finite triangles within the rings that slopes depend on.
+    [[nodiscard]] LocalMesh around(const Indices& vertices, const Indices& also = {}) const;
     [[nodiscard]] const Stars& stars() const { return stars_; }
 
 private:

@@ -109,10 +109,8 @@ std::vector<BoundaryLoop> parted(const HoledMesh& mesh, BoundaryLoop loop) {
     const std::set<int> once(loop.vertices.begin(), loop.vertices.end());
     if (loop.is_bare || once.size() == loop.vertices.size()) return {std::move(loop)};
     std::vector<BoundaryLoop> parts;
-    for (Indices& vertices : parted_loop(loop.vertices, mesh.mesh().vertices, mesh.mesh().triangles)) {
+    for (Indices& vertices : parted_loop(loop.vertices, mesh.mesh().vertices, mesh.mesh().triangles))
         parts.push_back({std::move(vertices), {}});
-        parts.back().is_turned = loop.is_turned;
-    }
     return parts;
 }
 
@@ -128,7 +126,6 @@ Holes found_loops(const HoledMesh& mesh, const NamedLoops& named) {
         const bool has_many = named.longest > 0 && loop.size() > static_cast<std::size_t>(named.longest);
         const bool is_long = named.longest_length > 0.0 && !(length_of(points, loop) <= named.longest_length);
         if (has_many || is_long) continue;
-        std::rotate(loop.begin(), loop.begin() + 1, loop.end());
         result.holes.push_back({{BoundaryLoop{std::move(loop), {}}}});
     }
     if (!result.holes.empty()) return result;

@@ -95,7 +95,26 @@ void BoundaryLoop::turn() {
     shape.points = shape.points.rowwise().reverse().eval();
     shape.normals = shape.normals.rowwise().reverse().eval();
     curvatures = curvatures.reverse().eval();
-    is_turned = !is_turned;
+}
+
+void BoundaryLoop::begin_anew() {
+    constexpr double alike = 1e-6;  // of the loop's size: far more than roundoff, or a turned mesh has another start
+    const int count = shape.size();
+    const Points out = shape.points.colwise() - shape.points.rowwise().mean();
+    const auto mark = [&](int k) { return out.col(k).norm() + shape.edge(k).norm(); };
+    VectorX marks(count);  // the next place counts half: two places that mirror each other differ in it
+    for (int k = 0; k < count; ++k) marks[k] = mark(k) + 0.5 * mark((k + 1) % count);
+    const double least = (1.0 - alike) * marks.maxCoeff();
+    int first = none;
+    for (int k = 0; k < count; ++k) {
+        if (marks[k] >= least && (first == none || vertices[k] < vertices[first])) first = k;
+    }
+    Indices order;
+    for (int k = 0; k < count; ++k) order.push_back((first + k) % count);
+    std::rotate(vertices.begin(), vertices.begin() + first, vertices.end());
+    shape.points = shape.points(Eigen::all, order).eval();
+    if (shape.normals.cols() > 0) shape.normals = shape.normals(Eigen::all, order).eval();
+    if (curvatures.size() > 0) curvatures = curvatures(order).eval();
 }
 
 void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
@@ -105,7 +124,10 @@ void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
         if (!loops[l].is_bare) continue;
         if (joined ? way_to_others(loops, l) < leads_away : leads_outside(loops[l].shape)) turned.push_back(l);
     }
-    for (const std::size_t l : turned) loops[l].turn();
+    for (const std::size_t l : turned) {
+        loops[l].turn();
+        loops[l].begin_anew();
+    }
     if (!joined) return;
     check_sides(loops);
     check_walls(loops);

@@ -11,10 +11,13 @@ struct BoundaryLoop {
     LoopShape shape;
     VectorX curvatures = {};  // prescribed H, NaN where it is not known; empty: none is
     bool is_bare = false;     // no triangle holds it
-    bool is_turned = false;   // it runs against the caller's order
     bool is_pinched = false;  // the border of the mesh passes one of its vertices several times
 
     void turn();
+    // Rotates all rows but angles, so that what is made over it depends neither on where its caller began nor on how
+    // the mesh is numbered: by the distances from its middle and the lengths of edges. Among places that are alike so,
+    // the lowest number begins.
+    void begin_anew();
 };
 
 // Turns loops that no triangle holds where the surface would lead away from the others that are to be joined, or out of

@@ -122,17 +122,21 @@ Indices Stars::around(const Indices& vertices, int rings) const {
 }
 
 LocalMesh::LocalMesh(const Eigen::Ref<const Points>& mesh_points, const Triangles& mesh_triangles,
-                     const Indices& chosen, const Indices& also)
-    : triangles(mesh_triangles(Eigen::all, chosen)), to_mesh(also) {
-    to_mesh.insert(to_mesh.end(), triangles.reshaped().begin(), triangles.reshaped().end());
-    sort_once(to_mesh);
+                     const Indices& chosen, const Indices& first)
+    : triangles(mesh_triangles(Eigen::all, chosen)) {
+    const auto number = [&](int vertex) {
+        const auto [found, is_new] = numbers_.emplace(vertex, static_cast<int>(to_mesh.size()));
+        if (is_new) to_mesh.push_back(vertex);
+        return found->second;
+    };
+    for (const int v : first) number(v);
+    for (int& v : triangles.reshaped()) v = number(v);
     points = mesh_points(Eigen::all, to_mesh);
-    for (int& v : triangles.reshaped()) v = local(v);
 }
 
 int LocalMesh::local(int vertex) const {
-    const auto found = std::lower_bound(to_mesh.begin(), to_mesh.end(), vertex);
-    return found != to_mesh.end() && *found == vertex ? static_cast<int>(found - to_mesh.begin()) : none;
+    const auto found = numbers_.find(vertex);
+    return found == numbers_.end() ? none : found->second;
 }
 
 Indices LocalMesh::local(Indices vertices) const {

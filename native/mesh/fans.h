@@ -1,6 +1,8 @@
 // Fans: the corners of triangles that hang together around a vertex, across the edges that are not cut.
 #pragma once
 
+#include <unordered_map>
+
 #include "base/types.h"
 #include "mesh/twins.h"
 
@@ -34,19 +36,22 @@ private:
     Indices triangle_;
 };
 
-// Some triangles of a mesh with their vertices numbered anew, in the order of the mesh.
+// Some triangles of a mesh with their vertices numbered anew: those named first, whatever their numbers in the mesh.
 struct LocalMesh {
     Points points;
     Triangles triangles;
-    Indices to_mesh;  // ascending
+    Indices to_mesh;
 
-    // `also`: vertices that need no triangle. Precondition: `points` has them all.
+    // `first`: they need no triangle. Precondition: `points` has them all.
     LocalMesh(const Eigen::Ref<const Points>& mesh_points, const Triangles& mesh_triangles, const Indices& chosen,
-              const Indices& also);
+              const Indices& first);
 
     [[nodiscard]] int local(int vertex) const;  // of a vertex of the mesh; `none`: it is not here
     [[nodiscard]] Indices local(Indices vertices) const;
     [[nodiscard]] std::vector<std::array<int, 2>> local(const std::vector<std::array<int, 2>>& pairs) const;
+
+private:
+    std::unordered_map<int, int> numbers_;
 };
 
 }  // namespace fairing

@@ -186,30 +186,11 @@ HoleLoops hole_loops(const View<Points>& points, const Triangles& triangles, con
 
 std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points, const Triangles& triangles) {
     BorderSides sides;
-    std::map<Pair, std::size_t> number;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-        sides.push_back({loop[k], loop[(k + 1) % loop.size()]});
-        number.emplace(sides.back(), k);
-    }
+    for (std::size_t k = 0; k < loop.size(); ++k) sides.push_back({loop[k], loop[(k + 1) % loop.size()]});
     Walk walk(sides, static_cast<int>(points.cols()));
     for (std::size_t k = 0; k < loop.size(); ++k) walk.follow(k, static_cast<int>((k + 1) % loop.size()));
     walk.join(points, triangles);
-    std::map<std::size_t, Indices> in_order;  // by the first of their sides
-    for (Indices part : walk.walked().loops) {
-        std::size_t begins = sides.size();
-        std::size_t at = 0;
-        for (std::size_t k = 0; k < part.size(); ++k) {
-            const std::size_t side = number.at({part[k], part[(k + 1) % part.size()]});
-            if (side < begins) at = k;
-            begins = std::min(begins, side);
-        }
-        std::rotate(part.begin(), part.begin() + static_cast<std::ptrdiff_t>(at), part.end());
-        in_order.emplace(begins, std::move(part));
-    }
-    std::vector<Indices> result;
-    result.reserve(in_order.size());
-    for (auto& [begins, part] : in_order) result.push_back(std::move(part));
-    return result;
+    return walk.walked().loops;
 }
 
 }  // namespace fairing

@@ -23,7 +23,7 @@ BorderSides border_sides(const Triangles& triangles, int vertex_count);
 HoleLoops hole_loops(const View<Points>& points, const Triangles& triangles, const BorderSides& border);
 
 // Splits a loop along the border, the hole on its left, in the same way where it touches itself; a vertex that other
-// loops pass, too, is left alone. The first loop returned contains the first side.
+// loops pass, too, is left alone.
 std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points, const Triangles& triangles);
 
 }  // namespace fairing

@@ -109,7 +109,7 @@ def test_half_a_sphere_is_closed(edges: int) -> None:
 def test_no_concave_quad_is_handed_out() -> None:
     """A star of sharp points has no pattern of convex quads: pairs of triangles stand in."""
     turn = 2 * np.pi * np.arange(100) / 100
-    radius = np.where(np.arange(100) % 2, 1.0, 0.4)
+    radius = np.where(np.arange(100) % 2, 1.0, 0.3)
     points = np.column_stack([radius * np.cos(turn), radius * np.sin(turn), 0 * turn])
     up = np.tile([0.0, 0.0, 1.0], (100, 1))
     result = fairing.fill(points, np.empty((0, 3), int), [np.arange(100)], normals=up, faces="quads")

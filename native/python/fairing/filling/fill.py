@@ -70,13 +70,14 @@ def _outcome(report: Fields | Diagnostic, curves: Curves | Diagnostic | None) ->
     """The fields of one surface, or why there is none."""
     if isinstance(report, Diagnostic) or isinstance(curves, Diagnostic):
         return curves if isinstance(curves, Diagnostic) else report
-    values = dict(report)
+    values = _once(dict(report))
     is_along = values.pop("along_curves")
     if curves is not None:
-        values["warnings"] += curves.warnings if is_along or not curves.cut.loops else curves.left_alone()
+        values["warnings"] += tuple(curves.warnings) if is_along or curves.cut is None else curves.left_alone()
     if curves is not None and is_along:
-        bands = tuple(tuple(map(read_only, band)) for band in curves.bands)
-        values |= {"curves": tuple(map(read_only, curves.curves)), "marked": curves.marked, "bands": bands}
+        made = curves.making
+        bands = tuple(tuple(map(read_only, band)) for band in made.bands)
+        values |= {"curves": tuple(map(read_only, made.curves)), "marked": tuple(made.marked), "bands": bands}
     return values
 
 
@@ -108,7 +109,7 @@ def _one(count: int, parts: Sequence[Fields]) -> Fields:
     stages = dict.fromkeys(name for part in parts for name in part["seconds"])
     result["seconds"] = {name: sum(part["seconds"].get(name, 0.0) for part in parts) for name in stages}
     result["warnings"] = tuple(_renamed(each, count, first) for part, first in numbered for each in part["warnings"])
-    return {name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in _once(result).items()}
+    return _once(result)
 
 
 def _rank(provenance: str) -> int:
@@ -128,15 +129,13 @@ def _renamed(warning: Diagnostic, count: int, first: int) -> Diagnostic:
 
 
 def _once(values: Fields) -> Fields:
-    """Each fixed vertex once, with its largest angles: loops may share some."""
+    """Each fixed vertex once, ascending, with its largest angles: loops may share some, and pass one several times."""
     fixed, place = np.unique(values["fixed"], return_inverse=True)
-    if len(fixed) == len(values["fixed"]):
-        return values
     result = {**values, "fixed": fixed}
     for name in ("boundary_angle", "join"):
         result[name] = np.zeros(len(fixed))
         np.maximum.at(result[name], place, values[name])
-    return result
+    return {name: read_only(value) if isinstance(value, np.ndarray) else value for name, value in result.items()}
 
 
 def fill(

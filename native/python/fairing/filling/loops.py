@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -114,18 +115,14 @@ def _along(points: FloatArray, first: FloatArray, last: FloatArray) -> FloatArra
 
 def outside_normals(loop: IntArray, vertices: FloatArray, triangles: IntArray) -> FloatArray:
     """(k, 3) unit normals of the triangles at each edge to the next vertex; zero where there is none."""
-    heads = {tail: at for at, tail in enumerate(loop.tolist())}
-    after = np.roll(loop, -1)
+    edges = zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)
+    places = {frozenset(ends): at for at, ends in enumerate(edges)}
     result = np.zeros((len(loop), 3))
-    for corner in range(3):
-        tails, tips = triangles[:, corner], triangles[:, (corner + 1) % 3]
-        for row in np.flatnonzero(np.isin(tails, loop) & np.isin(tips, loop)).tolist():
-            for a, b in ((tails[row], tips[row]), (tips[row], tails[row])):
-                at = heads.get(int(a))
-                if at is not None and after[at] == b:
-                    p, q, r = vertices[triangles[row]]
-                    normal = np.cross(q - p, r - p)
-                    result[at] = normal / max(float(np.linalg.norm(normal)), 1e-300)
+    for row in triangles[np.isin(triangles, loop).sum(axis=1) > 1].tolist():
+        for at in {places.get(frozenset(pair)) for pair in combinations(row, 2)} - {None}:
+            p, q, r = vertices[row]
+            normal = np.cross(q - p, r - p)
+            result[at] = normal / max(float(np.linalg.norm(normal)), 1e-300)
     return result
 
 

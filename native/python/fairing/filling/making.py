@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 
 from fairing import _core
 from fairing.filling import loops
@@ -52,29 +51,15 @@ def bands_at(loop: IntArray, vertices: FloatArray, normals: FloatArray) -> list[
     return found
 
 
-def may_have_bands(loops: Sequence[FloatArray], normals: Sequence[FloatArray]) -> npt.NDArray[np.bool_]:
-    """(l,) loops (k, 3) that turn by far more at some edges than at others: bands come to no other ones."""
-    first = np.cumsum([0, *map(len, loops)])[:-1]
-    points, slopes = np.concatenate(loops), np.concatenate(normals)
-    after = np.arange(1, len(points) + 1)
-    after[np.append(first[1:], len(points)) - 1] = first
-    turns = 2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(slopes[after] - slopes, axis=1), 0.0, 1.0))
-    bend = turns / np.maximum(np.linalg.norm(points[after] - points, axis=1), _TINY)
-    extents = np.maximum.reduceat(points, first) - np.minimum.reduceat(points, first)
-    sizes = _NARROW * np.linalg.norm(extents, axis=1)
-    limits = np.radians(_LEAST_TURN) / np.maximum(sizes, _TINY)
-    found: npt.NDArray[np.bool_] = np.maximum.reduceat(bend, first) > limits
-    return found
-
-
 def _runs(turns: FloatArray, lengths: FloatArray, widest: float) -> list[IntArray]:
     """Runs of edges that turn by far more than their like: the narrowest that hold nearly all of a turn."""
     count = len(turns)
     bend = turns / np.maximum(lengths, _TINY)
     strong = bend > np.radians(_LEAST_TURN) / widest
-    if strong.all() or not strong.any():
+    calm = np.flatnonzero(~strong & ~np.roll(strong, 1))
+    if not len(calm) or not strong.any():
         return []
-    start = int(np.flatnonzero(~strong)[0])
+    start = int(calm[0])
     runs: list[list[int]] = []
     for k in range(start, start + count):
         if not strong[k % count]:

@@ -14,7 +14,7 @@ from fairing import _core
 from fairing.filling import loops
 from fairing.filling.ends import EdgeEnd, Matching, ends_at, matched
 from fairing.filling.loops import Tree, crosses, gap
-from fairing.filling.making import Making, Wanted, bands_at, lengths_at, may_have_bands
+from fairing.filling.making import Making, Wanted, bands_at, lengths_at
 from fairing.measure import hard_edges
 from fairing.options import arguments
 from fairing.options.arguments import listed
@@ -25,28 +25,19 @@ EDGES = ("run_on", "ignored")
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """What runs through a hole. Numbers from the count of the caller's vertices on are those of new ones."""
+    """What runs through one loop, and along it: None of ``cut`` where all is left alone."""
 
-    added: FloatArray
-    """(c, 3) new vertices on the curves."""
-    cut: loops.CutOutline
-    """The loop, cut."""
-    curves: tuple[IntArray, ...]
-    """Vertices of each curve, from end to end."""
-    rims: IntArray
-    """Vertices of the loop where it runs along hard edges."""
-    marked: tuple[bool, ...]
-    """Whether all hard edges that each curve continues were marked."""
-    rows: IntArray
-    """New vertices on curves along bands."""
-    bands: tuple[tuple[IntArray, ...], ...]
-    """The vertices along the rows of each, from side to side."""
-    warnings: tuple[Diagnostic, ...]
     loop: IntArray
+    normals: FloatArray
+    making: Making
+    trees: list[Tree]
+    along: list[range]
+    warnings: list[Diagnostic]
+    cut: loops.CutOutline | None = None
 
     def left_alone(self) -> tuple[Diagnostic, ...]:
         """The warnings where no surface holds the edges."""
-        rows = [row for band in self.bands for row in band]
+        rows = [row for band in self.making.bands for row in band]
         held = np.intersect1d(self.loop, np.concatenate([self.vertices, *rows])).astype(np.int32)
         text = f"no surface holds the edges that would run on from {listed(held)}: they are left alone"
         figures = {"ends": float(len(held)), "no_surface": 1.0}
@@ -55,18 +46,31 @@ class Curves:
     @property
     def vertices(self) -> IntArray:
         """All whose slope each side finds: on curves, along bands and on hard edges of the loop, ascending."""
-        found: IntArray = np.unique(np.concatenate([self.rims, self.rows, *self.curves])).astype(np.int32)
+        rim = self.loop[sorted({place % len(self.loop) for run in self.along for place in run})]
+        found: IntArray = np.unique(np.concatenate([rim, *self.making.rows, *self.making.curves])).astype(np.int32)
         return found
 
     @property
     def for_engine(self) -> tuple[FloatArray, list[IntArray], list[FloatArray], IntArray, IntArray] | None:
         """What a surface along them is made of; None where all are left alone."""
-        if not self.cut.loops:
+        if self.cut is None:
             return None
-        chains = [*self.curves, *(row for band in self.bands for row in band)]
+        chains = [*self.making.curves, *(row for band in self.making.bands for row in band)]
         edges = [np.column_stack([chain[:-1], chain[1:]]) for chain in chains]
         kept = np.concatenate([arguments.NO_EDGES, *edges]).astype(np.int32)
-        return self.added, list(self.cut.loops), list(self.cut.normals), self.vertices, kept
+        return self.making.added, list(self.cut.loops), list(self.cut.normals), self.vertices, kept
+
+    def parted(self, points: FloatArray, triangles: IntArray) -> Curves:
+        """With the loop cut, where anything runs through it or along it."""
+        if not self.trees and not self.along:
+            return self
+        sides = loops.outside_normals(self.loop, points, triangles)
+        missing = ~sides.any(axis=1)
+        sides[missing] = self.normals[missing]
+        normals = self.normals.copy()
+        for run in self.along:
+            _take_other_side(run, sides, normals)
+        return replace(self, cut=loops.cut(self.loop, normals, sides, self.trees, self.making.at))
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +106,8 @@ class Edges:
         if not self.run_through:
             return []
         loops, slopes = [loops[0] for loops in holes.loops], holes.slopes(spacing[0])
-        near = may_have_bands([points[loop] for loop in loops], [normals for normals, _ in slopes])
-        near |= _touched(loops, np.concatenate([self.hard, self.wires]), len(points))
+        near = _touched(loops, np.concatenate([self.hard, self.wires]), len(points))
+        near |= [bool(bands_at(loop, points, normals)) for loop, (normals, _) in zip(loops, slopes, strict=True)]
         found: list[Curves | Diagnostic | None] = [None] * len(loops)
         for k in np.flatnonzero(near).tolist():
             if not slopes[k][1]:
@@ -125,21 +129,8 @@ class Edges:
         mean = float(np.linalg.norm(np.roll(points[loop], -1, axis=0) - points[loop], axis=1).mean())
         length, even = spacing
         wanted = Wanted((length or mean) if even else 0.0, (length or mean) / mean)
-        through, cut = _Finder(loop, normals, mesh, self, wanted).through()
-        if cut is None and not through.warnings:
-            return None
-        making = through.making
-        return Curves(
-            making.added,
-            cut if cut is not None else loops.CutOutline((), ()),
-            tuple(making.curves),
-            through.rim,
-            tuple(making.marked),
-            np.concatenate([np.empty(0, np.int32), *making.rows]),
-            tuple(making.bands),
-            tuple(through.warnings),
-            loop,
-        )
+        found = _Finder(loop, normals, mesh, self, wanted).found()
+        return found if found.cut is not None or found.warnings else None
 
 
 def _touched(loops: Sequence[IntArray], edges: IntArray, count: int) -> npt.NDArray[np.bool_]:
@@ -147,35 +138,6 @@ def _touched(loops: Sequence[IntArray], edges: IntArray, count: int) -> npt.NDAr
     at = np.zeros(count, dtype=bool)
     at[edges] = True
     return np.array([at[loop].any() for loop in loops], dtype=bool)
-
-
-@dataclass(frozen=True, eq=False)
-class _Through:
-    """What runs through one loop, and along it."""
-
-    loop: IntArray
-    normals: FloatArray
-    making: Making
-    trees: list[Tree]
-    along: list[range]
-    warnings: list[Diagnostic]
-
-    @property
-    def rim(self) -> IntArray:
-        """The loop's vertices on hard edges along it."""
-        return self.loop[sorted({place % len(self.loop) for run in self.along for place in run})]
-
-    def cut(self, points: FloatArray, triangles: IntArray) -> loops.CutOutline | None:
-        """The loop in parts; None where nothing runs through it or along it."""
-        if not self.trees and not self.along:
-            return None
-        sides = loops.outside_normals(self.loop, points, triangles)
-        missing = ~sides.any(axis=1)
-        sides[missing] = self.normals[missing]
-        normals = self.normals.copy()
-        for run in self.along:
-            _take_other_side(run, sides, normals)
-        return loops.cut(self.loop, normals, sides, self.trees, self.making.at)
 
 
 @dataclass(frozen=True, eq=False)
@@ -188,11 +150,8 @@ class _Finder:
     edges: Edges
     wanted: Wanted
 
-    def through(self) -> tuple[_Through, loops.CutOutline | None]:
-        """What runs through, and the loop cut along it.
-
-        Where curves meet the outline or each other, bands are left out, and then all but drawn edges.
-        """
+    def found(self) -> Curves:
+        """Where curves meet the outline or each other, bands are left out, and then all but drawn edges."""
         vertices, triangles = self.mesh
         drawn = loops.drawn(self.loop, self.edges.wires)
         there = ends_at(self.loop, vertices, triangles, self.edges.hard, self.edges.marked)
@@ -208,10 +167,11 @@ class _Finder:
                 warnings = _told(free, range(len(free)), "crossing", "the way on crosses the outline")
             leaves = {leaf for tree in trees for leaf in tree.leaves}
             along = there.along + [end.run for end in ends if end.at in leaves and len(end.run)]
-            through = _Through(self.loop, self.normals, making, trees, along, warnings)
-            cut = None if crosses(trees) else through.cut(vertices, triangles)
-            if (cut is None and not trees) or (cut is not None and not _is_tangled(cut, making)):
-                return through, cut
+            found = Curves(self.loop, self.normals, making, trees, along, warnings)
+            if not crosses(trees):
+                found = found.parted(vertices, triangles)
+            if not trees if found.cut is None else not _is_tangled(found.cut, making):
+                return found
         raise loops.refusal("meet its outline or each other", drawn.vertices, "move them apart")
 
     def _edges(self, ends: list[EdgeEnd], drawn: Sequence[Tree], making: Making) -> tuple[list[Tree], list[Diagnostic]]:
