@@ -53,8 +53,7 @@ def _kinked(evidence: Evidence, options: FairOptions) -> Found:
 
 def kink_reason(join: Join) -> str:
     """Return the sentence for a join that is seen."""
-    turned_back = join.worst_seen >= fairing.looks.LIMITS["turned_back"]
-    return said("turns_back" if turned_back else "kink", n=len(join.seen), degrees=join.worst_seen)
+    return said("kink", n=len(join.seen), degrees=join.worst_seen)
 
 
 def _pointed(evidence: Evidence, _options: FairOptions) -> Found:
@@ -80,12 +79,6 @@ def _eaten(evidence: Evidence, options: FairOptions) -> Found:
     if len(running):
         return said("edge_rounded", n=len(running)), running
     return NOTHING
-
-
-def _stumped(evidence: Evidence, options: FairOptions) -> Found:
-    if not len(evidence.seen.stump) or not judges_join(options) or _is_meant_to_swell(options):
-        return NOTHING
-    return said("stump"), evidence.seen.stump
 
 
 def _substituted(evidence: Evidence, _options: FairOptions) -> Found:
@@ -180,7 +173,7 @@ def _kept_key(evidence: Evidence, _options: FairOptions) -> Found:
 # The first that finds something gives the reason.
 _LOOKS = (
     *(_pierced, _seamed, _kept_key, _moved_border, _rounded, _eaten, _kinked, _pointed),
-    *(_substituted, _uneven, _stumped, _refused, _squeezed, _unmoved),
+    *(_substituted, _uneven, _refused, _squeezed, _unmoved),
 )
 
 

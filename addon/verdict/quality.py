@@ -65,7 +65,6 @@ class Measured:
     running_on: Ints = field(default_factory=nothing)  # inside, at hard edges that lead out and are no more
     marked: Ints = field(default_factory=nothing)  # at edges marked sharp, though not pinned, that are no more
     seams: Ints = field(default_factory=nothing)  # of held seams of doubled vertices that show as crests
-    stump: Ints = field(default_factory=nothing)  # of the boundary, where it runs over the root of what stays
 
 
 @dataclass(frozen=True)
@@ -128,7 +127,6 @@ def measured(
         running_on=sheet.beside[found.rounded[own[found.rounded]]],
         marked=sheet.beside[found.blunt],
         seams=sheet.beside[found.seams],
-        stump=np.unique(sheet.beside[found.stump]),
     )
 
 

@@ -195,19 +195,6 @@ public:
         found.blunt = part_.of_mesh(rounded_marks({old, points, part_.own(now_.surface), moved}, marked));
     }
 
-    void add_stump(Judged& found) const {
-        const Sheet sheet(now_.points, now_.surface);
-        const Eigen::AlignedBox3d box(sheet.points.rowwise().minCoeff(), sheet.points.rowwise().maxCoeff());
-        const double reach = 0.5 * box.diagonal().norm();
-        const Triangles near = chosen(now_.others, [&](const auto& corners) {
-            return box.squaredExteriorDistance(Vector3(now_.points.col(corners[0]))) < reach * reach;
-        });
-        const Triangles all = joined(now_.surface, near);
-        const Part part(all, now_.points.cols());
-        Stump stump = stump_of(part.of(now_.points), part.own(now_.surface), part.own(near));
-        if (stump.degrees > fairing::stump) found.stump = {stump.degrees, part.of_mesh(std::move(stump.vertices))};
-    }
-
 private:
     // From where the surroundings reach: where the surface ends, and what moves outside.
     static Marks ends(const JudgedMesh& now, const std::optional<JudgedBefore>& before) {
@@ -241,9 +228,9 @@ Judged judged(const JudgedMesh& given, const std::optional<JudgedBefore>& before
     Judged found;
     const Surroundings surroundings(now, before);
     const Sheet sheet(now.points, now.surface);
-    const std::array<std::function<void()>, 4> parts{
-        [&] { surroundings.add_join(found); }, [&] { surroundings.add_edges(found); },
-        [&] { surroundings.add_stump(found); }, [&] { found.now.folded = folded(sheet, now.held); }};
+    const std::array<std::function<void()>, 3> parts{[&] { surroundings.add_join(found); },
+                                                     [&] { surroundings.add_edges(found); },
+                                                     [&] { found.now.folded = folded(sheet, now.held); }};
     progress.report(0.0, "measurement");
     run_pieces(static_cast<int>(parts.size()), [&](int k) { parts[static_cast<std::size_t>(k)](); });
     progress.report(0.4, "measurement");

@@ -3,7 +3,6 @@
 
 #include "base/progress.h"
 #include "geometry/hard_edges.h"
-#include "shape/stump.h"
 #include "shape/visible_join.h"
 
 namespace fairing {
@@ -40,7 +39,6 @@ struct Judged {
     Indices rounded;  // moved vertices at hard edges that ran on outside or outside alone, and are flat now
     Indices blunt;    // the same at marked edges of the surface
     Indices seams;    // see shape/kinks
-    Stump stump;      // only where it is above `stump` (shape/limits)
 };
 
 // Vertices by the mesh's numbers. `is_clear`: no triangle of the surface is known to cross another one. Throws what

@@ -38,8 +38,7 @@ void bind_judged(py::module_& module) {
             using namespace py::literals;
             return py::dict("join"_a = shown(found.join), "now"_a = shown(found.now),
                             "before"_a = found.before ? shown(*found.before) : py::none(), "pierced"_a = found.pierced,
-                            "rounded"_a = found.rounded, "blunt"_a = found.blunt, "seams"_a = found.seams,
-                            "stump"_a = found.stump.vertices);
+                            "rounded"_a = found.rounded, "blunt"_a = found.blunt, "seams"_a = found.seams);
         });
 }
 
@@ -49,8 +48,7 @@ void bind_shape(py::module_& module) {
     using namespace py::literals;
     // The limits of shape/limits.h that Python uses.
     module.attr("LIMITS") =
-        py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink, "steep_kink"_a = steep_kink,
-                 "turned_back"_a = turned_back, "off_slope"_a = off_slope);
+        py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink, "off_slope"_a = off_slope);
     bind(
         module, "girth",
         [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed) {

@@ -47,9 +47,11 @@ void take(SidedFits& side, const Indices& vertices, const Indices& places, Surro
 // Whether the patch's own slopes are to be relied on: those of a dome are, those of noise or of a pocket's wall not.
 bool is_clean(const SurroundingFit& own, const SurroundingFit& film, const Indices& places) {
     constexpr double most_uncertain = 0.01;  // radians
+    constexpr double most_apart = 5.0;       // degrees from the first row: more is a curve through few rows
     const auto clean = std::count_if(places.begin(), places.end(), [&](int k) {
         const auto& fit = own.fits[k];
-        return fit && fit->error < most_uncertain && degrees_between(fit->normal, film.averaged.col(k)) < hard_bend;
+        return fit && fit->error < most_uncertain && degrees_between(fit->normal, own.averaged.col(k)) < most_apart &&
+               degrees_between(fit->normal, film.averaged.col(k)) < hard_bend;
     });
     return 2 * clean > static_cast<std::ptrdiff_t>(places.size());
 }

@@ -48,6 +48,7 @@ struct Means {
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
     double rows_bend = 0.0;                           // likewise, of that arc
+    double way_bend = 0.0;                            // likewise, of an arc over half of that distance
     double length = 0.0;
     double least = fading_bend;  // degrees of a wall
 };
@@ -85,7 +86,7 @@ bool is_wall(const Means& part) {
     const double dip = part.film.y();
     const bool bends_away = std::min(film, angle_of(part.patch)) > part.least;
     const bool bends_back = std::max(film, angle_of(part.patch)) < -part.least;
-    const bool is_unexplained = part.bend * dip < explained * dip * dip;
+    const bool is_unexplained = std::min(part.bend * dip, part.way_bend * dip) < explained * dip * dip;
     return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
 
@@ -252,52 +253,65 @@ private:
         return way;
     }
 
-    // The surroundings cut across the edge: where their first two rows end, from its middle. Faces in a plane are one.
-    [[nodiscard]] std::optional<std::array<Vector3, 2>> rows_beyond(const Meeting& edge) const {
+    // The surroundings cut across the edge, from its middle, as far as `reach` and their next hard edge: where
+    // triangles end, and which of these ends are rows'. Faces in a plane are one row.
+    struct Way {
+        std::vector<Vector3> ends;
+        std::vector<std::size_t> rows;
+    };
+
+    [[nodiscard]] Way way_beyond(const Meeting& edge, double reach) const {
         constexpr int most_faces = 40;  // two rows of quads have four, fans beside an undivided row many
         const Triangles& all = mesh_.outside;
         const Vector3 from = middle(edge);
         const Vector3 t = direction(between(edge));
         const auto height = [&](int v) { return t.dot(mesh_.points.col(v) - from); };
-        std::vector<Vector3> ends;
+        Way way;
         for (int side = edge.outside, k = 0; k < most_faces; ++k) {
             const int corner = side % 3;
             const int tip = all((corner + 2) % 3, side / 3);
             const bool by_head = (height(tip) > 0.0) != (height(side_head(all, side)) > 0.0);
             const int exit = side - corner + (corner + (by_head ? 1 : 2)) % 3;
             const int e = outside_.edge_of_side[exit];
-            if (outside_.side_count(e) != 2) return std::nullopt;
+            if (outside_.side_count(e) != 2) break;
             const int other = outside_.side(e, outside_.side(e, 0) == exit ? 1 : 0);
             const double bend =
                 degrees_between(normal_of(mesh_.points, all, exit), normal_of(mesh_.points, all, other));
-            if (bend > flat) {
-                const double a = height(side_tail(all, exit));
-                const double b = height(side_head(all, exit));
-                const Vector3 tail = mesh_.points.col(side_tail(all, exit));
-                ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
-                if (ends.size() == 2) return std::array{ends[0], ends[1]};
-            }
+            const double a = height(side_tail(all, exit));
+            const double b = height(side_head(all, exit));
+            const Vector3 tail = mesh_.points.col(side_tail(all, exit));
+            way.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
+            if (bend > flat) way.rows.push_back(way.ends.size() - 1);
+            if (way.rows.size() > 1 && (bend > hard_bend || way.ends.back().norm() > reach)) break;
             side = other;
         }
-        return std::nullopt;
+        return way;
     }
 
-    // The arc through the edge's middle and these ends, seen along the edge.
+    // The arcs through the edge's middle and these ends, seen along the edge.
     void add_rows(const Meeting& edge, double reach, Means& means) const {
-        const auto ends = rows_beyond(edge);
-        if (!ends) return;
+        const Way way = way_beyond(edge, 0.5 * reach);
         const Vector3 normal = normal_at(edge);
         const Vector3 onwards = normal.cross(along(edge));
-        const auto plane = [&](const Vector3& p) { return Eigen::Vector2d(onwards.dot(p), -normal.dot(p)); };
-        const Eigen::Vector2d last = -plane((*ends)[0]);
-        const Eigen::Vector2d first = -plane((*ends)[1]) - last;
-        const double turn = first.x() * last.y() - first.y() * last.x();
-        const double curvature = 2.0 * turn / (first.norm() * last.norm() * (first + last).norm());
-        if (!std::isfinite(curvature)) return;
+        const auto plane = [&](std::size_t k) {
+            return Eigen::Vector2d(onwards.dot(way.ends[k]), -normal.dot(way.ends[k]));
+        };
+        const auto curvature = [&](std::size_t near, std::size_t far) {
+            const Eigen::Vector2d last = -plane(near);
+            const Eigen::Vector2d first = -plane(far) - last;
+            const double turn = first.x() * last.y() - first.y() * last.x();
+            const double found = 2.0 * turn / (first.norm() * last.norm() * (first + last).norm());
+            return std::isfinite(found) ? found : 0.0;
+        };
         const double length = between(edge).norm();
-        const double rest = std::asin(std::clamp(0.5 * curvature * last.norm(), -1.0, 1.0));
+        if (way.ends.size() > 1)
+            means.way_bend += length * reach * curvature(way.ends.size() / 2 - 1, way.ends.size() - 1);
+        if (way.rows.size() < 2) return;
+        const double bend = curvature(way.rows[0], way.rows[1]);
+        const Eigen::Vector2d last = -plane(way.rows[0]);
+        const double rest = std::asin(std::clamp(0.5 * bend * last.norm(), -1.0, 1.0));
         means.rows += length * (Eigen::Rotation2Dd(rest) * last.normalized());
-        means.rows_bend += length * curvature * reach;
+        means.rows_bend += length * bend * reach;
     }
 
     void add(const Meeting& edge, const Vector3& loop_middle, Means& means) const {

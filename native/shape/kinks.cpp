@@ -1,14 +1,11 @@
 #include "shape/kinks.h"
 
-#include <map>
-
 #include "base/columns.h"
 #include "geometry/dihedral_bands.h"
 #include "geometry/flips.h"
 #include "geometry/self_intersection.h"
 #include "mesh/loops.h"
 #include "mesh/twins.h"
-#include "mesh/union_find.h"
 #include "problem/surface_state.h"
 #include "shape/limits.h"
 
@@ -59,26 +56,12 @@ void append(const Indices& more, Indices& all) { all.insert(all.end(), more.begi
 
 }  // namespace
 
-Indices seen_along(const std::vector<std::array<int, 2>>& edges, const Indices& vertices, const VectorX& degrees,
-                   double limit) {
-    std::map<int, int> place;
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
-        if (degrees[static_cast<Eigen::Index>(k)] > limit) place[vertices[k]] = static_cast<int>(k);
-    }
-    UnionFind runs(static_cast<int>(vertices.size()));
-    for (const auto& [a, b] : edges) {
-        const auto first = place.find(a);
-        const auto second = place.find(b);
-        if (first != place.end() && second != place.end()) runs.join(first->second, second->second);
-    }
-    std::map<int, double> sums;
-    for (const auto& [vertex, k] : place) sums[runs.root(k)] += degrees[k];
+Indices seen_along(const VectorX& degrees, double limit) {
     Indices seen;
-    for (const auto& [vertex, k] : place) {
-        if (sums[runs.root(k)] >= kink_length * limit) seen.push_back(k);
+    for (int k = 0; k < static_cast<int>(degrees.size()); ++k) {
+        if (degrees[k] > limit) seen.push_back(k);
     }
-    std::sort(seen.begin(), seen.end());
-    return seen;
+    return static_cast<double>(seen.size()) > kink_share * static_cast<double>(degrees.size()) ? seen : Indices{};
 }
 
 Indices seam_kinks(const Points& points, const Triangles& triangles, const Indices& held, double limit) {
@@ -88,20 +71,22 @@ Indices seam_kinks(const Points& points, const Triangles& triangles, const Indic
     joined = without_collapsed(joined);
     const DihedralBands bands(points, joined);
     DihedralBands::Walk walk = bands.walk();
-    std::vector<std::array<int, 2>> seam;
     EdgeMeans means(points.cols());
+    std::vector<char> on_seam(welded.doubled.size(), 0);
     for (int e = 0; e < bands.edges().size(); ++e) {
         const auto [a, b] = bands.edges().ends[e];
         if (!welded.doubled[a] || !welded.doubled[b] || bands.edges().side_count(e) != 2) continue;
-        seam.push_back({a, b});
+        on_seam[a] = on_seam[b] = 1;
         means.add({a, b}, bands.usual(a, b, walk).excess(bands.angle(e)), (points.col(a) - points.col(b)).norm());
     }
-    Indices all(static_cast<std::size_t>(points.cols()));
+    Indices all(on_seam.size());
     std::iota(all.begin(), all.end(), 0);
-    VectorX degrees(points.cols());
-    for (int v = 0; v < degrees.size(); ++v) degrees[v] = means[v];
+    Indices seam;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(seam), [&](int v) { return on_seam[v] != 0; });
+    VectorX degrees(static_cast<Eigen::Index>(seam.size()));
+    for (Eigen::Index k = 0; k < degrees.size(); ++k) degrees[k] = means[seam[k]];
     std::vector<char> seen(all.size(), 0);
-    for (const int v : seen_along(seam, all, degrees, limit)) seen[v] = 1;
+    for (const int k : seen_along(degrees, limit)) seen[seam[k]] = 1;
     std::erase_if(all, [&](int v) { return !seen[welded.number[v]]; });
     return all;
 }

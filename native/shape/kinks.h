@@ -28,10 +28,9 @@ private:
     VectorX weight_;
 };
 
-// Of the line's vertices, each named once, the places whose degrees are above the limit, along so many neighbours that
-// these add up to `kink_length` times it; ascending.
-Indices seen_along(const std::vector<std::array<int, 2>>& edges, const Indices& vertices, const VectorX& degrees,
-                   double limit);
+// The places along a line whose degrees are above the limit, ascending; none where these are no more than `kink_share`
+// of all: the eye forgives a corner.
+Indices seen_along(const VectorX& degrees, double limit);
 
 // Vertices at seams within a surface whose two sides are held in the same places, each with vertices of its own, as
 // doubled vertices are: where these places show a kink beyond the bends that are usual around. Ascending. `held`:

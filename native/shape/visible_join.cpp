@@ -126,10 +126,7 @@ VisibleJoin visible_join(const JoinedMesh& given, const Indices& boundary) {
     join.degrees.resize(static_cast<Eigen::Index>(boundary.size()));
     for (Eigen::Index k = 0; k < join.degrees.size(); ++k) join.degrees[k] = means[boundary[static_cast<int>(k)]];
     join.limit = limit_among(outside, mesh.outside.cols());
-    std::vector<std::array<int, 2>> ends;
-    ends.reserve(edges.size());
-    for (const BoundaryEdge& edge : edges) ends.push_back(edge.ends);
-    join.seen = seen_along(ends, boundary, join.degrees, join.limit);
+    join.seen = seen_along(join.degrees, join.limit);
     return join;
 }
 

@@ -279,12 +279,3 @@ def bent(degrees: float) -> Measured:
     inside = np.abs(points[:, :2]).max(axis=1) < 0.3
     points[inside, 2] -= np.tan(np.radians(degrees)) * np.minimum(points[inside, 0] + 0.25, 0.125)
     return seen(mesh, points)
-
-
-def test_a_boundary_over_the_root_of_a_bump_is_a_stump_and_one_beyond_it_none() -> None:
-    """A bump bends over within its slope and back beyond it; a bump with its surroundings does not."""
-    for half, is_stump in ((0.25, True), (0.75, False)):
-        mesh = grid(40, half)
-        points = mesh.positions.copy()
-        points[:, 2] = 0.1 * (1.0 - np.tanh((np.linalg.norm(points, axis=1) - 0.25) / 0.05))
-        assert bool(len(seen(replace(mesh, positions=points), points).stump)) == is_stump

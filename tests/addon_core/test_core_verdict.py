@@ -124,7 +124,7 @@ class Row(NamedTuple):
     good: tuple[dict[str, Any], ...] = ()
 
 
-DETAIL, BULGE, FACTOR, FILM = {"detail": 0.5}, {"bulge": 1.0}, {"factor": 0.5}, {"continuity": "G0"}
+FACTOR, FILM = {"factor": 0.5}, {"continuity": "G0"}
 CONFORMAL, UNIFORM = {"inner_fairness": "CONFORMAL"}, {"inner_fairness": "UNIFORM"}
 SEARCH = "No fair surface was found: {}. Grow or shrink the selection. The best…"
 ROWS = {
@@ -132,10 +132,6 @@ ROWS = {
     "rounded outside": Row(
         seen(rounded=ints(3, 8)), LOOK, "Smooth Boundary has rounded a hard edge outside at 2 vertices: turn it off",
         [3, 8], {"smooth_boundary": True}, (AS_SELECTED,),
-    ),
-    "stump": Row(
-        seen(stump=ints(4, 7)), LOOK, "The boundary runs over the root of a bump…", [4, 7],
-        good=(DETAIL, BULGE, FACTOR, FILM),
     ),
     "border": Row(but(lost=Lost(border=ints(7))), LOOK, None, [7], {"fair_open_borders": True}, has=(HOLD_BORDER,)),
     "seen": Row(seen(join=SEEN), lacks=(ADD_LEFT_OUT,)),
@@ -171,10 +167,6 @@ ROWS = {
     "kink": Row(
         seen(join=kinked(12.5, 3.0, 31.0)), LOOK, "A kink shows at 2 vertices of the boundary, of 31° at worst", [9, 7],
         remedies=(), good=(FILM, FACTOR),
-    ),
-    "turned back": Row(
-        seen(join=Join(ints(7, 8), np.array([12.5, 105.9]), ints(1, 0))), LOOK,
-        "The surface turns back from the slope around it at 2 vertices of the boundary, by 106°",
     ),
     "a coarse cage": Row(seen(join=Join(ints(7), np.array([20.0]))), GOOD),
     "no start": Row(ended("stalled", 0), LOOK, SEARCH.format("not even a first, rough surface fits this boundary")),

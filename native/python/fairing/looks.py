@@ -50,7 +50,7 @@ class VisibleJoin(NamedTuple):
     limit: float
     """Degrees from which a kink stands out among triangles that bend as those outside do: 5 to 30."""
     seen: IntArray
-    """Places in the outline where one does, ascending: there neighbours above the limit add up to five times that."""
+    """Places in the outline where one does, ascending; none where that is an eighth of it or less."""
 
 
 class Faults(NamedTuple):
@@ -78,9 +78,6 @@ class Judged(NamedTuple):
     """Moved vertices at ``marked`` edges of 35° and more that did; none where a quarter of all are marked."""
     seams: IntArray
     """Held vertices in the same place as others, as doubled ones are, where the surface shows a kink."""
-    stump: IntArray
-    """Vertices of the boundary where the surface bends over and its surroundings bend back, where they do by more than
-    5° in the mean over all of it."""
 
 
 def judged(

@@ -272,6 +272,34 @@ def test_a_pinched_pipe_is_straight_again(half: float, depth: float) -> None:
     assert np.abs(np.hypot(made[:, 0], made[:, 1]) - 1.0).max() < 1e-4
 
 
+@pytest.mark.parametrize("rows", [1, 2, 5])
+@pytest.mark.parametrize("sides", [5, 6, 7, 8, 24])
+def test_the_lid_of_a_prism_comes_back_flat(sides: int, rows: int) -> None:
+    """Balls run through two rings, too, and through corners of fits: a cut across the wall is straight."""
+    points, triangles = solids.cylinder(2 * sides, rows, 1.0)
+    middle = np.pi / sides
+    if sides < 12:
+        turn = np.mod(np.arctan2(points[:, 1], points[:, 0]), 2 * middle) - middle
+        points[:, :2] *= (np.cos(middle) / np.cos(turn))[:, None]
+    top = points[triangles, 2].min(axis=1) > 1 - 1e-9
+    centre = np.setdiff1d(triangles[top], triangles[~top])
+    points[centre, 2] += 0.1
+    result, found, free = faired(points, triangles[top], triangles[~top])
+    assert found.from_inside.all()
+    assert np.abs(result.vertices[free, 2] - 1).max() < 1e-6
+
+
+def test_a_boss_two_rows_from_the_edge_is_no_slope() -> None:
+    """A curve runs through any three rings: their first row is flat all the same."""
+    radii = np.concatenate([np.ones(11), [0.75, 0.5, 0.42, 0.38, 0.34, 0.3, 0.28], np.full(10, 0.25)])
+    heights = np.concatenate([np.linspace(-1.0, 0.0, 11), np.zeros(8), np.linspace(-0.1, -0.9, 9)])
+    points, triangles = turned(radii, heights)
+    lid = np.flatnonzero(points[triangles, 2].min(axis=1) == 0.0)
+    points[12 * AROUND : 13 * AROUND, 2] = 0.4
+    (made, _), _ = fairing.fair_faces((points, triangles), lid)
+    assert np.abs(made[11 * AROUND : 18 * AROUND, 2]).max() < 1e-6
+
+
 def turned(radii: FloatArray, heights: FloatArray) -> tuple[FloatArray, IntArray]:
     """A surface of revolution, from one end of its profile to the other: vertices, triangles."""
     angles = 2.0 * np.pi * np.arange(AROUND) / AROUND

@@ -122,6 +122,15 @@ def test_a_kink_before_an_arc_shows_beyond_its_rows(kink: float) -> None:
     np.testing.assert_allclose(fairing.looks.visible_join(vertices, other, plate, line).degrees, kink, atol=1e-6)
 
 
+@pytest.mark.parametrize(("columns", "is_seen"), [(3, False), (12, True)])
+def test_a_kink_is_seen_along_more_than_an_eighth_of_the_boundary(columns: int, is_seen: bool) -> None:
+    vertices, plate, other = plate_and_arc(6, 0.0, 40, 30.0)
+    vertices[vertices[:, 1] < 0.2 * (40 - columns), 2] = 0.0
+    join = fairing.looks.visible_join(vertices, other, plate, np.intersect1d(plate, other))
+    assert join.degrees.max() > join.limit
+    assert bool(len(join.seen)) == is_seen
+
+
 # Hard edges that a smoothed outline rounds are distinguished from noise.
 Floats = npt.NDArray[np.float64]
 
