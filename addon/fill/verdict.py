@@ -30,20 +30,18 @@ def measured(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints, 
 def judge(outline: Ints, result: fairing.FillResult, join: Join, seen: fairing.looks.Judged) -> Verdict:
     """Return the verdict on a surface over (r,) mesh vertices."""
     over = said("over_loop" if len(result.loops) == 1 else "over_loops", n=len(outline), loops=len(result.loops))
-    if not result.converged and result.termination != "folded":
-        return Verdict(UNUSABLE, said("none_over", over=over), np.unique(outline))
-    if len(seen.now.folded) or result.termination == "folded":
-        return Verdict(UNUSABLE, said("folded_over", over=over), np.unique(outline))
-    crossing = np.union1d(seen.now.crossing, seen.pierced)
-    if len(crossing):
-        return Verdict(UNUSABLE, said("new_face_crossings", n=len(crossing)), np.unique(outline))
-    if len(join.seen) and result.equation != "soap_film":  # which meets its boundary with a crease
+    crossing, around = np.union1d(seen.now.crossing, seen.pierced), np.unique(outline)
+    name = fairing.looks.fault(
+        result, folded=len(seen.now.folded) > 0, crossing=len(crossing) > 0, kinked=len(join.seen) > 0
+    )
+    if name in fairing.looks.UNUSABLE:
+        key = {"no_surface": "none_over", "folded": "folded_over", "crossing": "new_face_crossings"}[name]
+        return Verdict(UNUSABLE, said(key, over=over, n=len(crossing)), around)
+    if name == "kink":
         return Verdict(LOOK, kink_reason(join), join.seen)
-    if result.equation in STAND_INS:
-        return Verdict(LOOK, STAND_INS[result.equation], np.unique(outline))
+    if name in STAND_INS:
+        return Verdict(LOOK, STAND_INS[name], around)
     uneven = girth_reason(result)
-    if uneven:
-        if result.equation != "least_variation":
-            uneven = said("choose_least_variation", reason=uneven)
-        return Verdict(LOOK, uneven, np.unique(outline))
-    return Verdict(GOOD)
+    if uneven and result.equation != "least_variation":
+        uneven = said("choose_least_variation", reason=uneven)
+    return Verdict(LOOK, uneven, around) if uneven else Verdict(GOOD)

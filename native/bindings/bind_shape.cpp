@@ -47,8 +47,8 @@ void bind_judged(py::module_& module) {
 void bind_shape(py::module_& module) {
     using namespace py::literals;
     // The limits of shape/limits.h that Python uses.
-    module.attr("LIMITS") =
-        py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink, "off_slope"_a = off_slope);
+    module.attr("LIMITS") = py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink,
+                                     "kink_share"_a = kink_share, "off_slope"_a = off_slope);
     bind(
         module, "girth",
         [](const Points& vertices, const Triangles& triangles, const MaybeIndices& fixed) {

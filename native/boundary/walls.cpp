@@ -253,11 +253,12 @@ private:
         return way;
     }
 
-    // The surroundings cut across the edge, from its middle, as far as `reach` and their next hard edge: where
-    // triangles end, and which of these ends are rows'. Faces in a plane are one row.
+    // The surroundings cut across the edge, from its middle: where triangles end, and which of these ends are rows'
+    // (faces in a plane are one row). `near`: how many there are up to the first beyond `reach` or at a hard edge.
     struct Way {
         std::vector<Vector3> ends;
         std::vector<std::size_t> rows;
+        std::size_t near = 0;
     };
 
     [[nodiscard]] Way way_beyond(const Meeting& edge, double reach) const {
@@ -282,9 +283,11 @@ private:
             const Vector3 tail = mesh_.points.col(side_tail(all, exit));
             way.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
             if (bend > flat) way.rows.push_back(way.ends.size() - 1);
-            if (way.rows.size() > 1 && (bend > hard_bend || way.ends.back().norm() > reach)) break;
+            if (way.near == 0 && (bend > hard_bend || way.ends.back().norm() > reach)) way.near = way.ends.size();
+            if (way.near > 0 && way.rows.size() > 1) break;
             side = other;
         }
+        if (way.near == 0) way.near = way.ends.size();
         return way;
     }
 
@@ -304,8 +307,7 @@ private:
             return std::isfinite(found) ? found : 0.0;
         };
         const double length = between(edge).norm();
-        if (way.ends.size() > 1)
-            means.way_bend += length * reach * curvature(way.ends.size() / 2 - 1, way.ends.size() - 1);
+        if (way.near > 1) means.way_bend += length * reach * curvature(way.near / 2 - 1, way.near - 1);
         if (way.rows.size() < 2) return;
         const double bend = curvature(way.rows[0], way.rows[1]);
         const Eigen::Vector2d last = -plane(way.rows[0]);

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,7 @@ __all__ = [
     "Girth",
     "Judged",
     "VisibleJoin",
+    "fault",
     "flipped_triangles",
     "girth",
     "is_spoilt",
@@ -27,6 +28,26 @@ __all__ = [
 
 
 LIMITS: dict[str, float] = _core.LIMITS
+
+
+# What makes a surface unusable, and what stands in for one that the equation does not have.
+UNUSABLE = ("no_surface", "folded", "crossing")
+STAND_INS = ("loft", "bilaplacian", "smoothed")
+
+
+def fault(result: Any, *, folded: bool, crossing: bool, kinked: bool) -> str:
+    """The worst that is wrong: one of UNUSABLE, or what deserves a look, "" where all is good."""
+    least, largest = result.girth or (1.0, 1.0)
+    found = {
+        "no_surface": not result.converged and result.termination != "folded",
+        "folded": folded or result.termination == "folded",
+        "crossing": crossing,
+        "kink": kinked and result.equation != "soap_film",  # which meets its boundary with a crease
+        result.equation: result.equation in STAND_INS,
+        "thin_tube": least < LIMITS["waist"],
+        "thick_tube": largest > LIMITS["balloon"],
+    }
+    return next((name for name, holds in found.items() if holds), "")
 
 
 class Girth(NamedTuple):

@@ -6,23 +6,24 @@ from typing import Any
 
 import numpy as np
 
-from fairing.looks import LIMITS
+from fairing import looks
 from fairing.results import FOLDS, FillResult, Hole
 
 GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
-_HARMLESS = {"PIN_NORMAL_IGNORED", "INCONSISTENT_WINDING", "DEGENERATE_FACE", "NOT_A_HOLE", "SHARP_BOUNDARY"}
+_HARMLESS = ("NOT_A_HOLE", "DEGENERATE_FACE")
 
 
 def judged(result: Any) -> tuple[str, str]:
     """GOOD, LOOK or UNUSABLE, and why; of what `fair`, `fill` or `fillet` give back."""
     broken = [each for each in result.warnings if each.code in FOLDS and "others" not in each.figures]
-    if not result.converged or broken:
+    bent = result.join > looks.LIMITS["visible_kink"]
+    name = looks.fault(
+        result, folded=bool(broken), crossing=False, kinked=bool(bent.sum() > looks.LIMITS["kink_share"] * len(bent))
+    )
+    if name in looks.UNUSABLE:
         return UNUSABLE, broken[0].message if broken else f"no surface was found: {result.termination}"
-    for warning in result.warnings:
-        if warning.code not in _HARMLESS:
-            return LOOK, warning.message
-    worst = float(np.max(result.join, initial=0.0))
-    return (LOOK, f"a kink of {worst:.0f}° at the join") if worst > LIMITS["visible_kink"] else (GOOD, "")
+    degrees = f" of {np.max(result.join, initial=0.0):.0f}° at the join" if name == "kink" else ""
+    return (LOOK if name else GOOD), name.replace("_", " ") + degrees
 
 
 def judged_holes(result: FillResult) -> tuple[str, str, list[tuple[str, str]]]:
