@@ -58,7 +58,7 @@ class MeshArrays:
     corner_normals: Floats | None = None  # (c, 3), where they were asked for
     mirrored: bool = False  # the corners go clockwise, seen from outside
     mirror_x: bool = False  # the mesh asks for symmetric results
-    textured: bool = False  # the patch has a UV map, and a shape that is worth keeping
+    textured: bool = False  # the patch has a UV map
     sharp: Mask | None = None  # (e,) edges marked sharp; None: none is
     hard: Mask | None = None  # (e,) edges that may run through the patch: marked, or by their angle; None: none
     held_by_angle: Mask | None = None  # (n,) pinned vertices on edges that nobody has marked; None: none

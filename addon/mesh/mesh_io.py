@@ -17,7 +17,6 @@ from ..fair.held_curves import with_pinned_edges
 from ..mirror.symmetry import with_image
 from ..options.options import FairOptions
 from ..selection.selection import enclosed_faces
-from ..verdict.quality import is_spoilt
 from ..words.words import said
 from .all_keys import follows, shown_offsets
 from .columns import column, elements_of, flags, indices, stored
@@ -193,8 +192,6 @@ def _arrays(mesh: bpy.types.Mesh, selected: Mask, group: int | None, options: Fa
     )
     if options.remesh:
         arrays = replace(arrays, lines=lines(mesh, arrays))
-    if arrays.textured and is_spoilt(arrays):
-        arrays = replace(arrays, textured=False)
     return _pinned(arrays, mesh, group, options)
 
 

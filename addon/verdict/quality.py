@@ -145,13 +145,6 @@ def mean_area(points: Floats, triangles: Ints) -> float:
     return 0.5 * float(np.linalg.norm(area_vectors(points, triangles), axis=1).mean())
 
 
-def is_spoilt(mesh: MeshArrays) -> bool:
-    """Return whether the patch's own shape is no texture to keep: it has a spike, or all of it is crumpled."""
-    inside = mesh.in_patch[mesh.triangle_faces]
-    with np.errstate(invalid="ignore"):
-        return fairing.looks.is_spoilt(mesh.positions, mesh.triangles[inside], mesh.triangles[~inside])
-
-
 def texture_distortion(before: Floats, after: Floats, triangles: Ints) -> float:
     """Return the area-weighted mean of conformal distortion − 1; 0 where all angles are kept.
 

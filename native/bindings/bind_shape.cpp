@@ -3,7 +3,6 @@
 #include "bindings/bind.h"
 #include "bindings/topics.h"
 #include "shape/limits.h"
-#include "shape/roughness.h"
 #include "shape/visible_join.h"
 
 namespace fairing::bindings {
@@ -14,7 +13,6 @@ py::object shown(const VisibleJoin& join) { return py::make_tuple(join.degrees, 
 
 // Measures of the parts of a mesh.
 void bind_parts(py::module_& module) {
-    bind(module, "is_spoilt", &is_spoilt);
     bind(
         module, "visible_join",
         [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& boundary,

@@ -20,13 +20,6 @@ inline constexpr int runs_on = 2;
 inline constexpr double most_beside = 0.12;
 inline constexpr double most_marked = 0.25;
 
-// A vertex over its neighbours' mean, in edges: scans, CAD and characters have up to 1.3, a spike of three edges has
-// 2.7. In the median, of 180 random patches of 14 meshes none is crumpled, with noise of a tenth of an edge one in 25,
-// of a quarter five in six, of a half all. What is as rough all around has a texture all the same.
-inline constexpr double spike = 1.6;
-inline constexpr double crumpled = 0.25;
-inline constexpr double rougher = 2.0;
-
 // Degrees of a kink along the boundary beyond the bends that are usual around (shape/visible_join), from which it is
 // seen: among faces that bend as most do, among faces that hardly bend, and whatever these do.
 inline constexpr double visible_kink = 12.0;

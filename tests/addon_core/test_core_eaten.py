@@ -1,4 +1,4 @@
-"""What a verdict looks at: edges that are gone, seams, faces passed through, spoilt starts, triangles."""
+"""What a verdict looks at: edges that are gone, seams, faces passed through, triangles."""
 
 from dataclasses import replace
 from typing import Any
@@ -14,7 +14,7 @@ from addon.options.options import FairOptions
 from addon.remesh.remeshing import remesh_arrays
 from addon.verdict import quality
 from addon.verdict.outcome import Fairing, outcome
-from addon.verdict.quality import Measured, is_spoilt, measured, moved_sheet
+from addon.verdict.quality import Measured, measured, moved_sheet
 from addon.verdict.verdict import LOOK
 
 from polygon_mesh import grid, grid_points, grid_quads, on_sphere, polygon_mesh
@@ -187,52 +187,6 @@ def test_what_passed_through_before_is_no_news(anew: bool) -> None:
     assert not reason(replace(mesh, positions=lower), anew)
 
 
-# Which starts have a shape that is no texture to keep.
-MESH = grid(12, 0.6, on_sphere)
-
-
-SPIKE = 1.6  # edges over its neighbours, from which a vertex is pulled out
-
-
-def lifted(vertex: int, by: float) -> MeshArrays:
-    positions = MESH.positions.copy()
-    positions[vertex] *= 1.0 + by
-    return replace(MESH, positions=positions)
-
-
-def test_a_spike_is_distinguished_from_a_bump() -> None:
-    inside = MESH.corner_vertices[MESH.in_patch[MESH.corner_faces]]
-    outside = MESH.corner_vertices[~MESH.in_patch[MESH.corner_faces]]
-    middle = int(np.setdiff1d(inside, outside)[10])
-    edge = float(np.linalg.norm(np.subtract(*MESH.positions[MESH.edges[0]])))
-    assert not is_spoilt(MESH)
-    assert not is_spoilt(lifted(middle, 0.8 * edge))
-    assert is_spoilt(lifted(middle, 3.0 * SPIKE * edge))
-    assert is_spoilt(lifted(middle, -3.0 * SPIKE * edge))
-    pinned = MESH.pinned.copy()
-    pinned[middle] = True  # a pin that was pulled out
-    assert is_spoilt(replace(lifted(middle, 3.0 * SPIKE * edge), pinned=pinned))
-    assert not is_spoilt(lifted(int(np.intersect1d(inside, outside)[0]), 3.0 * SPIKE * edge))  # it stays
-
-
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_a_crumpled_patch_is_distinguished_from_a_rough_mesh(seed: int) -> None:
-    """By noise in edges of the mesh, of the patch alone and of all of it."""
-    inside = np.setdiff1d(
-        MESH.corner_vertices[MESH.in_patch[MESH.corner_faces]], MESH.corner_vertices[~MESH.in_patch[MESH.corner_faces]]
-    )
-    edge = float(np.linalg.norm(np.subtract(*MESH.positions[MESH.edges[0]])))
-    noise = edge * np.random.default_rng(seed).normal(size=MESH.positions.shape)
-    patch_only = np.zeros_like(noise)
-    patch_only[inside] = noise[inside]
-    assert not is_spoilt(replace(MESH, positions=MESH.positions + 0.1 * patch_only))
-    assert is_spoilt(replace(MESH, positions=MESH.positions + 0.5 * patch_only))
-    rough = MESH.positions + 0.5 * noise
-    assert not is_spoilt(replace(MESH, positions=rough))
-    rough[0] = np.nan  # far away
-    assert not is_spoilt(replace(MESH, positions=rough))
-
-
 # What is counted about triangles: turned over, flat, distorted; and when crossings are looked for.
 QUAD = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -270,12 +224,3 @@ def test_crossings_are_looked_for_where_they_are_not_known_to_be_none() -> None:
         crossing = seen(mesh, points, is_clear=is_clear).after.crossing
         assert crossing is not None
         assert (len(crossing) > 0) != is_clear
-
-
-def bent(degrees: float) -> Measured:
-    """A plane of quads whose selected middle is turned down along its outline."""
-    mesh = grid(16, 0.3)
-    points = mesh.positions.copy()
-    inside = np.abs(points[:, :2]).max(axis=1) < 0.3
-    points[inside, 2] -= np.tan(np.radians(degrees)) * np.minimum(points[inside, 0] + 0.25, 0.125)
-    return seen(mesh, points)

@@ -50,7 +50,6 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "hard_edges": (POINTS, FACES, NO_EDGES),
     "hole_loops": (POINTS, FACES, None),
     "interpolate": (POINTS, FACES, FIXED, FLAT),
-    "is_spoilt": (POINTS, TOP, RIM),
     "judged": (POINTS, TOP, RIM, LINE, LINE, POINTS, TOP, NONE, NO_EDGES, False, None),
     "mean_curvature": (POINTS, FACES, None, None, "fitted"),
     "mend_outline": (POINTS, RIM, LINE),

@@ -331,7 +331,6 @@ ROWS |= {
     "interpolate": Row(
         ball, lambda s: [("points", every(s), fairing.maps.interpolate(s.points, s.faces, s.rim, s.points[s.rim]))]
     ),
-    "is_spoilt": Row(ball, lambda s: figures(fairing.looks.is_spoilt(rough_part(s)[1], s.inside, s.outside))),
     "judged": Row(box, judged),
     "mean_curvature": Row(
         ball, lambda s: [("curvatures", every(s), fairing.mean_curvature(s.points, s.faces))], 1e-7

@@ -18,10 +18,8 @@ __all__ = [
     "Girth",
     "Judged",
     "VisibleJoin",
-    "fault",
     "flipped_triangles",
     "girth",
-    "is_spoilt",
     "judged",
     "visible_join",
 ]
@@ -30,9 +28,7 @@ __all__ = [
 LIMITS: dict[str, float] = _core.LIMITS
 
 
-# What makes a surface unusable, and what stands in for one that the equation does not have.
 UNUSABLE = ("no_surface", "folded", "crossing")
-STAND_INS = ("loft", "bilaplacian", "smoothed")
 
 
 def fault(result: Any, *, folded: bool, crossing: bool, kinked: bool) -> str:
@@ -43,7 +39,7 @@ def fault(result: Any, *, folded: bool, crossing: bool, kinked: bool) -> str:
         "folded": folded or result.termination == "folded",
         "crossing": crossing,
         "kink": kinked and result.equation != "soap_film",  # which meets its boundary with a crease
-        result.equation: result.equation in STAND_INS,
+        result.equation: result.equation in ("loft", "bilaplacian", "smoothed"),  # they stand in
         "thin_tube": least < LIMITS["waist"],
         "thick_tube": largest > LIMITS["balloon"],
     }
@@ -148,17 +144,6 @@ def girth(vertices: npt.ArrayLike, triangles: npt.ArrayLike, *, fixed: npt.Array
     points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
     found = _core.girth(points, faces, held)
     return None if found is None else Girth(*found)
-
-
-def is_spoilt(vertices: npt.ArrayLike, inside: npt.ArrayLike, outside: npt.ArrayLike) -> bool:
-    """Whether the shape of the triangles ``inside`` is no texture to keep: a vertex is pulled out, or all is crumpled.
-
-    Pulled out: by more than 1.6 edges from the mean of its neighbours. Crumpled: by a quarter of an edge in the median,
-    and by twice as much as around, among the triangles ``outside``. Border vertices of both don't count.
-    """
-    points = arguments.floats("vertices", vertices)
-    within = arguments.triangles_within(inside, points.shape[0])
-    return _core.is_spoilt(points, within, arguments.triangles_within(outside, points.shape[0]))
 
 
 def flipped_triangles(

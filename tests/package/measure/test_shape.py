@@ -71,19 +71,6 @@ def test_a_seam_is_kinked_where_a_long_kink_shows_across_it() -> None:
         assert not kinks(*slit(degrees, length))
 
 
-@pytest.mark.parametrize("sides", [4, 6, 9])
-@pytest.mark.parametrize("size", [1e-3, 1.0, 40.0])
-@pytest.mark.parametrize(("height", "spoilt"), [(1.5, False), (1.7, True)])
-def test_a_vertex_is_pulled_out_by_its_height_in_edges(sides: int, size: float, height: float, spoilt: bool) -> None:
-    turns = 2.0 * np.pi * np.arange(sides) / sides
-    base = np.column_stack([np.cos(turns), np.sin(turns), np.zeros(sides)])
-    apex, below = [[0.0, 0.0, 2.0 * height * np.sin(np.pi / sides)]], [[0.0, 0.0, -100.0]]
-    points = size * np.concatenate([base, apex, below])
-    fan = np.array([[k, (k + 1) % sides, sides] for k in range(sides)])
-    outside = np.array([[(k + 1) % sides, k, sides + 1] for k in range(sides)])
-    assert fairing.looks.is_spoilt(points, fan, outside) == spoilt
-
-
 def plate_and_arc(rows: int, degrees: float, columns: int, kink: float = 0.0) -> tuple[FloatArray, IntArray, IntArray]:
     """A plate of `rows` rows of rectangles, and as many that turn by `degrees` each; triangles before and after.
 

@@ -10,20 +10,17 @@ from fairing import looks
 from fairing.results import FOLDS, FillResult, Hole
 
 GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
-_HARMLESS = ("NOT_A_HOLE", "DEGENERATE_FACE")
 
 
 def judged(result: Any) -> tuple[str, str]:
     """GOOD, LOOK or UNUSABLE, and why; of what `fair`, `fill` or `fillet` give back."""
     broken = [each for each in result.warnings if each.code in FOLDS and "others" not in each.figures]
-    bent = result.join > looks.LIMITS["visible_kink"]
-    name = looks.fault(
-        result, folded=bool(broken), crossing=False, kinked=bool(bent.sum() > looks.LIMITS["kink_share"] * len(bent))
-    )
+    share = np.count_nonzero(result.join > looks.LIMITS["visible_kink"]) / max(len(result.join), 1)
+    kinked = share > looks.LIMITS["kink_share"]
+    name = looks.fault(result, folded=bool(broken), crossing=False, kinked=kinked)
     if name in looks.UNUSABLE:
         return UNUSABLE, broken[0].message if broken else f"no surface was found: {result.termination}"
-    degrees = f" of {np.max(result.join, initial=0.0):.0f}° at the join" if name == "kink" else ""
-    return (LOOK if name else GOOD), name.replace("_", " ") + degrees
+    return (LOOK if name else GOOD), name.replace("_", " ")
 
 
 def judged_holes(result: FillResult) -> tuple[str, str, list[tuple[str, str]]]:
@@ -33,14 +30,13 @@ def judged_holes(result: FillResult) -> tuple[str, str, list[tuple[str, str]]]:
     odd += [warning.message for warning in result.warnings if "others" in warning.figures]
     notes = [reason for grade, reason in each if grade == GOOD and reason]
     reasons = [f"{len(bad)} of {len(each)} holes can't be filled: {bad[0]}"] if bad else []
-    reasons += [f"{odd[0]} ({len(odd)} times)" if len(odd) > 1 else odd[0]] if odd else []
-    if len(bad) + len(notes) == len(each):
-        return (UNUSABLE if bad else GOOD), "; ".join(reasons + notes[:1]), each
-    return (LOOK if reasons else GOOD), "; ".join(reasons or notes[:1]), each
+    grade = UNUSABLE if bad and len(bad) + len(notes) == len(each) else LOOK if bad or odd else GOOD
+    return grade, "; ".join(reasons + odd[:1] + notes[:1]), each
 
 
 def _of_hole(hole: Hole) -> tuple[str, str]:
     if hole.surface is not None:
         return judged(hole.surface)
-    assert hole.left_because is not None
-    return (GOOD if hole.left_because.code in _HARMLESS else UNUSABLE), hole.left_because.message
+    because = hole.left_because
+    assert because is not None
+    return (GOOD if because.code in ("NOT_A_HOLE", "DEGENERATE_FACE") else UNUSABLE), because.message
