@@ -123,11 +123,10 @@ RowWeights make_row_weights(const Patch& patch, const Points& reference, InnerFa
         }
         return row_weights(patch, local, "inner_fairness");
     }
-    const bool by_edges = kind == InnerFairness::uniform || kind == InnerFairness::inverse_distance;
-    if (!options.neighbours || !by_edges) return row_weights(patch, reference, kind);
-    InnerWeights weights = uniform_weights(local_edges(patch, *options.neighbours));
-    if (kind == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
-    return row_weights(patch, weights, "neighbours");
+    if (kind == InnerFairness::shape_preserving) return shape_preserving_weights(patch, reference);
+    return with_edges(patch, make_lambda(patch, reference, kind, options), [&](const InnerWeights& edges) {
+        return row_weights(patch, edges, options.neighbours ? "neighbours" : "reference");
+    });
 }
 
 }  // namespace fairing

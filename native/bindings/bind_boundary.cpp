@@ -4,9 +4,9 @@
 #include "bindings/topics.h"
 #include "boundary/boundary_fit.h"
 #include "boundary/fair_border.h"
+#include "boundary/fair_curve.h"
 #include "boundary/feather.h"
 #include "boundary/fitted_boundary.h"
-#include "boundary/least_variation_curve.h"
 #include "detail/low_pass.h"
 #include "geometry/hard_edges.h"
 
@@ -75,7 +75,7 @@ void bind_boundary(py::module_& module) {
          });
     // Positions and directions: rows of the beginning and the end.
     bind(module, "fair_curve", [](const Points& places, const Points& directions, const VectorX& shares) {
-        return least_variation_curve({places.col(0), directions.col(0)}, {places.col(1), directions.col(1)}, shares);
+        return fair_curve({places.col(0), directions.col(0)}, {places.col(1), directions.col(1)}, shares);
     });
     bind(module, "chain_end", &end_of_chain,
          [](const ChainEnd& end) { return py::make_tuple(Points(end.direction), Points(end.curvature)); });

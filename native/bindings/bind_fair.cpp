@@ -120,11 +120,8 @@ void bind_paper_options(py::module_& module) {
         .def_readwrite("cg_steps", &PaperOptions::cg_steps)
         .def_readwrite("sweeps", &PaperOptions::h_sweeps)
         .def_readwrite("vertex_sweeps", &PaperOptions::vertex_sweeps)
-        .def_readwrite("epsilon", &PaperOptions::epsilon)
         .def_readwrite("levels", &PaperOptions::levels);
     add(options, acceleration_words, +[](PaperOptions& o) -> Acceleration& { return o.acceleration; });
-    add(options, virtual_point_words, +[](PaperOptions& o) -> VirtualPoints& { return o.virtual_points; });
-    add(options, start_words, +[](PaperOptions& o) -> PaperStart& { return o.start; });
 }
 
 void bind_options(py::module_& module) {
@@ -169,7 +166,7 @@ py::dict listed(const Words&... of_options) {
 
 void bind_fair(py::module_& module) {
     module.attr("WORDS") = listed(method_words, normal_words, equation_words, otherwise_words, fairness_words,
-                                  virtual_point_words, start_words, border_words, acceleration_words);
+                                  border_words, acceleration_words);
     bind_paper_options(module);
     bind_options(module);
     bind_solver(module);

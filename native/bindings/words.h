@@ -62,12 +62,6 @@ inline constexpr Words<InnerFairness, 4> fairness_words{"inner_fairness",
                                                           {"inverse_distance", InnerFairness::inverse_distance},
                                                           {"shape_preserving", InnerFairness::shape_preserving}}}};
 inline constexpr Words<bool, 2> border_words{"open_border", {{{"held", false}, {"faired", true}}}};
-inline constexpr Words<VirtualPoints, 3> virtual_point_words{"virtual_points",
-                                                             {{{"sparse", VirtualPoints::sparse},
-                                                               {"coarse", VirtualPoints::coarse},
-                                                               {"everywhere", VirtualPoints::everywhere}}}};
-inline constexpr Words<PaperStart, 2> start_words{
-    "start", {{{"improved", PaperStart::improved}, {"linear", PaperStart::linear}}}};
 inline constexpr Words<Acceleration, 2> acceleration_words{
     "acceleration", {{{"anderson", Acceleration::anderson}, {"none", Acceleration::plain}}}};
 inline constexpr Words<Termination, 4> termination_words{"termination",

@@ -5,9 +5,9 @@
 #include "geometry/surface_fit.h"
 #include "linear/anderson.h"
 #include "linear/conjugate_gradients.h"
-#include "linear/gmres.h"
 #include "linear/limits.h"
 #include "linear/shrinking_steps.h"
+#include "linear/solve_by_steps.h"
 #include "problem/surface_state.h"
 #include "tangential/tangential_step.h"
 
@@ -247,8 +247,8 @@ JoinOperator::Step JoinOperator::solve(const VectorX& residual, const VectorX& m
     VectorX rhs(fixed_mass_.size() + modes_.count());
     rhs << -boundary_.approximate_inverse(turned(inner).transpose()).transpose(), modes_.projected(missing);
     const VectorX unknowns =
-        gmres([&](const VectorX& v) { return applied(v); }, [&](const VectorX& v) { return preconditioned(v); }, rhs,
-              relative_tolerance, most_cycles);
+        solve_by_steps([&](const VectorX& v) { return applied(v); },
+                       [&](const VectorX& v) { return preconditioned(v); }, rhs, relative_tolerance, most_cycles);
     Step step{{}, unknowns.tail(modes_.count())};
     const VectorX change = unknowns.head(fixed_mass_.size());
     const VectorX source =

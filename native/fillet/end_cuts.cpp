@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/columns.h"
-#include "boundary/least_variation_curve.h"
+#include "boundary/fair_curve.h"
 #include "fillet/cut_triangle.h"
 #include "fillet/end_faces.h"
 #include "fillet/limits.h"
@@ -117,7 +117,7 @@ private:
         const VectorX shares = shares_along(chain, faces);
         VectorX all(3 * shares.size());
         all << shares, (shares.array() - derivative).max(0.0), (shares.array() + derivative).min(1.0);
-        const Points curve = least_variation_curve(from, to, all);
+        const Points curve = fair_curve(from, to, all);
         const Vector3 normal = side_normal(faces.parent(faces.at(chain[0], chain[1])), begin);
         const double sign = from.direction.cross(way).dot(normal) < 0.0 ? -1.0 : 1.0;
         EndSection section{chain, {}, {}, *plane, none, {}, {}, {}};

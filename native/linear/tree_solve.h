@@ -122,22 +122,4 @@ private:
     std::vector<Field> outer_;  // what each subtree passes on
 };
 
-// x with A x = rhs, both n × k in the matrix's order; `order`: position in the factor → row of the matrix.
-template <typename Field, typename Sweeps>
-Field solve_by_fronts(const FrontTree& tree, const Indices& order, const Field& rhs, const Sweeps& sweeps) {
-    const int count = static_cast<int>(rhs.rows());
-    Field x(rhs.rows(), rhs.cols());
-    for_ranges(count, coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) x.row(k) = rhs.row(order[k]);
-    });
-    TreeSolve<Field, Sweeps> solve(tree, sweeps, x);
-    solve.up(FrontReach());
-    solve.down(FrontReach());
-    Field result(rhs.rows(), rhs.cols());
-    for_ranges(count, coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) result.row(order[k]) = x.row(k);
-    });
-    return result;
-}
-
 }  // namespace fairing

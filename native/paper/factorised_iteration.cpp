@@ -67,7 +67,6 @@ private:
     }
 
     [[nodiscard]] bool finished(double residual) const {
-        if (limits_.epsilon > 0.0) return residual <= limits_.epsilon && update_.unfairness() <= 0.04 * limits_.epsilon;
         return std::isfinite(residual) && remaining_.estimate() <= limits_.tolerance;
     }
 

@@ -45,9 +45,7 @@ private:
 };
 
 struct IterationLimits {
-    // Stop at max |Δ_B H − f| D³ ≤ ε with inner fairness to match, or, where ε is 0, when the changes still to come are
-    // estimated not to exceed the tolerance (units of D).
-    double epsilon;
+    // Stop when the changes still to come are estimated not to exceed the tolerance (units of D).
     double tolerance;
     int max_iterations;  // updates of the mesh
     double damping;      // s to begin with; halved where vertices alternate

@@ -1,6 +1,8 @@
 #include "paper/level_update.h"
 
+#include "geometry/shape_operator.h"
 #include "linear/conjugate_gradients.h"
+#include "paper/vertex_update.h"
 
 namespace fairing {
 
@@ -42,12 +44,12 @@ double outer_source(const SolverOptions& options, const CurvatureFit& fit) {
     return 0.0;
 }
 
-void LevelState::prepare(const LevelProblem& level) {
-    weights_begin = {0};
-    for (int i = 0; i < level.patch.free_count; ++i) {
-        weights_begin.push_back(weights_begin.back() + weight_count(level.disk(i)));
-    }
-    weights.resize(weights_begin.back());
+std::span<const Vector3> LevelState::around(const Patch& patch, int vertex) {
+    ring_.gather(patch, points, vertex);
+    return ring_.with_virtual(patch, vertex, [&](int edge) -> Vector3 {
+        const auto [a, b] = patch.edge_ends[edge];
+        return 0.5 * (points.col(a) + points.col(b)) + arcs.col(edge);
+    });
 }
 
 std::span<double> LevelState::weights_of(int free_vertex) {
@@ -56,7 +58,6 @@ std::span<double> LevelState::weights_of(int free_vertex) {
 }
 
 void LevelState::measure(const LevelProblem& level, Arcs which) {
-    if (weights_begin.empty()) prepare(level);
     faces_.update(points, level.patch.triangles);
     stiffness.update(faces_, level.patch);
     measure_normals(level);
@@ -89,12 +90,17 @@ void LevelState::measure_curvature(const LevelProblem& level) {
     const Patch& patch = level.patch;
     H.resize(patch.vertex_count());
     source.resize(patch.free_count);
+    weights_begin = {0};
+    weights.clear();
     for (int i = 0; i < patch.vertex_count(); ++i) {
-        const CurvatureFit fit = fit_(level.disk(i), {points, arcs}, normals.col(i));
+        const std::span<const Vector3> points_around = around(patch, i);
+        const CurvatureFit fit = fit_curvature(points.col(i), points_around, normals.col(i));
         H[i] = fit.mean();
         if (!patch.is_free(i)) continue;
         source[i] = outer_source(level.solver, fit);
-        fit_.weights(weights_of(i));
+        weights.resize(weights.size() + points_around.size());
+        weights_begin.push_back(weights.size());
+        curvature_weights(points.col(i), points_around, normals.col(i), weights_of(i));
     }
 }
 
@@ -111,19 +117,6 @@ VectorX LevelState::defect(const LevelProblem& level) const {
 // Positive unless a whole 1-disk has collapsed.
 double LevelState::diagonal(const LevelProblem& level, int vertex) const {
     return std::max(stiffness.diagonal(level.patch, vertex), 1e-9);
-}
-
-double LevelState::unfairness(const LevelProblem& level) const {
-    double largest = 0.0;
-    for (int i = 0; i < level.patch.free_count; ++i) {
-        const Vector3 delta = level.weights.mean(i, points) - points.col(i);
-        const Vector3 across = delta - normals.col(i).dot(delta) * normals.col(i);
-        const auto neighbours = level.patch.ring(i).vertices;
-        double squared = 0.0;
-        for (int v : neighbours) squared += (points.col(v) - points.col(i)).squaredNorm();
-        largest = std::max(largest, across.norm() * static_cast<double>(neighbours.size()) / std::max(squared, 1e-300));
-    }
-    return largest;
 }
 
 double LevelState::residual(const LevelProblem& level) const {
@@ -189,12 +182,11 @@ void LevelUpdate::conjugate_gradient_steps(VectorX& H) const {
 
 // Neighbours that have moved count with their new position.
 void LevelUpdate::move_vertices(const VectorX& wanted, double damping) {
-    const DiskField field{state_.points, state_.arcs};
     for (int sweep = 0; sweep < level_.paper.vertex_sweeps; ++sweep) {
         for (int i = 0; i < level_.patch.free_count; ++i) {
             const VertexTarget target{state_.normals.col(i), state_.weights_of(i),
                                       level_.weights.mean(i, state_.points), wanted[i], damping * share_[i]};
-            state_.points.col(i) = updated_position(level_.disk(i), field, target);
+            state_.points.col(i) = updated_position(state_.points.col(i), state_.around(level_.patch, i), target);
         }
     }
 }

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "fairness/row_weights.h"
-#include "paper/disk_curvature.h"
+#include "geometry/mean_curvature.h"
+#include "geometry/one_ring.h"
 #include "paper/options.h"
 #include "problem/problem.h"
 
@@ -15,13 +16,6 @@ struct LevelProblem {
     const SolverOptions& solver;
     const PaperOptions& paper;
     RowWeights weights;
-    bool completed;  // virtual points at every vertex of this level
-
-    // Virtual points join the fit at valence 3 and 4 (Lemma 1) and at fixed vertices (one-sided data, §7.5) anyway.
-    [[nodiscard]] Disk disk(int vertex) const {
-        const RingView ring = patch.ring(vertex);
-        return {vertex, ring, completed || ring.valence() < 5 || !patch.is_free(vertex)};
-    }
     // Whether the boundary data prescribe the normal.
     [[nodiscard]] bool prescribes_normal(int vertex) const {
         return solver.equation != Equation::soap_film && !patch.is_free(vertex) &&
@@ -39,11 +33,13 @@ enum class Arcs { present, as_before };
 struct LevelState {
     Points points;   // 3 × level vertices
     Points normals;  // prescribed or averaged (§6)
-    Points arcs;     // of DiskField: 3 × edges, where a disk asks for them
+    // 3 × edges: from the middle of each chord to its virtual point. Kept apart from the chord, it stays good enough
+    // while vertices move one after the other.
+    Points arcs;
     VectorX H;
     VectorX source;  // f at the free vertices
     Stiffness stiffness;
-    std::vector<double> weights;  // of the curvature at the free vertices, see DiskFit
+    std::vector<double> weights;  // of the curvature at the free vertices (paper/vertex_update)
     std::vector<std::size_t> weights_begin;
 
     void measure(const LevelProblem& level, Arcs which);
@@ -52,10 +48,9 @@ struct LevelState {
     // rhs − S H (free count), and S_ii.
     [[nodiscard]] VectorX defect(const LevelProblem& level) const;
     [[nodiscard]] double diagonal(const LevelProblem& level, int vertex) const;
+    // The neighbours of a vertex and the virtual points between them (§6.2). Valid until the next call.
+    [[nodiscard]] std::span<const Vector3> around(const Patch& patch, int vertex);
     [[nodiscard]] std::span<double> weights_of(int free_vertex);
-    // max |P Δq|/ℓ² over the free vertices: how far inner fairness is off (§7.3), P the projection across the normal,
-    // ℓ² the mean squared distance of the neighbours; in units of 1/D.
-    [[nodiscard]] double unfairness(const LevelProblem& level) const;
     // max |Δ_B H − f| over the free vertices, |H| for minimal surfaces. Infinite where it is not a number.
     [[nodiscard]] double residual(const LevelProblem& level) const;
 
@@ -64,10 +59,8 @@ private:
     void measure_arcs(const LevelProblem& level);
     void measure_curvature(const LevelProblem& level);
 
-    void prepare(const LevelProblem& level);
-
     FaceGeometry faces_;
-    DiskFit fit_;
+    OneRingBuffer ring_;
 };
 
 class LevelUpdate {
@@ -84,7 +77,6 @@ public:
     void local(double damping);
     void global(double damping);
 
-    [[nodiscard]] double unfairness() const { return state_.unfairness(level_); }
     [[nodiscard]] const Points& points() const { return state_.points; }
     void move_to(const Points& points) { state_.points = points; }
 

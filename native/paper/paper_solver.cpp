@@ -63,15 +63,9 @@ private:
 
     [[nodiscard]] LevelProblem level_problem(int level) const {
         const Patch& patch = patch_of(level);
-        const bool completed = pp_.paper.virtual_points == VirtualPoints::everywhere ||
-                               (pp_.paper.virtual_points == VirtualPoints::coarse && level > 0);
-        return {patch,
-                problem_.fixed_normals,
-                options_,
-                pp_.paper,
+        return {patch, problem_.fixed_normals, options_, pp_.paper,
                 level == 0 ? pp_.weights
-                           : row_weights(patch, coarser_[static_cast<std::size_t>(level) - 1].weights, "weights"),
-                completed};
+                           : row_weights(patch, coarser_[static_cast<std::size_t>(level) - 1].weights, "weights")};
     }
 
     // Coarse levels need not be more accurate than they differ from the next finer one. Their boundary is much finer
@@ -80,8 +74,8 @@ private:
         constexpr double coarse_damping = 0.55;  // of the caller's
         const SolverOptions& options = options_;
         const PaperOptions& paper = pp_.paper;
-        if (level == 0) return {paper.epsilon, options.tolerance, options.max_iterations, paper.damping};
-        return {0.0, std::max(options.tolerance, start_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
+        if (level == 0) return {options.tolerance, options.max_iterations, paper.damping};
+        return {std::max(options.tolerance, start_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
                 paper.acceleration == Acceleration::plain ? coarse_damping * paper.damping : paper.damping};
     }
 
@@ -106,7 +100,7 @@ private:
     // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
     Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
         if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
-        const IterationLimits limits{0.0, start_tolerance, 100, limits_of(static_cast<int>(coarser_.size())).damping};
+        const IterationLimits limits{start_tolerance, 100, limits_of(static_cast<int>(coarser_.size())).damping};
         const double whole = problem_.options.load;
         double reached = 0.0;
         for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {
@@ -125,8 +119,7 @@ private:
 
     // The surface has less load than it should: it is measured by the whole one.
     void confess(const LevelProblem& level, IterationOutcome& outcome) const {
-        const LevelProblem asked{level.patch, level.fixed_normals, problem_.options,
-                                 level.paper, level.weights,       level.completed};
+        const LevelProblem asked{level.patch, level.fixed_normals, problem_.options, level.paper, level.weights};
         outcome.residual = LevelUpdate(asked, outcome.points).measure();
         outcome.termination = Termination::stalled;
     }

@@ -7,8 +7,8 @@
 namespace fairing {
 
 // Positions of the level's vertices (3 × level vertices) from connectivity and boundary data alone.
-// `linear` is the clamped bilaplacian. `improved` takes its bulge of least Willmore energy, made fair by mixed finite
-// elements. For minimal surfaces they are the membrane, without and with descent of its area.
+// The clamped bilaplacian's bulge of least Willmore energy, made fair by mixed finite elements; for minimal surfaces
+// the membrane, with descent of its area.
 Points start_of_level(const LevelProblem& level, const Points& fixed_points, const Progress& progress);
 
 }  // namespace fairing

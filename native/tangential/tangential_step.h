@@ -53,10 +53,10 @@ public:
     [[nodiscard]] virtual double imbalance(const Points& points, const Points& normals) const = 0;
 
     // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients
-    // (GMRES where λ is not symmetric), preconditioned by P L⁻¹ P, to the relative residual `tolerance` or for
-    // `max_cycles`. Newton's step where it is known how the planes turn: P L P d − ⟨n, L x⟩ W d = −P L x, since P turns
-    // with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are too
-    // short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
+    // (accelerated steps where λ is not symmetric), preconditioned by P L⁻¹ P, to the relative residual `tolerance` or
+    // for `max_cycles`. Newton's step where it is known how the planes turn: P L P d − ⟨n, L x⟩ W d = −P L x, since P
+    // turns with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are
+    // too short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
     [[nodiscard]] virtual Points displacement(const Points& points, const TangentPlanes& planes,
                                               Effort effort = {}) const = 0;
 

@@ -34,11 +34,7 @@ PaperOptions random_paper_options(FuzzedDataProvider& bytes) {
     options.cg_steps = bytes.ConsumeIntegralInRange(1, 60);
     options.h_sweeps = bytes.ConsumeIntegralInRange(1, 3);
     options.vertex_sweeps = bytes.ConsumeIntegralInRange(1, 3);
-    options.epsilon = bytes.PickValueInArray({0.0, 1e-6, 1e300, 1e-300});
     options.acceleration = bytes.ConsumeBool() ? Acceleration::anderson : Acceleration::plain;
-    options.virtual_points =
-        bytes.PickValueInArray({VirtualPoints::everywhere, VirtualPoints::sparse, VirtualPoints::coarse});
-    options.start = bytes.ConsumeBool() ? PaperStart::linear : PaperStart::improved;
     options.levels = bytes.ConsumeIntegralInRange(0, 5);
     return options;
 }

@@ -24,28 +24,16 @@ class PaperOptions:
     """Gauss–Seidel sweeps of a local H-update (§7.1)."""
     vertex_sweeps: int = 2
     """Sweeps over the vertices in each update of the mesh (§7.2: one)."""
-    epsilon: float = 0.0
-    """Stop at max |Δ_B H − f| D³ ≤ ``epsilon`` (|H| D for "soap_film"). 0: where the changes still to come,
-    estimated from the last ones, are ``tolerance`` × D."""
     acceleration: str = "anderson"
     """Whether each cycle of updates starts from the best combination of the last sixteen ("anderson"), or where the
     last one ended ("none"), as published."""
-    virtual_points: str = "everywhere"
-    """Which fits of H get virtual points (§6.2) besides valence 3 and 4 and fixed vertices: no others ("sparse"), all
-    on the coarse levels ("coarse", as published), all ("everywhere")."""
-    start: str = "improved"
-    """Fill of the coarsest level: the linear bilaplacian ("linear"), or that made fair by mixed finite elements
-    ("improved"). With ``levels=1, max_iterations=1`` it is what comes back."""
 
     def __post_init__(self) -> None:
-        for name in ("acceleration", "virtual_points", "start"):
-            arguments.choice(name, getattr(self, name), _core.WORDS[name])
+        arguments.choice("acceleration", self.acceleration, _core.WORDS["acceleration"])
         for name in ("cg_steps", "sweeps", "vertex_sweeps"):
             arguments.whole(name, getattr(self, name), 1)
         if arguments.positive("damping", self.damping) > 1.0:
             raise ValueError(f"damping: {self.damping} is not accepted; accepted is above 0 and up to 1")
-        if self.epsilon:
-            arguments.positive("epsilon", self.epsilon)
 
 
 def engine_options(method: str, levels: int, given: PaperOptions | None) -> _core.PaperOptions:
@@ -227,8 +215,8 @@ class Solving:
 
     tolerance: float = _checked(1e-6, arguments.positive)
     """float. "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one
-    would move none by more than half of it, judged by how the steps shrink. "paper": see ``epsilon`` of
-    :class:`fairing.PaperOptions`."""
+    would move none by more than half of it, judged by how the steps shrink. "paper": where the changes still to
+    come, estimated from the last ones, are that small."""
 
     max_iterations: int = _checked(200, lambda name, value: arguments.whole(name, value, 1))
     """int. "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other
