@@ -81,7 +81,7 @@ class FilletOptions(Chosen):
         SURFACE,
         "Clamp",
         "No wider than there is room beside each edge, and a message says where. Otherwise such a width is refused",
-        False,
+        True,
     )
     profile: float = option(
         SURFACE,
