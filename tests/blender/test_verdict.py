@@ -204,16 +204,6 @@ def test_nothing_is_said_in_both_panels() -> None:
     assert "Free Vertices" not in shown
 
 
-def test_text_wraps_at_the_width_that_there_is() -> None:
-    wrapped = module("host.text").wrapped
-    text = "one two three four five"
-    assert list(wrapped(text, len, 9)) == ["one two", "three", "four five"]
-    assert list(wrapped(text, len, 100)) == [text]
-    assert list(wrapped("incomprehensible word", len, 6)) == ["incomprehensible", "word"]
-    assert list(wrapped("iiii MMMM", lambda t: 2 * t.count("M") + t.count("i"), 10)) == ["iiii", "MMMM"]
-    assert module("host.text")._width("MMMM") > module("host.text")._width("iiii") > 0.0
-
-
 def test_scripts_are_reported_by_an_exception() -> None:
     package = module()
     obj, faces = kinked()

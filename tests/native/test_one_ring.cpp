@@ -3,6 +3,7 @@
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring.h"
 #include "geometry/shape_operator.h"
+#include "geometry/slope_fit.h"
 #include "geometry/surface_fit.h"
 #include "geometry/vertex_normal.h"
 #include "meshes.h"
@@ -94,16 +95,12 @@ TEST_CASE("two vertices at once have what each has alone") {
     }
 }
 
-TEST_CASE("frames of two normals are those of each, at the poles too") {
-    for (const double z : {0.0, -0.0, 1.0, -1.0, 0.6}) {
-        const double x = std::sqrt(1.0 - z * z);
-        const Vector3 n(x, 0.0, z);
-        const Vector3 other = Vector3::UnitY();
-        const FrameOf<Lanes> both(side_by_side(n.data(), other.data()));
-        for (int k = 0; k < 3; ++k) {
-            CHECK(both.u[k][0] == Frame(n).u[k]);
-            CHECK(both.v[k][0] == Frame(n).v[k]);
-            CHECK(both.u[k][1] == Frame(other).u[k]);
-        }
+TEST_CASE("a slope fit that leads far from its start is none") {
+    std::vector<Vector3> steep;
+    for (int k = 0; k < 20; ++k) {
+        if (k != 2) steep.emplace_back(0.25 * (k / 5), 0.2 * (k % 5 - 2), 1.25 * (k / 5));
     }
+    const Vector3 normal = Vector3(-5.0, 0.0, 1.0).normalized();
+    CHECK_FALSE(fit_slopes(Vector3::Zero(), steep, Vector3::UnitZ(), Degree::quadratic).has_value());
+    CHECK(fit_slopes(Vector3::Zero(), steep, normal, Degree::quadratic).has_value());
 }
