@@ -22,7 +22,6 @@ public:
     CoarseOwnMesh(const Problem& problem, const CoarseStart& start, const Progress& progress)
         : OnOwnMesh(problem, progress), start_(start), levels_(problem, Boundaries::kept, coarsest_size) {}
 
-    [[nodiscard]] bool has_levels() const { return levels_.coarsest() > 0; }
     [[nodiscard]] Indices sizes() const { return levels_.sizes(); }
 
 private:
@@ -40,35 +39,17 @@ private:
     // What large patches do not find from their start, they would not find without it either.
     [[nodiscard]] std::optional<CoarseProxy> known_proxy() const override { return start_.proxy; }
 
-    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them, and at last
-    // from what both meshes share in the unit disc. The coarse levels are no help there: limbs are points on them.
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own,
-                  Care care) override {
+    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
         const bool is_set_up = levels_.work(0).tangential != nullptr;
         for (std::size_t k = levels_.coarsest() + 1; k-- > 0 && !is_set_up;) levels_.set_up_tangential(k, progress_);
         std::vector<Start> starts;
         if (own) starts.push_back(start_from(by_surface(source(), *own, proxy.mesh.patch, target), target));
         starts.push_back(start_from(by_history(source(), proxy.history, proxy.mesh, target), target));
         Start& start = least_folded(starts, target);
-        Placement settled = spread(std::move(start.settled), target);
-        if (care == Care::roughly) {
-            const std::size_t folded = folds_of_placement(problem_, target, settled).size();
-            return {std::move(settled), {}, folded};
-        }
-        Placed best = without_folds(std::move(settled), target);
-        if (best.folded.empty()) return best;
-        keep_better(unfolded(std::move(start.raw), target), best);
-        if (best.folded.empty()) return best;
-        if (const auto disc = by_disc(problem_, proxy.mesh.patch, target))
-            keep_better(place_from(problem_, *levels_.work(0).tangential, target, *disc, progress_.here()), best);
+        Placed best = without_folds(spread(std::move(start.settled), target), target);
+        if (!best.folded.empty()) keep_better(unfolded(std::move(start.raw), target), best);
         return best;
-    }
-
-    Placed placed_near(const SolvedProxy& proxy, const TargetSurface& target, const Points& near) override {
-        Placement start = by_surface(problem_, near, proxy.mesh.patch, target);
-        slide(0, target, start);
-        Placed best = without_folds(std::move(start), target);
-        return best.folded.empty() ? best : placed(proxy, target, on_source(near), Care::without_folds);
     }
 
     // What the springs fold is what they folded at first.
@@ -182,8 +163,8 @@ CoarseStart::CoarseStart(const Problem& problem, const Traits& traits, const Pro
 
 std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
                                                  Polish polish, const CoarseStart& start, const Progress& progress) {
+    if (start.is_in_vain()) return std::nullopt;
     CoarseOwnMesh mesh(problem, start, progress);
-    if (!mesh.has_levels()) return std::nullopt;
     auto solution = mesh.run(guess, polish);
     if (solution) solution->levels = mesh.sizes();
     return solution;

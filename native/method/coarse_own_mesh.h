@@ -22,7 +22,7 @@ struct CoarseStart {
 
 // Nothing of the user's size is solved before its surface is known. Folds count on the finest level alone: coarse
 // levels may have no placement without any. Where springs alone fold triangles, the equation's solution by them would
-// be folded, too, and it is not solved on the user's mesh. Nothing where the patch has no levels.
+// be folded, too, and it is not solved on the user's mesh.
 std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
                                                  Polish polish, const CoarseStart& start, const Progress& progress);
 

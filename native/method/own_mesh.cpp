@@ -33,17 +33,11 @@ private:
     [[nodiscard]] Points membrane() const override { return proxy_membrane(problem_, progress_); }
     [[nodiscard]] Points on_source(const Points& points) const override { return points; }
 
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own,
-                  Care care) override {
+    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
         if (!work_.tangential)
             work_.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        const auto put = care == Care::without_folds ? place : place_roughly;
-        return put(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
-    }
-
-    Placed placed_near(const SolvedProxy& proxy, const TargetSurface& target, const Points& near) override {
-        return placed(proxy, target, near, Care::without_folds);
+        return place(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
     }
 
     std::optional<Solution> on_users_mesh(const Solution& placed) override {
@@ -61,14 +55,13 @@ const CoarseStart& start_of(const Problem& problem, const Traits& traits, Attemp
     return *attempts.start;
 }
 
-// Placed alone: for a surface that the problem's own mesh has no equal of. Nothing where no mesh carries it. `traits`,
-// `attempts`: of the problem whose loops may have been low-passed since.
+// Placed alone: for a surface that the problem's own mesh has no equal of. `traits`, `attempts`: of the problem whose
+// loops may have been low-passed since.
 std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                           const Progress& progress) {
     if (!traits.is_large) return FineOwnMesh(problem, progress).run(std::nullopt, Polish::unwanted);
-    const CoarseStart& start = start_of(problem, traits, attempts, progress);
-    if (start.is_in_vain()) return std::nullopt;
-    return solve_on_coarse_own_mesh(problem, std::nullopt, Polish::unwanted, start, progress);
+    return solve_on_coarse_own_mesh(problem, std::nullopt, Polish::unwanted,
+                                    start_of(problem, traits, attempts, progress), progress);
 }
 
 // The placed vertices beside the boundary that lies off their surface by these offsets. The rows next to it follow it;
@@ -95,7 +88,7 @@ Problem for_few_steps(const Problem& problem) {
 }
 
 // The user's vertices as they were placed on a proxy (`target`), with its H and normals; `folded` where no placement
-// without folds was found on a surface that is one.
+// without folds was found.
 Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const TargetSurface& target,
                          const Placed& placed) {
     Solution result = proxy.solution;
@@ -104,7 +97,7 @@ Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const
     result.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
     result.mean_curvature = carried_over(placed.placement, target, proxy.solution.mean_curvature, problem);
     result.crosses = !crossing_triangles(proxy.mesh.patch.triangles, proxy.mesh.points).empty();
-    if (proxy.converged()) refuse_folds(problem, placed, result);
+    refuse_folds(problem, placed, result);
     return result;
 }
 
@@ -113,12 +106,9 @@ Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const
 std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                           const Progress& progress) {
     const auto guess = left_by(attempts);
-    if (begins_coarse(traits, guess)) {
-        const CoarseStart& start = start_of(problem, traits, attempts, progress);
-        if (start.is_in_vain() && !attempts.found.empty()) return std::nullopt;
-        if (auto solution = solve_on_coarse_own_mesh(problem, guess, Polish::wanted, start, progress)) return solution;
-    }
-    return FineOwnMesh(problem, progress).run(guess, Polish::wanted);
+    if (!begins_coarse(traits, guess)) return FineOwnMesh(problem, progress).run(guess, Polish::wanted);
+    return solve_on_coarse_own_mesh(problem, guess, Polish::wanted, start_of(problem, traits, attempts, progress),
+                                    progress);
 }
 
 std::optional<Solution> solve_low_passed(const Problem& problem, const Traits& traits, Attempts& attempts,
@@ -150,23 +140,21 @@ std::optional<Solution> polished(const Problem& problem, Workspace& work, const 
     return own;
 }
 
-// The user's vertices on a proxy's surface, polished once where that comes to something. Where springs alone fold
-// triangles, the equation's solution by them would be folded, too.
-Solution OnOwnMesh::on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Care care, Polish polish) {
+// The user's vertices on a proxy's surface, polished where that comes to something. Where springs alone fold triangles,
+// the equation's solution by them would be folded, too.
+Solution OnOwnMesh::on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Polish polish) {
     const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-    const Placed best = near_ ? placed_near(proxy, target, *near_) : placed(proxy, target, own, care);
+    const Placed best = placed(proxy, target, own);
     Solution solution = placed_solution(problem_, proxy, target, best);
     const bool may_polish = polish == Polish::wanted && solution.termination == Termination::converged;
     if (!may_polish || best.folded_by_springs > problem_.tolerated_folds) return solution;
-    if (!near_) polished_ = on_users_mesh(solution);
-    near_ = solution.points;
+    const std::optional<Solution> polished = on_users_mesh(solution);
     const SolvedSurface surface{target, proxy.solution.mean_curvature, mean_edge(proxy.mesh.patch, proxy.mesh.points),
                                 best.placement.where};
-    return polished_ && agree(problem_, *polished_, surface) ? *polished_ : solution;
+    return polished && agree(problem_, *polished, surface) ? *polished : solution;
 }
 
-// A coarse proxy's surface is start enough for a mesh that carries the equation; folds are left to the fine one. The
-// membrane tells the sheets of a tube, whose vertices the history of a proxy may lay across it.
+// The membrane tells the sheets of a tube, whose vertices the history of a proxy may lay across it.
 std::optional<Solution> OnOwnMesh::run(const std::optional<OwnSurface>& guess, Polish polish) {
     const Points begin = membrane();
     const SurfaceState start = measured_surface(source(), begin);
@@ -174,22 +162,10 @@ std::optional<Solution> OnOwnMesh::run(const std::optional<OwnSurface>& guess, P
     std::optional<Points> own;
     if (guess || problem_.patch.loop_count() == 2) own = guess ? on_source(guess->points) : begin;
     std::optional<SolvedProxy> proxy;
-    std::optional<CoarseProxy> coarse = known_proxy();
-    Solution solution;
-    solution.polished = false;
     if (guess && guess->is_start(problem_)) proxy = solve_proxy_near(source(), *own, shown, progress_.range(0.0, 0.6));
-    if (proxy && !proxy->converged()) proxy.reset();
-    if (!proxy && !coarse) {
-        coarse = solve_coarse_proxy(source(), begin, shown, progress_.range(0.0, 0.3));
-        const bool is_start = coarse->end == CoarseEnd::converged && problem_.options.equation == Equation::harmonic;
-        if (is_start && polish == Polish::wanted) solution = on_surface(coarse->surface, own, Care::roughly, polish);
-    }
-    if (!solution.polished) {
-        if (!proxy) proxy = solve_proxy(source(), std::move(*coarse), begin, shown, progress_.range(0.3, 0.6));
-        if (polish == Polish::unwanted && !proxy->converged()) return std::nullopt;
-        const Care care = proxy->converged() ? Care::without_folds : Care::roughly;  // without a solution folds stay
-        solution = on_surface(*proxy, own, care, polish);
-    }
+    if (!proxy) proxy = solve_proxy(source(), known_proxy(), begin, shown, progress_.range(0.0, 0.6));
+    if (!proxy) return std::nullopt;
+    Solution solution = on_surface(*proxy, own, polish);
     solution.initial_residual = largest_residual(source(), start, outer_residual(source(), start));
     return solution;
 }

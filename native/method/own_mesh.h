@@ -32,9 +32,8 @@ struct Attempts {
 
 // Where the discrete equation holds on the user's own mesh near the placed vertices, that is the solution. Elsewhere it
 // is the placed vertices with the H of the engine's mesh. It ends as `folded` where no placement without folds is
-// found, or where the placed mesh crosses itself and the surface does not. Where no mesh carries the equation, the
-// least bent of their surfaces comes back, not converged. What `attempts` have left helps to place the vertices.
-// Nothing where, over a large jagged patch, even the loops without their short waves have no surface.
+// found, or where the placed mesh crosses itself and the surface does not. What `attempts` have left helps to place the
+// vertices. Nothing where no mesh of the engine's own carries the equation.
 std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                           const Progress& progress);
 
@@ -57,8 +56,7 @@ struct OwnSurface {
 std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& placed,
                                  const Progress& progress);
 
-// Whether the equation is solved on the user's mesh, too, where that carries it. Unwanted: nothing comes back where no
-// mesh of the engine's own carries it.
+// Whether the equation is solved on the user's mesh, too, where that carries it.
 enum class Polish { wanted, unwanted };
 
 class OnOwnMesh {
@@ -78,12 +76,8 @@ protected:
     [[nodiscard]] virtual Points on_source(const Points& points) const = 0;
     // A coarse proxy that is known, over a boundary next to this one.
     [[nodiscard]] virtual std::optional<CoarseProxy> known_proxy() const { return std::nullopt; }
-    // The user's vertices; `own`: the guess, of the source. Roughly: folds stay.
-    enum class Care { roughly, without_folds };
-    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own,
-                          Care care) = 0;
-    // From where they lie on a surface nearby.
-    virtual Placed placed_near(const SolvedProxy& proxy, const TargetSurface& target, const Points& near) = 0;
+    // The user's vertices; `own`: the guess, of the source.
+    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) = 0;
     // The equation's solution on the user's mesh.
     virtual std::optional<Solution> on_users_mesh(const Solution& placed) = 0;
 
@@ -91,11 +85,7 @@ protected:
     const Progress& progress_;
 
 private:
-    Solution on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Care care, Polish polish);
-
-    // Where the user's vertices lie on the first surface, and what they were polished to.
-    std::optional<Points> near_;
-    std::optional<Solution> polished_;
+    Solution on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Polish polish);
 };
 
 }  // namespace fairing

@@ -17,10 +17,4 @@ Placement by_history(const Problem& problem, const ProxyMesh& mesh, const ProxyM
 // surface. `target` belongs to `proxy`, whose fixed vertices are the problem's, in their order.
 Placement by_surface(const Problem& problem, const Points& surface, const Patch& proxy, const TargetSurface& target);
 
-// Puts each vertex where both patches agree in the unit disc: the problem's patch and that of the surface (`proxy`, the
-// target's) are laid out there with the boundary on the circle and each inner vertex at the mean of its neighbours,
-// which folds nothing (Tutte 1963). No sheet is doubled then; triangles are as irregular as in both layouts. Nothing
-// where the patch is no disc, or has fixed vertices off its boundary.
-std::optional<Placement> by_disc(const Problem& problem, const Patch& proxy, const TargetSurface& target);
-
 }  // namespace fairing

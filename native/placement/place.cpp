@@ -38,8 +38,6 @@ public:
 private:
     bool keep_untangled(Placement placement) {
         Indices folded = folds_of_placement(problem_, target_, placement);
-        // On a sharply curved part of the surface untangling may fold more than it turns back.
-        if (!folded.empty() && folded.size() <= few_folds && keep(placement)) return true;
         while (!folded.empty()) {
             const std::size_t before = folded.size();
             untangle(problem_, target_, placement);
@@ -51,7 +49,6 @@ private:
 
     // The least folded one, of those the evenest; true where nothing is folded.
     bool keep(Placement placement) {
-        turn_back(problem_, target_, placement);
         Indices folded = folds_of_placement(problem_, target_, placement);
         const bool done = folded.empty();
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
@@ -127,24 +124,7 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
     Placing placing(problem, tangential, target, progress);
     if (guess && placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
         return std::move(placing).best();
-    if (placing.from(by_history(problem, surface.history, surface.mesh, target))) return std::move(placing).best();
-    if (const auto start = by_disc(problem, surface.mesh.patch, target)) placing.from(*start);
-    return std::move(placing).best();
-}
-
-Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-                     const std::optional<Points>& guess, const Progress& progress) {
-    Placement placement = guess ? by_surface(problem, *guess, surface.mesh.patch, surface.target)
-                                : by_history(problem, surface.history, surface.mesh, surface.target);
-    settle(problem, tangential, surface.target, placement, progress.here());
-    const std::size_t folded = folds_of_placement(problem, surface.target, placement).size();
-    return {std::move(placement), {}, folded};
-}
-
-Placed place_from(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                  const Placement& start, const Progress& progress) {
-    Placing placing(problem, tangential, target, progress);
-    placing.from(start);
+    placing.from(by_history(problem, surface.history, surface.mesh, target));
     return std::move(placing).best();
 }
 

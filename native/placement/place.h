@@ -49,19 +49,10 @@ struct OwnMeshSurface {
 };
 
 // Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
-// begin from `guess`, a surface of the problem's own patch that has the right sheets, from the history of the proxy
-// mesh, and on discs from what both meshes share there (placement/first_placement). Where the springs' minimum is
-// folded, folds are turned back vertex by vertex.
+// begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the proxy
+// mesh (placement/first_placement). Where the springs' minimum is folded, folds are turned back vertex by vertex.
 Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
              const std::optional<Points>& guess, const Progress& progress);
-
-// The same without care for folds, for what is no solution yet: the springs alone, from `guess` or by history.
-Placed place_roughly(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-                     const std::optional<Points>& guess, const Progress& progress);
-
-// From one beginning.
-Placed place_from(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                  const Placement& start, const Progress& progress);
 
 // The same from vertices that springs have spread already.
 Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,

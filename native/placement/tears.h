@@ -55,9 +55,4 @@ Indices folds_of_placement(const Problem& problem, const TargetSurface& target, 
 // what lies farther than six rings from torn triangles.
 Points untorn(const Patch& patch, Points points);
 
-// For a placement with at most `few_folds` triangles that are turned over against the surface or against their
-// neighbours (folded_triangles). Their free corners, then those beside them, go to the nearest of some places around
-// where fewest triangles are turned over; they stay where that gains nothing. Returns whether any has moved.
-bool turn_back(const Problem& problem, const TargetSurface& target, Placement& placement);
-
 }  // namespace fairing

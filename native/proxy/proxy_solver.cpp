@@ -81,7 +81,7 @@ public:
     ProxySolve(const Problem& problem, int shown, const Progress& progress)
         : problem_(problem), shown_(shown), progress_(progress), free_limit_(free_limit(shown)) {}
 
-    SolvedProxy from_surface(const Points& surface) {
+    std::optional<SolvedProxy> from_surface(const Points& surface) {
         return solve_fine(ProxyMesh(problem_.patch, surface), fine_sizing(shown_), true);
     }
 
@@ -89,19 +89,17 @@ public:
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too. Meshes whose
     // edges grow alike begin with one coarse proxy. Where that ends nowhere the finest interior is left out: of 20
     // small patches it led on to a surface on seven, and so did the next one on these.
-    SolvedProxy from_coarse(CoarseProxy begun, const Points& membrane) {
-        if (begun.end == CoarseEnd::far) return std::move(begun.surface);  // a fine one would not be found
-        std::optional<SolvedProxy> least_bent;
+    std::optional<SolvedProxy> from_coarse(std::optional<CoarseProxy> begun, const Points& membrane) {
+        if (!begun) begun = coarse(membrane, first_fineness);
+        if (begun->end == CoarseEnd::far) return std::nullopt;  // a fine one would not be found
         const std::vector<Fineness> meshes = tried();
         for (std::size_t k = 0; k < meshes.size(); ++k) {
             if (k > 0 && meshes[k].growth != meshes[k - 1].growth) begun = coarse(membrane, meshes[k]);
             const bool is_next_alike = k + 1 < meshes.size() && meshes[k + 1].growth == meshes[k].growth;
-            if (is_next_alike && begun.end != CoarseEnd::converged) continue;
-            SolvedProxy proxy = fine(begun, meshes[k]);
-            if (proxy.converged()) return proxy;
-            if (!least_bent || proxy.energy < least_bent->energy) least_bent.emplace(std::move(proxy));
+            if (is_next_alike && begun->end != CoarseEnd::converged) continue;
+            if (auto proxy = fine(*begun, meshes[k])) return proxy;
         }
-        return std::move(*least_bent);
+        return std::nullopt;
     }
 
     // A start for the fine proxy: the harmonic surface where the iteration finds it, the least bent one otherwise.
@@ -116,15 +114,14 @@ public:
         const Problem problem = coarse_problem(problem_, shown_, snapshot.patch);
         Workspace work = make_workspace(problem, progress_);
         const Points start = globalise(problem, work, snapshot.points, progress_.here());
-        Solution solution = solve_equation(problem, work, start, progress_.here());
+        const Solution solution = solve_equation(problem, work, start, progress_.here());
         const CoarseEnd end = end_of(solution, problem_, shown_);
-        const Points surface = end == CoarseEnd::converged ? solution.points : start;
-        mesh.read_back(snapshot.patch, surface);
-        return {measured(std::move(mesh), snapshot, problem, surface, std::move(solution)), end};
+        mesh.read_back(snapshot.patch, end == CoarseEnd::converged ? solution.points : start);
+        return {std::move(mesh), end};
     }
 
-    SolvedProxy fine(CoarseProxy coarse, const Fineness& fineness) {
-        ProxyMesh mesh = std::move(coarse.surface.history);
+    std::optional<SolvedProxy> fine(const CoarseProxy& coarse, const Fineness& fineness) {
+        ProxyMesh mesh = coarse.mesh;
         lay_over_boundary(mesh);
         const Sizing sizing{std::min(fineness.growth, finest_growth), longest_of(fineness), free_limit_};
         return solve_fine(std::move(mesh), sizing, coarse.end == CoarseEnd::converged);
@@ -163,37 +160,29 @@ private:
         }
     }
 
-    // Not converged: the least bent surface of the fine proxy instead of the iteration's last one.
-    SolvedProxy solve_fine(ProxyMesh mesh, const Sizing& sizing, bool from_converged) {
+    std::optional<SolvedProxy> solve_fine(ProxyMesh mesh, const Sizing& sizing, bool from_converged) {
         mesh.adapt(sizing);
         auto snapshot = mesh.snapshot();
         Problem problem = proxy_problem(problem_, shown_, snapshot.patch);
         problem.conduct.nears_within = soon;
         Workspace work = make_workspace(problem, progress_);
-        Points start = snapshot.points;
         Solution solution;
-        if (from_converged) solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
+        if (from_converged) solution = solve_equation(problem, work, snapshot.points, progress_.range(0.5, 0.8));
         // Of 17 over regions of scans that did not converge from a coarse one's surface, a descent and another
         // iteration found two, both from a step below this. Small patches have all patience.
         const bool ends_far = problem_.patch.loop_count() == 1 && solution.least_step > near_step;
         const bool hopeless = from_converged && ends_far && !is_small(shown_);
         // The Willmore descent leads away from straight pipes: only where it is needed.
         if (solution.termination != Termination::converged && !hopeless) {
-            start = globalise(problem, work, start, progress_.range(0.4, 0.5));
+            const Points start = globalise(problem, work, snapshot.points, progress_.range(0.4, 0.5));
             solution = solve_equation(problem, work, start, progress_.range(0.5, 0.8));
         }
-        if (solution.termination == Termination::converged) start = solution.points;
-        return measured(std::move(mesh), snapshot, problem, start, std::move(solution));
-    }
-
-    // `problem`: of the snapshot's patch.
-    static SolvedProxy measured(ProxyMesh mesh, ProxyMesh::Snapshot& snapshot, const Problem& problem,
-                                const Points& points, Solution solution) {
-        const SurfaceState state = measured_surface(problem, points);
+        if (solution.termination != Termination::converged) return std::nullopt;
+        const SurfaceState state = measured_surface(problem, solution.points);
         solution.mean_curvature = state.curvature.mean;
         solution.residual = largest_residual(problem, state, outer_residual(problem, state));
-        const double energy = willmore_energy(problem, state.points);
-        return {std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals, energy};
+        return SolvedProxy{
+            std::move(mesh), {std::move(snapshot.patch), state.points}, std::move(solution), state.normals};
     }
 
     const Problem& problem_;
@@ -225,12 +214,13 @@ double mean_boundary_edge(const Problem& problem) {
     return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-SolvedProxy solve_proxy(const Problem& problem, CoarseProxy coarse, const Points& membrane, int shown,
-                        const Progress& progress) {
+std::optional<SolvedProxy> solve_proxy(const Problem& problem, std::optional<CoarseProxy> coarse,
+                                       const Points& membrane, int shown, const Progress& progress) {
     return ProxySolve(problem, shown, progress).from_coarse(std::move(coarse), membrane);
 }
 
-SolvedProxy solve_proxy_near(const Problem& problem, const Points& near, int shown, const Progress& progress) {
+std::optional<SolvedProxy> solve_proxy_near(const Problem& problem, const Points& near, int shown,
+                                            const Progress& progress) {
     return ProxySolve(problem, shown, progress).from_surface(near);
 }
 

@@ -14,9 +14,6 @@ struct SolvedProxy {
     ProxyMesh::Snapshot mesh;  // patch and positions, units of D
     Solution solution;         // of the patch of `mesh`
     Points normals;            // at its vertices
-    double energy;             // Willmore
-
-    [[nodiscard]] bool converged() const { return solution.termination == Termination::converged; }
 };
 
 // Least number of `shown` for which a coarse proxy predicts finer ones.
@@ -26,7 +23,7 @@ inline constexpr int smallest_telling = 5000;
 enum class CoarseEnd { converged, near, far };
 
 struct CoarseProxy {
-    SolvedProxy surface;  // harmonic where that was found, or the least bent one
+    ProxyMesh mesh;  // on the harmonic surface where that was found, or on the least bent one
     CoarseEnd end;
 };
 
@@ -35,13 +32,14 @@ struct CoarseProxy {
 // mesh can't represent.
 CoarseProxy solve_coarse_proxy(const Problem& problem, const Points& membrane, int shown, const Progress& progress);
 
-// On a proxy refined from `coarse`, which may have converged over another boundary next to this one; where that fails
-// on the next finer one, from `membrane`. When all fail, the least bent of their surfaces comes back, not converged.
-SolvedProxy solve_proxy(const Problem& problem, CoarseProxy coarse, const Points& membrane, int shown,
-                        const Progress& progress);
+// On a proxy refined from `coarse` or from one made from `membrane`; where that fails on the next finer one. `coarse`
+// may have converged over another boundary next to this one. Nothing where no proxy converges.
+std::optional<SolvedProxy> solve_proxy(const Problem& problem, std::optional<CoarseProxy> coarse,
+                                       const Points& membrane, int shown, const Progress& progress);
 
-// From positions of all vertices of the problem's patch near the surface. May not converge.
-SolvedProxy solve_proxy_near(const Problem& problem, const Points& near, int shown, const Progress& progress);
+// From positions of all vertices of the problem's patch near the surface. Nothing where it does not converge.
+std::optional<SolvedProxy> solve_proxy_near(const Problem& problem, const Points& near, int shown,
+                                            const Progress& progress);
 
 // Free vertices of a mesh of the engine's own beside `shown` ones of the user's; many more would resolve what these
 // can't show.
