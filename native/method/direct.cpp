@@ -14,6 +14,7 @@
 #include "start/clamped_fill.h"
 #include "start/globalisation.h"
 #include "start/loft.h"
+#include "start/quick_surface.h"
 
 namespace fairing {
 
@@ -62,15 +63,11 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     }
     start.points = globalise(problem, work, start.points, progress);
     if (!may_fit_several(problem.patch, start.points)) return start;
-    // The one whose curvatures vary least is wanted, so the start that varies least goes first. Where the membrane of a
-    // long pipe necks to a needle, the loft is the straight pipe.
-    constexpr double roundness = 0.6;  // a twentieth of the radius is lost in the middle
-    const auto loft = Loft::of(problem, roundness, progress.here());
-    if (!loft) return start;
-    Points straight = start.points;
-    straight.leftCols(problem.patch.free_count) = loft->over(problem).flat;
-    if (curvature_variation(problem, straight) < curvature_variation(problem, start.points))
-        start.points = settled(problem, work, straight);
+    // The one whose curvatures vary least is wanted, so the start that varies least goes first.
+    const auto along_normals = normal_fill(problem, progress.here());
+    if (along_normals && curvature_variation(problem, *along_normals) < curvature_variation(problem, start.points)) {
+        start.points = settled(problem, work, *along_normals);
+    }
     return start;
 }
 

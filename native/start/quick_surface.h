@@ -14,6 +14,11 @@ namespace fairing {
 // minimal surfaces. Nothing where no system is definite. Throws Cancelled.
 std::optional<Points> quick_surface(const Problem& problem, const Progress& progress);
 
+// Positions of all vertices (3 × local vertices). The prescribed normals are continued into the patch as a
+// screened harmonic field of unit vectors; the positions are those whose edges are most nearly perpendicular to it.
+// Where the membrane of a long pipe necks to a needle, this is the straight pipe. Nothing where the normals cancel.
+std::optional<Points> normal_fill(const Problem& problem, const Progress& progress);
+
 // `problem.before` (3 × local vertices), moved with the boundary where that has moved: the displacement is harmonic on
 // equilateral triangles. Nothing where no such shape is known, it has no area, or more than a twentieth of its
 // triangles are turned over.
