@@ -62,7 +62,7 @@ def write_inputs(folder: Path) -> None:
 
 
 def diameter(points: np.ndarray) -> float:
-    """D of the outline, (k, 3)."""
+    """D of the boundary, (k, 3)."""
     return float(2 * np.linalg.norm(points - points.mean(axis=0), axis=1).max())
 
 

@@ -67,7 +67,7 @@ def ear_faces(mesh: bpy.types.Mesh, margin: float = 0.35) -> Mask:
     """Select Suzanne's ear on the +x side, outlined on the head around its root.
 
     A plane x = c cuts the ear off for c large; as c shrinks, the piece around the tip suddenly
-    takes in the cheek. The last c before that is the root; the outline is `margin` further on.
+    takes in the cheek. The last c before that is the root; the boundary is `margin` further on.
     """
     centres = _centres(mesh)
     tip = int(centres[:, 0].argmax())

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .outline import outline_edges, two_sided_edges
+from .boundary import boundary_edges, two_sided_edges
 from .places import numbers_in
 from .region import MeshArrays, Patch, vertices_of
 from .types import Floats, Ints, Mask
@@ -86,7 +86,7 @@ def nearby(triangles: Ints, start: Mask, rings: int = RINGS) -> Ints:
 
 def wound_alike(mesh: MeshArrays, outside: Ints) -> Ints:
     """Return the triangles (o, 3), turned round where the patch is wound against most of what surrounds it."""
-    alike = two_sided_edges(mesh, outline_edges(mesh)).alike
+    alike = two_sided_edges(mesh, boundary_edges(mesh)).alike
     return outside[:, ::-1] if 2 * np.count_nonzero(alike) > len(alike) else outside
 
 

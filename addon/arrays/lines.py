@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..words.words import said
-from .outline import edges_inside
+from .boundary import edges_inside
 from .region import MeshArrays, free_vertices
 from .types import Floats, Mask
 

@@ -117,11 +117,11 @@ class Patch:
     faces: Ints  # (m,) the mesh's face that each triangle is of
     free: Ints  # patch indices, ascending
     fixed: Ints  # patch indices, ascending: all that are not free
-    outline: Ints  # patch indices of the vertices on edges with one face of the patch
+    boundary: Ints  # patch indices of the vertices on edges with one face of the patch
     neighbours: Ints | None  # (e, 2) patch indices; None where all faces are triangles
     creases: Ints = field(default_factory=nothing)  # patch indices of fixed vertices on creases
     smooth_curves: Ints = field(default_factory=nothing)  # and on smooth curves
-    free_slopes: Ints = field(default_factory=nothing)  # and on the outline, where its position alone is kept
+    free_slopes: Ints = field(default_factory=nothing)  # and on the boundary, where its position alone is kept
     continued: Mask | None = None  # (k,) of `fixed`, where the curvature outside is continued; None: all or none
 
     @property
@@ -206,20 +206,20 @@ def make_patch(mesh: MeshArrays, by_connectivity: bool = True) -> Patch:
     uses = _edge_uses(mesh, mesh.in_patch[mesh.corner_faces])
     edges = mesh.edges[uses > 0]
     triangles, faces = _triangles(mesh, edges, free, by_connectivity)
-    outline = _ends(mesh, uses == 1)
+    boundary = _ends(mesh, uses == 1)
     return Patch(
         vertices=vertices,
         triangles=number[triangles],
         faces=faces,
         free=number[free],
         fixed=number[inside & ~free],
-        outline=number[outline],
+        boundary=number[boundary],
         neighbours=None if _all_triangles(mesh) else number[edges],
         creases=number[_curve(mesh, mesh.creases, uses > 0)],
         # Where such a curve reaches the boundary, the slope there is the boundary's.
-        smooth_curves=number[_curve(mesh, mesh.smooth_curves, uses > 0) & ~outline],
-        free_slopes=nothing() if mesh.free_slopes is None else number[outline & ~free & mesh.free_slopes],
-        continued=None if mesh.continued is None else (outline & mesh.continued)[inside & ~free],
+        smooth_curves=number[_curve(mesh, mesh.smooth_curves, uses > 0) & ~boundary],
+        free_slopes=nothing() if mesh.free_slopes is None else number[boundary & ~free & mesh.free_slopes],
+        continued=None if mesh.continued is None else (boundary & mesh.continued)[inside & ~free],
     )
 
 

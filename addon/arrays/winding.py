@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..words.words import said
-from .outline import two_sided_edges
+from .boundary import two_sided_edges
 from .region import MeshArrays, reversed_corners
 from .types import Ints, Mask
 

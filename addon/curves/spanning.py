@@ -33,7 +33,7 @@ _FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")
 class Spanned:
     """A surface over r vertices of curves, with k new ones."""
 
-    outline: Ints  # (r,) mesh vertices
+    boundary: Ints  # (r,) mesh vertices
     points: Floats  # (r + k, 3) in world space
     positions: Floats  # (k, 3) of the new ones, in the mesh's own coordinates
     triangles: Ints  # (m, 3) in numbers of `points`, seen from outside in the mesh's own coordinates
@@ -63,7 +63,7 @@ class Spanned:
     @property
     def near(self) -> Ints:
         """Which of the curves' vertices each new one is next to, (k,)."""
-        return nearest(self.triangles, len(self.points), len(self.outline))[len(self.outline) :]
+        return nearest(self.triangles, len(self.points), len(self.boundary))[len(self.boundary) :]
 
 
 def span_arrays(
@@ -97,15 +97,15 @@ def _spanned(
     folds = any(warning.code in _FOLDS for warning in result.warnings)
     if folds or not (result.converged or result.equation == _PLATE):
         raise ValueError(NOT_SPANNED)
-    outline = np.unique(result.triangles[result.triangles < len(points)]).astype(np.int64)
+    boundary = np.unique(result.triangles[result.triangles < len(points)]).astype(np.int64)
     new = len(points) + np.arange(len(result.vertices))
-    number = numbers_in(np.concatenate([outline, new]), len(points) + len(new))
+    number = numbers_in(np.concatenate([boundary, new]), len(points) + len(new))
     triangles = number[result.triangles]
     if np.linalg.det(matrix[:3, :3]) < 0.0:
         triangles = triangles[:, ::-1]
     return Spanned(
-        outline=outline,
-        points=np.concatenate([points[outline], result.vertices]),
+        boundary=boundary,
+        points=np.concatenate([points[boundary], result.vertices]),
         positions=to_local(result.vertices, matrix),
         triangles=triangles,
         wires=number[wires],
@@ -114,5 +114,5 @@ def _spanned(
         left_open=len(result.left_open),
         warnings=sentences(result.warnings, origin),
         options=options,
-        verdict=Verdict(LOOK, STAND_INS[result.equation], outline) if result.equation in STAND_INS else Verdict(GOOD),
+        verdict=Verdict(LOOK, STAND_INS[result.equation], boundary) if result.equation in STAND_INS else Verdict(GOOD),
     )

@@ -8,7 +8,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.outline import face_normals, turned_over
+from ..arrays.boundary import face_normals, turned_over
 from ..arrays.places import numbers_in, sum_at, unit
 from ..arrays.region import MeshArrays, Patch
 from ..arrays.types import Floats, Ints, Mask
@@ -56,7 +56,7 @@ class _Fits:
     """Fits at those of the fixed vertices that have triangles outside."""
 
     found: Mask  # (k,)
-    fits: fairing.solving.outline.BoundaryNormals | None  # None where none has any
+    fits: fairing.solving.slopes.BoundaryNormals | None  # None where none has any
 
 
 def boundary(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> Boundary:

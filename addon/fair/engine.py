@@ -81,7 +81,7 @@ def solve(
     Raises MeshRefusal (its `elements` are mesh vertices), ValueError, fairing.SolverError and fairing.Cancelled.
     """
     patch = problem.patch
-    if options.smooth_boundary and np.isin(patch.creases, patch.outline).any():
+    if options.smooth_boundary and np.isin(patch.creases, patch.boundary).any():
         raise ValueError(
             "Smooth Boundary would round off the creases that run out of the selection: turn it off, "
             "or choose At Pinned Edges: Averaged"
@@ -138,7 +138,7 @@ def suppress_cancel() -> Iterator[None]:
 
 def bad_outline(problem: Problem) -> Ints:
     """Return the mesh vertices of the boundary whose surroundings say little about the surface; creases are meant."""
-    rim = np.intersect1d(problem.patch.outline, problem.outside)
+    rim = np.intersect1d(problem.patch.boundary, problem.outside)
     found = fairing.bad_outline(problem.points, problem.outside, rim)
     bad: Ints = problem.vertices[np.setdiff1d(found, problem.patch.slopes_found)]
     return bad

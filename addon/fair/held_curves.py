@@ -9,14 +9,14 @@ import numpy as np
 import fairing
 
 from ..arrays.around import nearby
-from ..arrays.outline import edges_inside
+from ..arrays.boundary import edges_inside
 from ..arrays.places import numbers_in
 from ..arrays.region import MeshArrays, free_vertices, nothing
 from ..arrays.types import Floats, Ints, Mask
 from ..options.options import FairOptions
 from .memory import EDGES, digest, memory
 
-ALONG = 5  # edges beyond the outline that tell where a hard edge goes
+ALONG = 5  # edges beyond the boundary that tell where a hard edge goes
 _COMPARED = 3  # rings around an edge that tell what the mesh bends there anyway
 
 

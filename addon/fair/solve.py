@@ -11,7 +11,7 @@ import numpy as np
 import fairing
 
 from ..arrays.around import numbered, outside_triangles, wide_outside, wound_alike
-from ..arrays.outline import outline_notes, precision_note
+from ..arrays.boundary import boundary_notes, precision_note
 from ..arrays.region import MeshArrays, Patch, make_patch, nothing
 from ..arrays.types import Floats
 from ..arrays.winding import winding_note, with_one_winding
@@ -118,7 +118,7 @@ def pose(mesh: MeshArrays, matrix: Floats, options: FairOptions) -> tuple[engine
         inward = known.inward(patch)
         vertices, around = numbered(patch, wound_alike(world, outside))
         weights = band_weights(world, patch, vertices, around, options.falloff) if options.moves_band else None
-        odd = outline_notes(world) + _odd_in_words(mesh, patch, options)
+        odd = boundary_notes(world) + _odd_in_words(mesh, patch, options)
         curve, places = faired_curves(world) if options.fairs_pinned_edges else (nothing(), np.empty((0, 3)))
     curvatures = known.curvatures if options.joins_curvature else None
     problem = engine.Problem(

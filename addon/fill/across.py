@@ -31,12 +31,12 @@ class Loose:
         return cls(mesh.edges[~used], at_faces)
 
 
-def drawn_edges(loose: Loose, outline: Ints) -> Ints:
-    """Return the (w, 2) edges without a face that hang on the vertices of an outline, directly or by others."""
+def drawn_edges(loose: Loose, boundary: Ints) -> Ints:
+    """Return the (w, 2) edges without a face that hang on the vertices of a boundary, directly or by others."""
     ends = loose.at_faces.copy()  # where they end: at faces, but for the outline's own
-    ends[outline] = False
+    ends[boundary] = False
     reached = np.zeros(len(ends), dtype=bool)
-    reached[outline] = True
+    reached[boundary] = True
     while True:
         onward: Ints = loose.edges[(reached & ~ends)[loose.edges].any(axis=1)]
         if reached[onward].all():
@@ -77,20 +77,20 @@ def reported(all_of_them: Sequence[Across]) -> str:
 
 @dataclass(frozen=True)
 class Numbering:
-    """The points of a surface: those of its outline, of edges drawn across it, and new ones."""
+    """The points of a surface: those of its boundary, of edges drawn across it, and new ones."""
 
-    outline: Ints  # (r,) of the mesh
+    boundary: Ints  # (r,) of the mesh
     drawn: Ints  # (d,) of the mesh
     of: Ints  # for each number of the engine, old vertices first
 
     @classmethod
-    def made(cls, outline: Ints, vertices: Ints, result: fairing.FillResult) -> Numbering:
+    def made(cls, boundary: Ints, vertices: Ints, result: fairing.FillResult) -> Numbering:
         """vertices: (q,) of the mesh that the engine was given, ascending."""
         lying = np.unique(np.concatenate([nothing(), *result.curves]))
-        drawn = np.setdiff1d(vertices[lying[lying < len(vertices)]], outline)
-        old, new = np.searchsorted(vertices, np.concatenate([outline, drawn])), np.arange(len(result.vertices))
+        drawn = np.setdiff1d(vertices[lying[lying < len(vertices)]], boundary)
+        old, new = np.searchsorted(vertices, np.concatenate([boundary, drawn])), np.arange(len(result.vertices))
         of = numbers_in(np.concatenate([old, len(vertices) + new]), len(vertices) + len(new))
-        return cls(outline, drawn, of)
+        return cls(boundary, drawn, of)
 
     def places(self, positions: Floats, new: Floats) -> Floats:
         """Return the points inside: drawn ones, whose `positions` are those of the mesh, and new ones."""
@@ -115,14 +115,14 @@ def numbered_by_pass(numbered: Ints, triangles: Ints, loops: Sequence[Ints]) -> 
     numbered: with any of the passes of a vertex; triangles: the same in the numbers of the loops, which have them on
     their left.
     """
-    outline = np.concatenate(loops)
+    boundary = np.concatenate(loops)
     following = np.concatenate([np.roll(loop, -1) for loop in loops])
     result = numbered.copy()
-    names, passes = np.unique(outline, return_counts=True)
+    names, passes = np.unique(boundary, return_counts=True)
     for vertex in names[passes > 1].tolist():
         corners = np.argwhere(triangles == vertex).tolist()
         spokes = {int(triangles[t, (k + 1) % 3]): (t, k, int(triangles[t, (k + 2) % 3])) for t, k in corners}
-        for place in np.flatnonzero(outline == vertex).tolist():
+        for place in np.flatnonzero(boundary == vertex).tolist():
             spoke = int(following[place])
             while spoke in spokes:  # counter-clockwise from the edge along which the pass leaves
                 t, k, spoke = spokes.pop(spoke)

@@ -49,9 +49,9 @@ class Job:
 
     def piece(self, loops: list[Ints], progress: Progress | None) -> Piece:
         """Make one surface, over a loop or between several."""
-        outline = np.concatenate(loops)
-        local = self._local(outline, _SEEN)
-        with _joining(self.options, outline, len(loops)), in_mesh_words(local.origin):
+        boundary = np.concatenate(loops)
+        local = self._local(boundary, _SEEN)
+        with _joining(self.options, boundary, len(loops)), in_mesh_words(local.origin):
             result = self.filled(local, loops, progress)
         return self._made(loops, result, local.vertices)
 
@@ -69,11 +69,11 @@ class Job:
         surfaces = {k: found.get(frozenset(local.numbers(loop).tolist())) for k, loop in enumerate(lone)}
         return {k: self._made([lone[k]], own, local.vertices) for k, own in surfaces.items() if own is not None}
 
-    def _local(self, outline: Ints, rings: int = RINGS) -> Local:
-        """Return what is around an outline, with edges that are drawn across."""
-        drawn = drawn_edges(self.loose, outline) if self.options.runs_on and len(self.loose.edges) else no_pairs()
-        around = self.near.around(np.unique(outline), rings)
-        vertices = np.unique(np.concatenate([outline, around.ravel(), drawn.ravel()]))
+    def _local(self, boundary: Ints, rings: int = RINGS) -> Local:
+        """Return what is around a boundary, with edges that are drawn across."""
+        drawn = drawn_edges(self.loose, boundary) if self.options.runs_on and len(self.loose.edges) else no_pairs()
+        around = self.near.around(np.unique(boundary), rings)
+        vertices = np.unique(np.concatenate([boundary, around.ravel(), drawn.ravel()]))
         return Local(vertices, np.searchsorted(vertices, around), within(drawn, vertices))
 
     def filled(self, local: Local, loops: list[Ints], progress: Progress | None) -> fairing.FillResult:
@@ -90,21 +90,21 @@ class Job:
 
     def _made(self, loops: list[Ints], found: fairing.FillResult, named: Ints) -> Piece:
         """named: the mesh vertices that the engine was given."""
-        world, outline = self.world, np.concatenate(loops)
-        local = self._local(outline)
+        world, boundary = self.world, np.concatenate(loops)
+        local = self._local(boundary)
         vertices, around = local.vertices, local.around
         result = renumbered(found, named, vertices)
-        number = Numbering.made(outline, vertices, result)
+        number = Numbering.made(boundary, vertices, result)
         given = [local.numbers(loop) for loop in loops]
         triangles = numbered_by_pass(number.of[result.triangles], result.triangles.astype(np.int64), given)
         inside = number.places(world.positions, result.vertices)
-        points = np.concatenate([world.positions[outline], inside])
+        points = np.concatenate([world.positions[boundary], inside])
         across = number.across(result, local.drawn)
-        held = np.union1d(np.arange(len(outline)), across.edges)
-        seen = measured(world, outline, points, triangles, held)
-        join = join_at(np.unique(outline), seen.join)
+        held = np.union1d(np.arange(len(boundary)), across.edges)
+        seen = measured(world, boundary, points, triangles, held)
+        join = join_at(np.unique(boundary), seen.join)
         slopes = tuple(warning for warning in result.warnings if warning.code == "G2_NOT_MET")
-        verdict = judge(outline, result, join, seen)
+        verdict = judge(boundary, result, join, seen)
         return Piece(
             loops=tuple(loops),
             points=points,
@@ -113,7 +113,7 @@ class Job:
             verdict=_advised(verdict, self.options, len(loops)),
             result=result,
             join=join,
-            around=_keyed_from(vertices, around, outline, self.matrix),
+            around=_keyed_from(vertices, around, boundary, self.matrix),
             quads=self.options.quads,
             rows=self.options.quads and not any(warning.code == "NO_QUAD_ROWS" for warning in result.warnings),
             notes=_notes(result, slopes, local.origin),
@@ -138,10 +138,10 @@ class Local:
         return Origin(self.vertices, self.around, np.zeros(len(self.around), np.int64))
 
 
-def _keyed_from(vertices: Ints, around: Ints, outline: Ints, matrix: Floats) -> Surroundings:
+def _keyed_from(vertices: Ints, around: Ints, boundary: Ints, matrix: Floats) -> Surroundings:
     """Return the surroundings with the boundary first; around: triangles in numbers of `vertices`."""
-    others = np.setdiff1d(vertices, outline)
-    order = np.concatenate([outline, others])
+    others = np.setdiff1d(vertices, boundary)
+    order = np.concatenate([boundary, others])
     return Surroundings(order, numbers_in(np.searchsorted(vertices, order), len(vertices))[around], matrix)
 
 
@@ -173,7 +173,7 @@ def joining_advice(loops: int) -> str:
 
 
 @contextmanager
-def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
+def _joining(options: FillOptions, boundary: Ints, loops: int) -> Iterator[None]:
     """Let the engine's MeshErrors say what to do about boundary loops that no surface joins."""
     try:
         yield
@@ -181,4 +181,4 @@ def _joining(options: FillOptions, outline: Ints, loops: int) -> Iterator[None]:
         tells_why = {"turned", "between", "one_way"} & error.diagnostic.figures.keys()
         if error.code != "LOOPS_NOT_JOINED" or (loops == 2 and tells_why):
             raise
-        raise BorderRefusal(said("not_joined", advice=joining_advice(loops)), outline) from error
+        raise BorderRefusal(said("not_joined", advice=joining_advice(loops)), boundary) from error

@@ -51,14 +51,14 @@ class Piece:
         return paired_faces(self.points, self.triangles, np.concatenate([lines, self.across.edges]), kinds)
 
     @property
-    def outline(self) -> Ints:
+    def boundary(self) -> Ints:
         """The (r,) mesh vertices around it."""
         return np.concatenate(self.loops)
 
     @property
     def rims(self) -> tuple[Ints, ...]:
         """Each loop as numbers of `points`."""
-        return tuple(np.split(np.arange(len(self.outline)), np.cumsum([len(loop) for loop in self.loops])[:-1]))
+        return tuple(np.split(np.arange(len(self.boundary)), np.cumsum([len(loop) for loop in self.loops])[:-1]))
 
     @property
     def following(self) -> Ints:
@@ -85,7 +85,7 @@ class Piece:
 
         That of a face stands for the edge from there to the next one: at the boundary it is the face's own.
         """
-        rim = len(self.outline)
+        rim = len(self.boundary)
         near = nearest(self.triangles, len(self.points), rim)
         of_face = near[self.triangles[:, 0]]
         following = np.append(self.following, np.full(len(self.points) - rim, -1))
@@ -119,11 +119,11 @@ class Filled:
 
     def unfilled(self) -> Filled:
         """Return it without any surface."""
-        left = (Left(self._outline(piece), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
+        left = (Left(self._boundary(piece), piece.verdict.reason, piece.verdict.spots) for piece in self.pieces)
         return Filled([], (*self.left, *left))
 
-    def _outline(self, piece: Piece) -> Ints:
-        return np.unique(piece.outline if self.whole is None else self.whole.own(piece.outline))
+    def _boundary(self, piece: Piece) -> Ints:
+        return np.unique(piece.boundary if self.whole is None else self.whole.own(piece.boundary))
 
     def settled(self, options: FillOptions) -> Filled:
         """Return what is to be written: surfaces that are not usable are left out where others are."""

@@ -14,23 +14,23 @@ from ..verdict.verdict import GOOD, LOOK, UNUSABLE, Verdict
 from ..words.words import said
 
 
-def measured(world: MeshArrays, outline: Ints, points: Floats, triangles: Ints, held: Ints) -> fairing.looks.Judged:
+def measured(world: MeshArrays, boundary: Ints, points: Floats, triangles: Ints, held: Ints) -> fairing.looks.Judged:
     """Return what the engine sees of a surface over (r,) vertices of the mesh.
 
     points: (r + k, 3), the boundary's first, and triangles (m, 3) of these; held: those of them that stay.
     """
     count = len(world.positions)
-    number = np.concatenate([outline, count + np.arange(len(points) - len(outline))])
-    places = np.concatenate([world.positions, points[len(outline) :]])
+    number = np.concatenate([boundary, count + np.arange(len(points) - len(boundary))])
+    places = np.concatenate([world.positions, points[len(boundary) :]])
     return fairing.looks.judged(
-        places, number[triangles], world.triangles, held=np.unique(number[held]), rim=np.unique(outline)
+        places, number[triangles], world.triangles, held=np.unique(number[held]), rim=np.unique(boundary)
     )
 
 
-def judge(outline: Ints, result: fairing.FillResult, join: Join, seen: fairing.looks.Judged) -> Verdict:
+def judge(boundary: Ints, result: fairing.FillResult, join: Join, seen: fairing.looks.Judged) -> Verdict:
     """Return the verdict on a surface over (r,) mesh vertices."""
-    over = said("over_loop" if len(result.loops) == 1 else "over_loops", n=len(outline), loops=len(result.loops))
-    crossing, around = np.union1d(seen.now.crossing, seen.pierced), np.unique(outline)
+    over = said("over_loop" if len(result.loops) == 1 else "over_loops", n=len(boundary), loops=len(result.loops))
+    crossing, around = np.union1d(seen.now.crossing, seen.pierced), np.unique(boundary)
     name = fairing.looks.fault(
         result, folded=len(seen.now.folded) > 0, crossing=len(crossing) > 0, kinked=len(join.seen) > 0
     )

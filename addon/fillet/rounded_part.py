@@ -216,7 +216,7 @@ def _merged(mesh: MeshArrays, triangles: Ints, parents: Ints, bent: bool) -> tup
         rows = np.flatnonzero(faces == face)
         whole = bent or _is_flat(mesh, face)
         for piece in _pieces(triangles, rows):
-            loop = _outline(triangles, piece) if whole else None
+            loop = _boundary(triangles, piece) if whole else None
             if loop is None:
                 for row in piece:
                     add(triangles[row].tolist(), [3 * row, 3 * row + 1, 3 * row + 2])
@@ -266,7 +266,7 @@ def _pieces(triangles: Ints, rows: Ints) -> list[list[int]]:
     return found
 
 
-def _outline(triangles: Ints, piece: list[int]) -> list[int] | None:
+def _boundary(triangles: Ints, piece: list[int]) -> list[int] | None:
     """Return the corners around a piece, None where it has a hole, touches or covers itself: no polygon then."""
     sides = dict(sides_of(triangles, piece))
     around = {a: (b, corner) for (a, b), corner in sides.items() if (b, a) not in sides}

@@ -8,7 +8,7 @@ import numpy as np
 
 import fairing
 
-from ..arrays.outline import two_sided_edges
+from ..arrays.boundary import two_sided_edges
 from ..arrays.places import edge_keys
 from ..arrays.region import MeshArrays, nothing, to_local
 from ..arrays.types import Floats, Ints, Mask

@@ -119,10 +119,10 @@ class LiveRegion:
         return free
 
     @property
-    def outline(self) -> Ints:
+    def boundary(self) -> Ints:
         patch = self._around.patch
-        outline: Ints = self._around.vertices[patch.vertices[patch.outline]]
-        return outline
+        boundary: Ints = self._around.vertices[patch.vertices[patch.boundary]]
+        return boundary
 
     def answer(self, positions: Floats, matrix: Floats, progress: Progress | None = None) -> Floats | None:
         """Return the free vertices' positions (k, 3) in the mesh's own coordinates; None where there is no convergence.

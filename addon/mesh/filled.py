@@ -95,7 +95,7 @@ class _Rim:
 
     def __init__(self, bm: Any, piece: Piece, vertices: list[Any]) -> None:
         self._piece = piece
-        self._vertices = elements_of(vertices, piece.outline)
+        self._vertices = elements_of(vertices, piece.boundary)
         self._drawn = elements_of(vertices, piece.across.drawn)
         self._around = elements_of(vertices, piece.around.vertices)
         following, before = piece.following.tolist(), np.argsort(piece.following).tolist()
@@ -106,7 +106,7 @@ class _Rim:
         after, other = (np.nan_to_num(layers.read(side)) for side in (self._after, self._before))
         names = layers.uv_names
         self._own = 2 * len(names)  # columns from which on values are carried
-        self.mixed = piece.outline[(np.abs(after - other)[:, self._own :] > SAME).any(axis=1)]
+        self.mixed = piece.boundary[(np.abs(after - other)[:, self._own :] > SAME).any(axis=1)]
         self._rims = [
             RimUVs(after[:, 2 * k : 2 * k + 2], other[:, 2 * k : 2 * k + 2], self._mirrored(bm.loops.layers.uv[name]))
             for k, name in enumerate(names)

@@ -31,7 +31,7 @@ def add_to_edit_mesh(obj: bpy.types.Object, spanned: Spanned) -> Added:
         target.open()
         bm = target.bm
         bm.verts.ensure_lookup_table()
-        held = elements_of(bm.verts, spanned.outline)
+        held = elements_of(bm.verts, spanned.boundary)
         examples = [held[number] for number in spanned.near.tolist()]
         data = VertexData(
             spanned.positions, held, spanned.carried, examples

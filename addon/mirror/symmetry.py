@@ -34,7 +34,7 @@ def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
     mesh: in its own coordinates. None: the boundary, the connectivity or the free vertices aren't
     symmetric, so the whole patch isn't.
     """
-    rim = (mesh.positions[patch.vertices[patch.outline]], patch.outline)
+    rim = (mesh.positions[patch.vertices[patch.boundary]], patch.boundary)
     images = _images(rim, rim)
     if images is None:
         return None

@@ -201,7 +201,7 @@ def _new_problem(problem: Problem, part: NewPart, result: fairing.RemeshResult, 
         faces=count + np.arange(len(part.triangles)) + int(problem.patch.faces.max(initial=-1)) + 1,
         free=np.arange(part.held_count, len(own)),
         fixed=np.arange(part.held_count),
-        outline=np.unique(np.concatenate([np.empty(0, np.int64), *fairing.boundary_loops(part.triangles)])),
+        boundary=np.unique(np.concatenate([np.empty(0, np.int64), *fairing.boundary_loops(part.triangles)])),
         neighbours=None,
     )
     vertices = np.concatenate([own, others])

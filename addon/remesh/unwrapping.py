@@ -139,13 +139,13 @@ def _nearest_edges(surface: Surface, sides: Ints) -> Ints:
     """Return (m,): the edge of the boundary that each triangle is nearest to, over the triangles between."""
     middles = surface.points[surface.triangles].mean(axis=1)
     lengths = np.linalg.norm(middles[sides[:, 0]] - middles[sides[:, 1]], axis=1)
-    corners, tails = _at_outline(surface)
+    corners, tails = _at_boundary(surface)
     beside = np.zeros(len(surface.triangles), dtype=np.int64)
     beside[corners // 3] = tails
     return beside[owners(nearest_sources(len(middles), sides, lengths, np.unique(corners // 3)))]
 
 
-def _at_outline(surface: Surface) -> tuple[Ints, Ints]:
+def _at_boundary(surface: Surface) -> tuple[Ints, Ints]:
     """Return the corners of triangles where edges of the boundary begin, and these edges."""
     following = np.full(len(surface.points), -1, dtype=np.int64)
     for loop in surface.loops:
@@ -158,7 +158,7 @@ def _at_outline(surface: Surface) -> tuple[Ints, Ints]:
 def _mapped(surface: Surface, rim: RimUVs, parting: _Parting) -> Unwrapped:
     """Return the least distorted map of the triangles that has the boundary's UVs and is cut at the seams."""
     wedges, count = _wedges(surface.triangles, parting.seams)
-    corners, tails = _at_outline(surface)
+    corners, tails = _at_boundary(surface)
     own = parting.joined(parting.edges[corners // 3], tails)
     corners, tails = corners[own], tails[own]
     ends = 3 * (corners // 3) + (corners + 1) % 3

@@ -9,7 +9,7 @@ import numpy as np
 import fairing
 
 from ..arrays.around import numbered, outside_triangles, wound_alike
-from ..arrays.outline import edges_of, two_sided_edges
+from ..arrays.boundary import edges_of, two_sided_edges
 from ..arrays.region import MeshArrays, Patch, make_patch, nothing
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import Problem

@@ -26,7 +26,7 @@ def _no_answer(evidence: Evidence, options: FairOptions) -> Found:
         return NOTHING
     reason = evidence.failures[0] if evidence.failures else said("no_fair_surface")
     reason = _ended(reason, evidence, options)
-    return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.outline]
+    return reason, _troubled(evidence.problem) if len(evidence.problem.outside) else patch.vertices[patch.boundary]
 
 
 def _ended(reason: str, evidence: Evidence, options: FairOptions) -> str:
@@ -59,9 +59,9 @@ def is_usable(evidence: Evidence, options: FairOptions) -> bool:
 
 def _troubled(problem: Problem) -> Ints:
     """Return the bad vertices of the boundary, or all of it where none stands out."""
-    outline = problem.patch.vertices[np.intersect1d(problem.patch.outline, problem.outside)]
+    boundary = problem.patch.vertices[np.intersect1d(problem.patch.boundary, problem.outside)]
     bad = bad_outline(problem)
-    return bad if len(bad) else outline
+    return bad if len(bad) else boundary
 
 
 def _folded(evidence: Evidence, options: FairOptions) -> Found:
@@ -76,7 +76,7 @@ def _folded(evidence: Evidence, options: FairOptions) -> Found:
         return NOTHING
     text = said("folded_faces", n=len(after))
     corners, patch = corners_of(evidence.problem, after), evidence.problem.patch
-    pins = np.intersect1d(corners, patch.vertices[np.setdiff1d(patch.fixed, patch.outline)])
+    pins = np.intersect1d(corners, patch.vertices[np.setdiff1d(patch.fixed, patch.boundary)])
     if len(pins):
         text = said("at_pins", reason=text, n=len(pins))
     return text, corners

@@ -96,7 +96,7 @@ def _uneven(evidence: Evidence, options: FairOptions) -> Found:
     patch = evidence.problem.patch
     girth = fairing.looks.girth(_points(evidence), patch.triangles, fixed=patch.fixed)
     if girth is None:  # curves that stay part it
-        return reason, patch.vertices[patch.outline]
+        return reason, patch.vertices[patch.boundary]
     return reason, patch.vertices[girth.thinnest if _is_thin(evidence.result) else girth.thickest]
 
 
@@ -136,13 +136,13 @@ def _unmoved(evidence: Evidence, options: FairOptions) -> Found:
     moved = np.abs(_points(evidence)[free] - before[free]).max(initial=0.0)
     if moved > LEAST_MOVED * np.ptp(before, axis=0).max():
         return NOTHING
-    return said("unmoved"), _outline(evidence)
+    return said("unmoved"), _boundary(evidence)
 
 
 def _refused(evidence: Evidence, _options: FairOptions) -> Found:
     """Report the old skin where it was asked for and not given."""
     if any(evidence.reported("REFERENCE_UNUSABLE", "old_skin")):
-        return said("no_detail"), _outline(evidence)
+        return said("no_detail"), _boundary(evidence)
     return NOTHING
 
 
@@ -152,9 +152,9 @@ def _squeezed(evidence: Evidence, _options: FairOptions) -> Found:
     return said("knot", n=len(evidence.squeezed)), evidence.squeezed
 
 
-def _outline(evidence: Evidence) -> Ints:
+def _boundary(evidence: Evidence) -> Ints:
     patch = evidence.problem.patch
-    found: Ints = patch.vertices[patch.outline]
+    found: Ints = patch.vertices[patch.boundary]
     return found
 
 

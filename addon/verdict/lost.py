@@ -26,7 +26,7 @@ class Lost:
 def moved_border(problem: Problem, after: Floats) -> Ints:
     """Return the mesh vertices of an open border inside that has moved far, as a whole; after: (q, 3)."""
     patch = problem.patch
-    border = np.intersect1d(patch.outline, patch.free)
+    border = np.intersect1d(patch.boundary, patch.free)
     if not len(border):
         return nothing()
     own = problem.own_points

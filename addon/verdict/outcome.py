@@ -163,4 +163,4 @@ def _mirrored(mesh: MeshArrays, problem: Problem, fair: Floats, moving: Ints) ->
 
 def _largest_curvatures(patch: Patch, result: fairing.FairResult) -> tuple[float, float]:
     sizes = np.abs(result.mean_curvature)
-    return float(sizes[patch.free].max(initial=0.0)), float(sizes[patch.outline].max(initial=0.0))
+    return float(sizes[patch.free].max(initial=0.0)), float(sizes[patch.boundary].max(initial=0.0))

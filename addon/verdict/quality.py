@@ -107,7 +107,7 @@ def measured(
     """
     (was, old), (sheet, problem) = before, after
     patch = problem.patch
-    rim = np.intersect1d(patch.outline, problem.outside)
+    rim = np.intersect1d(patch.boundary, problem.outside)
     rim = np.setdiff1d(rim[~np.isin(patch.vertices[rim], problem.inward)], patch.free_slopes)
     found = fairing.looks.judged(
         sheet.points, sheet.numbers[patch.triangles], mesh.triangles[~mesh.in_patch[mesh.triangle_faces]],

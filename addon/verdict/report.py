@@ -167,14 +167,14 @@ def _count_check(name: str, outcomes: list[Fairing], faces: Callable[[Quality], 
 def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
     """Return what is of interest where something is to be found out; none of it is good or bad by itself."""
     results = [outcome.result for outcome in outcomes]
-    inside, outline = max((o.curvature for o in outcomes), key=lambda pair: pair[0] - pair[1])
+    inside, boundary = max((o.curvature for o in outcomes), key=lambda pair: pair[0] - pair[1])
     codes = sorted({warning.code for result in results for warning in result.warnings})
     lines = (
         ("Equation solved", _endings(outcomes)),
         ("Residual", _residual_text(max(results, key=lambda result: result.residual))),
         ("Usual kink", angle_text(_worst_join(outcomes)[0])),
         ("Off the slope", angle_text(max(_widest(result) for result in results))),
-        ("Curvature inside", f"{inside:.3g} {'≤' if inside <= outline else '>'} {outline:.3g}"),
+        ("Curvature inside", f"{inside:.3g} {'≤' if inside <= boundary else '>'} {boundary:.3g}"),
         (
             "Strategies tried",
             ", ".join(f"{name} {seconds:.2f} s" for result in results for name, seconds in result.way),

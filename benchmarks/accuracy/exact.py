@@ -36,7 +36,7 @@ class Scope:
 
 
 def solve(scope: Scope, patch: Patch, **options: Any) -> Outcome:
-    """The patch from its outline and the normals there; weights belong to the exact mesh."""
+    """The patch from its boundary and the normals there; weights belong to the exact mesh."""
     settings: dict[str, Any] = {
         "tolerance": TIGHT, "fixed": patch.fixed, "fixed_normals": patch.fixed_normals,
         "reference": patch.vertices, **options,

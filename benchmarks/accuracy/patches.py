@@ -59,6 +59,6 @@ def _angles(title: str, records: list[Record]) -> Row:
         angles = [record.angle for record in smooth if low <= record.turn < high]
         parts.append(f"{low}–{high:g}°/edge: {sum(a <= 1 for a in angles)} of {len(angles)} within 1°")
     middle = np.median([record.angle_median for record in smooth] or [np.nan])
-    note = "; ".join(parts) + f"; median over outlines {middle:.2g}°"
+    note = "; ".join(parts) + f"; median over boundaries {middle:.2g}°"
     largest = max((record.angle for record in smooth), default=np.nan)
     return Row(f"{title}: boundary angle, °", 0, "all", 1.0, largest, "", True, np.nan, note)

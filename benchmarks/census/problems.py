@@ -48,8 +48,8 @@ class Problem:
     @property
     def diameter(self) -> float:
         """D: twice the largest distance of the fixed vertices from their centroid."""
-        outline = self.vertices[self.fixed]
-        return 2 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
+        boundary = self.vertices[self.fixed]
+        return 2 * float(np.linalg.norm(boundary - boundary.mean(axis=0), axis=1).max())
 
 
 def random_patches(count: int, seed: int, largest: int) -> Iterator[tuple[real_meshes.RealPatch, np.random.Generator]]:

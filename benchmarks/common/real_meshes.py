@@ -61,12 +61,12 @@ class RealPatch:
 
     @property
     def loops(self) -> int:
-        """The number of outlines."""
+        """The number of boundaries."""
         return len(fairing.boundary_loops(self.triangles))
 
     @property
     def turn(self) -> float:
-        """Largest angle between the normals at the ends of an outline edge, degrees."""
+        """Largest angle between the normals at the ends of a boundary edge, degrees."""
         place = np.full(len(self.vertices), -1)
         place[self.fixed] = np.arange(len(self.fixed))
         ends = place[measures.border_edges(self.triangles)]
@@ -144,7 +144,7 @@ def make_patch(label: str, name: str, seed: int, radius: float) -> RealPatch | N
     number = np.full(len(whole.vertices), -1)
     number[used] = np.arange(len(used))
     fixed = number[used[held[used]]]
-    normals, fitted = outline_normals(whole, outside, used[fixed])
+    normals, fitted = boundary_normals(whole, outside, used[fixed])
     edges = edges_of([polygon for polygon, taken in zip(whole.polygons, mask, strict=True) if taken])
     return RealPatch(
         label, whole.vertices[used], number[inside], fixed, normals, fitted, number[edges],
@@ -152,7 +152,7 @@ def make_patch(label: str, name: str, seed: int, radius: float) -> RealPatch | N
     )  # fmt: skip
 
 
-def outline_normals(whole: Mesh, outside: IntArray, at: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
+def boundary_normals(whole: Mesh, outside: IntArray, at: IntArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Normals fitted to the outside; averages of all faces where no outside face is adjacent."""
     found = fairing.surrounding_normals(whole.vertices, outside, at)
     missing = np.linalg.norm(found.normals, axis=1) < 0.5

@@ -24,7 +24,7 @@ LIMIT = 30.0  # seconds for one call
 class Record:
     """One patch with one λ: what came of its starts. `spread` is over the radius, angles are degrees.
 
-    turn: largest turn of the prescribed normals per outline edge; unfitted: share of normals that are averages;
+    turn: largest turn of the prescribed normals per boundary edge; unfitted: share of normals that are averages;
     converged: how many starts; folded, crossing: of these, those with triangles that are turned over or pass through
     others; equation: of the first start; slowest: CPU seconds of one start; claimed: spread of those that converged.
     """
@@ -59,7 +59,7 @@ class Record:
 
     @property
     def smooth(self) -> bool:
-        """Whether the surroundings define a tangent plane all along the outline."""
+        """Whether the surroundings define a tangent plane all along the boundary."""
         return self.turn < SMOOTH and self.unfitted == 0.0
 
 
@@ -125,7 +125,7 @@ def given(vertices: FloatArray, fixed: IntArray, h: float) -> FloatArray:
 
 
 def flattened(vertices: FloatArray, fixed: IntArray, h: float) -> FloatArray:
-    """Projected on the plane that fits the outline best."""
+    """Projected on the plane that fits the boundary best."""
     rim = vertices[fixed]
     centre = rim.mean(axis=0)
     normal = np.linalg.svd(rim - centre)[2][2]

@@ -39,7 +39,7 @@ def timed(vertices: FloatArray, triangles: IntArray, *loops: Any, **options: Any
 
 
 def shape_of(vertices: FloatArray, result: fairing.FillResult | fairing.RemeshResult) -> str:
-    """Least angle of triangles without an edge on the outline, and the highest valence of a new vertex."""
+    """Least angle of triangles without an edge on the boundary, and the highest valence of a new vertex."""
     points = np.concatenate([vertices, result.vertices])
     inner = (result.triangles < len(vertices)).sum(axis=1) < 2
     angles = holes.angles(points, result.triangles[inner])

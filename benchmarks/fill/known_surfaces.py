@@ -48,7 +48,7 @@ def _shape(name: str, vertices: FloatArray, triangles: Any, loops: list[Any], of
     start = time.process_time()
     result = fairing.fill(vertices, triangles, loops, bridge=len(loops) > 1, threads=1)
     seconds = time.process_time() - start
-    outline = vertices[np.concatenate(loops)]
-    diameter = 2 * np.linalg.norm(outline - outline.mean(axis=0), axis=1).max()
+    boundary = vertices[np.concatenate(loops)]
+    diameter = 2 * np.linalg.norm(boundary - boundary.mean(axis=0), axis=1).max()
     error = abs(off(result.vertices)).max() / diameter
-    return f"| {name} | {len(outline) // len(loops)} | {error:.1e} | {seconds:.2f} |"
+    return f"| {name} | {len(boundary) // len(loops)} | {error:.1e} | {seconds:.2f} |"

@@ -27,7 +27,7 @@ class Problem:
     width: float
 
 
-def outline(rng: Any) -> FloatArray:
+def boundary(rng: Any) -> FloatArray:
     """(n, 2) corners of a polygon around the origin, sharp or rounded, with points along its sides or none."""
     count = int(rng.integers(3, 8))
     turns = np.zeros(count)
@@ -68,7 +68,7 @@ def _lofted(rings: list[FloatArray]) -> Solid:
 
 
 def extruded(rng: Any) -> Solid:
-    profile, height, levels = outline(rng), rng.uniform(0.5, 1.5), int(rng.integers(1, 4))
+    profile, height, levels = boundary(rng), rng.uniform(0.5, 1.5), int(rng.integers(1, 4))
     return _lofted([np.column_stack([profile, np.full(len(profile), height * k / levels)]) for k in range(levels + 1)])
 
 

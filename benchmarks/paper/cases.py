@@ -72,7 +72,7 @@ def blend_case() -> Case:
 
 
 def reduced(case: Case, count: int) -> Case:
-    """The case on a mesh of `count` vertices, by half-edge collapses of M0; every other vertex of the outline stays."""
+    """The case on a mesh of `count` vertices, by half-edge collapses of M0; every other boundary vertex stays."""
     loops = [np.asarray(loop, dtype=np.int64) for loop in fairing.boundary_loops(case.triangles)]
     mesh = Thinner(case.reference, case.triangles, loops)
     size = np.ones(len(case.vertices))
@@ -106,8 +106,8 @@ def corner_case(times: int = 2) -> Case:
 
 
 def head_case(name: str, head: Path, drawing: heads.Drawing) -> Case:
-    """The region of a head inside a drawn outline; normals average all adjacent triangles of the head (§7.5)."""
-    region = heads.outlined(head, drawing)
+    """The region of a head inside a drawn boundary; normals average all adjacent triangles of the head (§7.5)."""
+    region = heads.boundaryd(head, drawing)
     used, local = np.unique(region.triangles[region.own], return_inverse=True)
     points = region.vertices[used]
     fixed = np.searchsorted(used, region.loop)

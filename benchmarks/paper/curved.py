@@ -71,7 +71,7 @@ def distance(one: Case, first: FloatArray, other: Case, second: FloatArray) -> f
 
 
 def asymmetry(case: Case, points: FloatArray) -> float:
-    """Distance over D between a result and its image in the plane z = 0, in which the outline is symmetric."""
+    """Distance over D between a result and its image in the plane z = 0, in which the boundary is symmetric."""
     mirror = np.array([1.0, 1.0, -1.0])
     image = replace(case, triangles=case.triangles[:, ::-1], normals=case.normals * mirror)
     return distance(case, points, image, points * mirror)

@@ -148,7 +148,7 @@ def figure_8(folder: Path) -> str:
 
 
 def _close_up(case: Case, direction: tuple[float, float, float], margin: float) -> View:
-    """The outline fills the picture but for the margin."""
+    """The boundary fills the picture but for the margin."""
     rim = case.vertices[case.fixed]
     centre = rim.mean(axis=0)
     width = 2 * margin * np.linalg.norm(rim - centre, axis=1).max()

@@ -1,4 +1,4 @@
-"""The ear and the face of Table 1: an outline drawn on a head, and the mesh inside it at the paper's size."""
+"""The ear and the face of Table 1: a boundary drawn on a head, and the mesh inside it at the paper's size."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ import fairing
 import measures
 import meshing
 import polygon_mesh
-from outlines import Cut, Drawn, cut_along, ordered_loop
+from boundaries import Cut, Drawn, cut_along, ordered_loop
 from polygon_mesh import FloatArray, IntArray, Mask
 from polygons import read_polygons
 from thinning import Thinner, flip_to_delaunay, thin, thin_curve
 
 HEXAGON = 0.5 * np.sqrt(3)  # area per vertex of equilateral triangles with edges of length 1
-SEEN = 6.0  # outline edges: how far around the outline the mesh is thinned too
+SEEN = 6.0  # boundary edges: how far around the boundary the mesh is thinned too
 
 
 @dataclass(frozen=True)
 class Drawing:
-    """What is cut out of a head: outline, vertices wanted in all and on the outline, subdivisions before.
+    """What is cut out of a head: boundary, vertices wanted in all and on the boundary, subdivisions before.
 
-    shown: how much of the head is kept round the outline, as a multiple of its radius.
+    shown: how much of the head is kept round the boundary, as a multiple of its radius.
     """
 
-    outline: Drawn
+    boundary: Drawn
     vertices: int
-    on_outline: int
+    on_boundary: int
     steps: int
     shown: float = np.inf
 
@@ -40,7 +40,7 @@ class Region:
     """A head with a region to be faired.
 
     vertices (n, 3); normals (n, 3): averages of the adjacent triangles' before the mesh was thinned out; triangles
-    (m, 3); own (k,) the region's triangles; loop (b,) its outline in order.
+    (m, 3); own (k,) the region's triangles; loop (b,) its boundary in order.
     """
 
     vertices: FloatArray
@@ -78,11 +78,11 @@ def subdivided_head(path: Path, steps: int) -> tuple[FloatArray, IntArray]:
     return vertices, polygon_mesh.triangulated(vertices, faces)
 
 
-def outlined(path: Path, drawing: Drawing) -> Region:
-    """The head with the outline in it, both sides of it thinned out to the wanted size."""
+def boundaryd(path: Path, drawing: Drawing) -> Region:
+    """The head with the boundary in it, both sides of it thinned out to the wanted size."""
     vertices, triangles = subdivided_head(path, drawing.steps)
-    cut = _around(cut_along(vertices, triangles, drawing.outline), drawing.shown)
-    keep = _evenly(cut, drawing.on_outline)
+    cut = _around(cut_along(vertices, triangles, drawing.boundary), drawing.shown)
+    keep = _evenly(cut, drawing.on_boundary)
     mesh = Thinner(cut.vertices, cut.triangles, [cut.curve])
     kept = set(keep.tolist())
     size = _sizes(cut, drawing)
@@ -90,7 +90,7 @@ def outlined(path: Path, drawing: Drawing) -> Region:
     outside, too_many = _outside(cut, drawing)
     thin_curve(mesh, kept)
     thin(mesh, outside, size, too_many)
-    surplus = len(inside) + drawing.on_outline - drawing.vertices
+    surplus = len(inside) + drawing.on_boundary - drawing.vertices
     gone = thin(mesh, inside, size, round(0.9 * surplus))
     flip_to_delaunay(mesh, {*mesh.along, *inside, *outside})
     thin_curve(mesh, kept)
@@ -100,7 +100,7 @@ def outlined(path: Path, drawing: Drawing) -> Region:
 
 
 def _around(cut: Cut, reach: float) -> Cut:
-    """Only the triangles near the outline."""
+    """Only the triangles near the boundary."""
     if not np.isfinite(reach):
         return cut
     rim = cut.vertices[cut.curve]
@@ -123,13 +123,13 @@ def _area(vertices: FloatArray, triangles: IntArray) -> float:
 
 
 def _spacing(cut: Cut, drawing: Drawing) -> float:
-    """Edge length of the outline."""
+    """Edge length of the boundary."""
     rim = cut.vertices[cut.curve]
-    return float(np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1).sum() / drawing.on_outline)
+    return float(np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1).sum() / drawing.on_boundary)
 
 
 def _sizes(cut: Cut, drawing: Drawing) -> FloatArray:
-    """Edge length wanted at each vertex: the outline's at the outline, that of the wanted number inside."""
+    """Edge length wanted at each vertex: the outline's at the boundary, that of the wanted number inside."""
     rim = _spacing(cut, drawing)
     inner = np.sqrt(_area(cut.vertices, cut.triangles[cut.inside]) / (HEXAGON * drawing.vertices))
     away = cKDTree(cut.vertices[cut.curve]).query(cut.vertices)[0]
@@ -139,7 +139,7 @@ def _sizes(cut: Cut, drawing: Drawing) -> FloatArray:
 
 
 def _outside(cut: Cut, drawing: Drawing) -> tuple[list[int], int]:
-    """Vertices outside near the outline, and how many of them are too many for the outline's spacing."""
+    """Vertices outside near the boundary, and how many of them are too many for the outline's spacing."""
     rim = _spacing(cut, drawing)
     away = cKDTree(cut.vertices[cut.curve]).query(cut.vertices)[0]
     outer = cut.triangles[~cut.inside]

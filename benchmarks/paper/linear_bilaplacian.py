@@ -1,6 +1,6 @@
 """The fairing that the paper sets itself against: Δ²q = 0 with a Laplacian of fixed weights (Fig. 1).
 
-C1 boundary data the usual way: one more row of vertices continues the mesh beyond its outline, along the prescribed
+C1 boundary data the usual way: one more row of vertices continues the mesh beyond its boundary, along the prescribed
 tangent planes, and both rows are held.
 """
 

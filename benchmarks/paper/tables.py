@@ -89,7 +89,7 @@ def _list(sizes: tuple[int, ...]) -> str:
 
 
 def _fair(patch: Patch, **options: Any) -> fairing.FairResult:
-    """From the outline alone."""
+    """From the boundary alone."""
     return fairing.fair(
         shapes.start_from_nothing(patch), patch.triangles,
         fixed=patch.fixed, fixed_normals=patch.fixed_normals, **options,

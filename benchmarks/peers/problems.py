@@ -48,7 +48,7 @@ class Problem:
 
     vertices (n, 3): membrane inside, exact at `fixed` (k,), with exact unit normals (k, 3) there; triangles (m, 3);
     reference (n, 3): the mesh as it lies on the right surface (for the blend a membrane); ghosts (g, 3): the
-    surface's vertices beyond the outline, numbered from n on, strip (s, 3): the triangles between.
+    surface's vertices beyond the boundary, numbered from n on, strip (s, 3): the triangles between.
     """
 
     name: str
@@ -63,8 +63,8 @@ class Problem:
     @cached_property
     def diameter(self) -> float:
         """D: twice the largest distance of the fixed vertices from their centroid."""
-        outline = self.vertices[self.fixed]
-        return 2 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
+        boundary = self.vertices[self.fixed]
+        return 2 * float(np.linalg.norm(boundary - boundary.mean(axis=0), axis=1).max())
 
     @cached_property
     def all_vertices(self) -> FloatArray:

@@ -1,7 +1,7 @@
 """Every tool as one call: a problem in, positions of the patch's vertices out, conversions included.
 
 The linear tools get the patch with a ring outside, all held but the patch's inside, and the option that makes their
-result continue the tangent planes; ours gets the patch alone with the normals at its outline.
+result continue the tangent planes; ours gets the patch alone with the normals at its boundary.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Tool:
 
 
 def fair(problem: Problem, **options: Any) -> fairing.FairResult:
-    """`fairing.fair` with the G1 data of the outline."""
+    """`fairing.fair` with the G1 data of the boundary."""
     return fairing.fair(
         problem.vertices, problem.triangles, fixed=problem.fixed, fixed_normals=problem.normals, **options
     )  # fmt: skip

@@ -53,7 +53,7 @@ Indices crossings_inside(const Patch& patch, const Points& points) {
     return crossing;
 }
 
-// That count against a solution. Placed vertices were compared with the surface that they lie on.
+// That count against a solution. Projected vertices were compared with the surface that they lie on.
 Indices flips_of(const Problem& problem, Solution& solution) {
     if (!solution.polished) return {};
     solution.flipped = flipped_triangles(problem.patch, solution.points);

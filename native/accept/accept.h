@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// What is wrong with a solution, if anything, whatever way it came. The checks, in this order: the iteration converged;
+// What is wrong with a solution, if anything, however it was found. The checks, in this order: the iteration converged;
 // some area is left; the boundary is not met from behind; there are no folds and no crossings that the surface itself
 // does not have; the triangles can carry the equation; the iteration took no more steps than a right answer needs.
 // Names the bad triangles in the solution.
@@ -16,10 +16,10 @@ Flaw flaw_of(const Problem& problem, Solution& solution);
 // What converged counts as solved unless it is no answer.
 Termination end_of(const Solution& solution);
 
-// Whether no other way could do better: accepted, or solved for as much of the load as the surface carries.
+// Whether no other strategy could do better: accepted, or solved for as much of the load as the surface carries.
 bool is_final(const Problem& problem, const Solution& solution);
 
-// A surface that was solved on other vertices, and where the problem's own ones were placed on it.
+// A surface that was solved on other vertices, and where the problem's own ones were projected onto it.
 struct SolvedSurface {
     const TargetSurface& target;
     const VectorX& mean_curvature;           // at the target's vertices

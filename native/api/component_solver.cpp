@@ -192,7 +192,7 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
     Solution solution =
         solve_paper({problem, options_.paper, make_row_weights(patch_, reference_, fairness(), options_)}, progress);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
-    solution.ways = {{"paper", watch.seconds()}};
+    solution.strategies = {{"paper", watch.seconds()}};
     solution.flaw = flaw_of(problem, solution);
     return solution;
 }

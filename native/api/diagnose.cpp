@@ -47,7 +47,7 @@ struct Reason {
 Reason reason_of_folds(const Solution& solution) {
     const bool turned = solution.flaw == Flaw::folded;
     const Indices& bad = solution.bad_triangles;
-    return {"has a surface, but its vertices can't be placed on it without folds: " +
+    return {"has a surface, but its vertices can't be projected onto it without folds: " +
                 counted(bad.size(), "triangle is", "triangles are") +
                 (turned ? " turned over" : " passing through others"),
             {{turned ? "turned_over" : "passing_through", size_of(bad)}}};
@@ -78,7 +78,7 @@ Reason reason_of_join(const Solution& solution) {
     switch (solution.join) {
         case Join::other_mesh:
             return {"the surface was solved on a mesh of the engine's own; make the triangles more regular",
-                    {{"own_mesh", 1.0}}};
+                    {{"proxy_mesh", 1.0}}};
         case Join::no_tangent_join:
             return {"the surface that is only tangent was not found either", {{"no_tangent_join", 1.0}}};
         case Join::not_found:

@@ -36,7 +36,7 @@ Diagnostics failures_of(const Patch& patch, const Solution& solution, Terminatio
 
 // G2_NOT_MET with the fixed vertices where a curvature was asked for and the surface is only tangent. Figures:
 // "vertices", "boundary_vertices", and why: "smooth_share" (of the curvature that is lacking, below 0.5: noise), or 1
-// for "not_found", "own_mesh" or "no_tangent_join"; none where the curvature is not known.
+// for "not_found", "proxy_mesh" or "no_tangent_join"; none where the curvature is not known.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
 // PINS_NOT_SPREAD with the pins that act in a point although a radius was asked for. Another one, with the figure
@@ -45,7 +45,7 @@ void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& war
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
 // that equation; for a loft "loft", 1, for
 // the shape before "smoothed", 1, and where one of these two leaves the prescribed tangent planes by more than 20°
-// "kinks", these boundary vertices, which are the elements then; for a low-passed boundary (method/own_mesh)
+// "kinks", these boundary vertices, which are the elements then; for a low-passed boundary (method/proxy_surface)
 // "distance", how far it lies beside the surface, in units of D.
 Diagnostic no_solution(const Problem& problem, const Solution& solution);
 

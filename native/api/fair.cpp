@@ -55,7 +55,7 @@ public:
         warn_of_pins(patch, solution, result_.warnings);
         add_levels(solution.levels.empty() ? Indices{patch.vertex_count()} : solution.levels);
         for (const auto& [stage, seconds] : solution.seconds) result_.seconds[stage] += seconds;
-        result_.ways.insert(result_.ways.end(), solution.ways.begin(), solution.ways.end());
+        result_.strategies.insert(result_.strategies.end(), solution.strategies.begin(), solution.strategies.end());
         const bool has_normals = options_.solver.equation != Equation::soap_film;
         const Points& prescribed = has_normals ? answer.problem.fixed_normals : solution.boundary_normals;
         const VectorX angles = boundary_angles(patch, solution.boundary_normals, prescribed);

@@ -57,7 +57,7 @@ struct FairResult {
     double initial_residual = 0.0;
     Indices levels;
     std::map<std::string, double> seconds;
-    std::vector<WayTaken> ways;  // of all components, in their order
+    std::vector<StrategyTried> strategies;  // of all components, in their order
     Diagnostics warnings;
 };
 

@@ -65,10 +65,10 @@ Triangles wound_alike(const Triangles& surface, Triangles others, Eigen::Index c
     int alike = 0;
     for (int side = 0; side < others.size(); ++side) {
         checkpoint(side);
-        const std::array<int, 2> way{side_tail(others, side), side_head(others, side)};
-        if (!own[way[0]] || !own[way[1]]) continue;
-        alike += std::binary_search(sides.begin(), sides.end(), std::array<int, 2>{way[1], way[0]}) ? 1 : 0;
-        alike -= std::binary_search(sides.begin(), sides.end(), way) ? 1 : 0;
+        const std::array<int, 2> ends{side_tail(others, side), side_head(others, side)};
+        if (!own[ends[0]] || !own[ends[1]]) continue;
+        alike += std::binary_search(sides.begin(), sides.end(), std::array<int, 2>{ends[1], ends[0]}) ? 1 : 0;
+        alike -= std::binary_search(sides.begin(), sides.end(), ends) ? 1 : 0;
     }
     if (alike < 0) others.row(0).swap(others.row(1));
     return others;

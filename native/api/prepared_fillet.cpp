@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double apart = 1e-7;  // of the way to the next vertex: far more than roundoff, far less than is seen
+constexpr double apart = 1e-7;  // of the distance to the next vertex: far more than roundoff, far less than is seen
 
 std::vector<VertexPair> joined(const std::vector<VertexPair>& a, const std::vector<VertexPair>& b) {
     std::vector<VertexPair> both = a;
@@ -45,21 +45,21 @@ void part_doubled(FilletInput& input) {
     for (const auto& [a, b] : input.seams) {
         if (is_one(a, b)) doubled.insert({a, b});
     }
-    std::map<int, Vector3> ways;
+    std::map<int, Vector3> offsets;
     for (bool changed = !doubled.empty(); changed;) {
         changed = false;
         for (const auto& [a, b] : input.seams) {
             for (const auto& [from, to] : {VertexPair{a, b}, VertexPair{b, a}}) {
-                if (!doubled.contains(from) || ways.contains(from)) continue;
+                if (!doubled.contains(from) || offsets.contains(from)) continue;
                 const bool is_end = !is_one(from, to);
-                if (!is_end && !ways.contains(to)) continue;
-                ways[from] = is_end ? Vector3(apart * (input.vertices.col(to) - input.vertices.col(from)))
-                                    : Vector3(0.5 * ways.at(to));
+                if (!is_end && !offsets.contains(to)) continue;
+                offsets[from] = is_end ? Vector3(apart * (input.vertices.col(to) - input.vertices.col(from)))
+                                       : Vector3(0.5 * offsets.at(to));
                 changed = true;
             }
         }
     }
-    for (const auto& [v, way] : ways) input.vertices.col(v) += way;
+    for (const auto& [v, offset] : offsets) input.vertices.col(v) += offset;
 }
 
 double width_of(const FilletInput& input, bool largest) {

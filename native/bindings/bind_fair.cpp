@@ -11,8 +11,9 @@
 namespace fairing::bindings {
 
 py::dict to_dict(const FairResult& result) {
-    py::list ways;
-    for (const WayTaken& way : result.ways) ways.append(py::make_tuple(way.name, way.seconds));
+    py::list strategies;
+    for (const StrategyTried& strategy : result.strategies)
+        strategies.append(py::make_tuple(strategy.name, strategy.seconds));
     py::list levels;
     for (const int count : result.levels) levels.append(count);
     py::dict dict;
@@ -35,7 +36,7 @@ py::dict to_dict(const FairResult& result) {
     dict["initial_residual"] = result.initial_residual;
     dict["levels"] = py::tuple(levels);
     dict["seconds"] = py::cast(result.seconds);
-    dict["way"] = py::tuple(ways);
+    dict["way"] = py::tuple(strategies);
     dict["warnings"] = py::tuple(py::cast(result.warnings));
     return dict;
 }

@@ -2,7 +2,7 @@
 #include "bindings/bind.h"
 #include "bindings/fair_options.h"
 #include "bindings/topics.h"
-#include "boundary/hard_ways.h"
+#include "boundary/hard_paths.h"
 #include "fill/wire_cells.h"
 #include "fillet/first_mesh.h"
 
@@ -53,7 +53,7 @@ void bind_meshing(py::module_& module) {
         return py::make_tuple(cells.loops, cells.normals, cells.left_open, cells.rims);
     });
     bind(module, "cells_of_triangles", &cells_of_triangles);
-    bind(module, "hard_ways", &hard_ways);
+    bind(module, "hard_ways", &hard_paths);
 }
 
 }  // namespace fairing::bindings

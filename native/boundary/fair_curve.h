@@ -5,7 +5,8 @@
 
 namespace fairing {
 
-// Where a curve begins or ends. `direction`: the way it runs there, from beginning to end, of any length; zero: free.
+// Where a curve begins or ends. `direction`: the direction in which it runs there, from beginning to end, of any
+// length; zero: free.
 struct CurveEnd {
     Vector3 place;
     Vector3 direction;

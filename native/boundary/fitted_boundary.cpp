@@ -13,7 +13,7 @@ constexpr double least_noise = 0.02;  // edges
 constexpr double farthest = 0.25;     // edges
 constexpr int rings_outside = 2;      // that follow
 
-// How much of the way each vertex goes: 1 on the boundary, ⅔ and ⅓ on the rings outside, 0 beyond.
+// How much of the distance each vertex goes: 1 on the boundary, ⅔ and ⅓ on the rings outside, 0 beyond.
 VectorX shares(const Triangles& triangles, const Indices& boundary, Eigen::Index count) {
     VectorX share = VectorX::Zero(count);
     share(boundary).setOnes();

@@ -212,14 +212,15 @@ private:
         return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(along(edge))), -inwards.dot(normal));
     }
 
-    // A film between loops has a waist, also where a tube goes on: there the way to the next loop says where it goes.
-    void add_film(const Meeting& edge, const std::optional<Vector3>& way, const Points& film, Means& means) const {
-        if (!way) {
+    // A film between loops has a waist, also where a tube goes on: there the direction to the next loop says where it
+    // goes.
+    void add_film(const Meeting& edge, const std::optional<Vector3>& onward, const Points& film, Means& means) const {
+        if (!onward) {
             means.film += turn(edge, film);
             return;
         }
         const Vector3 t = along(edge);
-        means.film += turn(edge, direction(*way - way->dot(t) * t));
+        means.film += turn(edge, direction(*onward - onward->dot(t) * t));
         means.least = hard_bend;
     }
 
@@ -244,13 +245,13 @@ private:
 
     // From the edge to the nearest one of another loop of its piece, if there is one.
     static std::optional<Vector3> way_to_next_loop(const std::vector<Place>& places, int k) {
-        std::optional<Vector3> way;
+        std::optional<Vector3> onward;
         for (const Place& other : places) {
             if (other.piece != places[k].piece || other.loop == places[k].loop) continue;
             const Vector3 there = other.middle - places[k].middle;
-            if (!way || there.squaredNorm() < way->squaredNorm()) way = there;
+            if (!onward || there.squaredNorm() < onward->squaredNorm()) onward = there;
         }
-        return way;
+        return onward;
     }
 
     // The surroundings cut across the edge, from its middle: where triangles end, and which of these ends are rows'
@@ -267,7 +268,7 @@ private:
         const Vector3 from = middle(edge);
         const Vector3 t = direction(between(edge));
         const auto height = [&](int v) { return t.dot(mesh_.points.col(v) - from); };
-        Way way;
+        Way onward;
         for (int side = edge.outside, k = 0; k < most_faces; ++k) {
             const int corner = side % 3;
             const int tip = all((corner + 2) % 3, side / 3);
@@ -281,23 +282,24 @@ private:
             const double a = height(side_tail(all, exit));
             const double b = height(side_head(all, exit));
             const Vector3 tail = mesh_.points.col(side_tail(all, exit));
-            way.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
-            if (bend > flat) way.rows.push_back(way.ends.size() - 1);
-            if (way.near == 0 && (bend > hard_bend || way.ends.back().norm() > reach)) way.near = way.ends.size();
-            if (way.near > 0 && way.rows.size() > 1) break;
+            onward.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
+            if (bend > flat) onward.rows.push_back(onward.ends.size() - 1);
+            if (onward.near == 0 && (bend > hard_bend || onward.ends.back().norm() > reach))
+                onward.near = onward.ends.size();
+            if (onward.near > 0 && onward.rows.size() > 1) break;
             side = other;
         }
-        if (way.near == 0) way.near = way.ends.size();
-        return way;
+        if (onward.near == 0) onward.near = onward.ends.size();
+        return onward;
     }
 
     // The arcs through the edge's middle and these ends, seen along the edge.
     void add_rows(const Meeting& edge, double reach, Means& means) const {
-        const Way way = way_beyond(edge, 0.5 * reach);
+        const Way onward = way_beyond(edge, 0.5 * reach);
         const Vector3 normal = normal_at(edge);
         const Vector3 onwards = normal.cross(along(edge));
         const auto plane = [&](std::size_t k) {
-            return Eigen::Vector2d(onwards.dot(way.ends[k]), -normal.dot(way.ends[k]));
+            return Eigen::Vector2d(onwards.dot(onward.ends[k]), -normal.dot(onward.ends[k]));
         };
         const auto curvature = [&](std::size_t near, std::size_t far) {
             const Eigen::Vector2d last = -plane(near);
@@ -307,10 +309,10 @@ private:
             return std::isfinite(found) ? found : 0.0;
         };
         const double length = between(edge).norm();
-        if (way.near > 1) means.way_bend += length * reach * curvature(way.near / 2 - 1, way.near - 1);
-        if (way.rows.size() < 2) return;
-        const double bend = curvature(way.rows[0], way.rows[1]);
-        const Eigen::Vector2d last = -plane(way.rows[0]);
+        if (onward.near > 1) means.way_bend += length * reach * curvature(onward.near / 2 - 1, onward.near - 1);
+        if (onward.rows.size() < 2) return;
+        const double bend = curvature(onward.rows[0], onward.rows[1]);
+        const Eigen::Vector2d last = -plane(onward.rows[0]);
         const double rest = std::asin(std::clamp(0.5 * bend * last.norm(), -1.0, 1.0));
         means.rows += length * (Eigen::Rotation2Dd(rest) * last.normalized());
         means.rows_bend += length * bend * reach;

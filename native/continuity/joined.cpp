@@ -75,7 +75,7 @@ void inherit(Solution& found, Solution tangent, const KnownCurvature& known) {
     found.initial_residual = tangent.initial_residual;
     found.levels = std::move(tangent.levels);
     found.seconds = std::move(tangent.seconds);
-    found.ways = std::move(tangent.ways);
+    found.strategies = std::move(tangent.strategies);
     found.tangent_only = known.unknown;
     found.join = kind_of(known);
     if (tangent.pins != Pins::absent) found.pins = Pins::curvature_met;
@@ -187,7 +187,7 @@ Solution joined(const Problem& problem, Solution tangent, const Progress& progre
     std::optional<Solution> found = with_curvature(problem, known, tangent, progress);
     const double seconds = watch.seconds();
     tangent.seconds["curvature"] = seconds;
-    tangent.ways.push_back({"curvature", seconds});
+    tangent.strategies.push_back({"curvature", seconds});
     if (!found) return with_join(std::move(tangent), Join::not_found);
     inherit(*found, std::move(tangent), known);
     return std::move(*found);

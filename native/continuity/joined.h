@@ -19,7 +19,7 @@ inline constexpr double least_smooth_share = 1.0 / 3.0;
 // `tangent`: the answer with Δ_B H = 0. It comes back bit for bit where it has the curvature already, to a hundredth,
 // or what it lacks is rough, and smooth to a fiftieth only; and, with the reason in `join`, where no curvature is known
 // or noise speaks louder, where it is no accepted solution
-// on the patch's own mesh, and where the join finds none that is accepted.
+// on its proxy mesh, and where the join finds none that is accepted.
 Solution joined(const Problem& problem, Solution tangent, const Progress& progress);
 
 // The linear system of one step towards Δ_B² H = 0 with H prescribed on the boundary.
@@ -67,8 +67,8 @@ private:
 // Δ_B² H = 0 with positions, normals and H given: the multipliers of the boundary (continuity/joined) let Δ_B H
 // leave zero there, and it is harmonic inside. Off the curves of `known` it stays zero, as it is for Δ_B H = 0.
 // `start`: 3 × local vertices, the surface of the problem with Δ_B H = 0. The residual that comes back is the largest
-// difference of Δ_B H from a harmonic function, its history of levels and ways is empty. `vertices_per_wave`: of the
-// fastest waves of H that are met (continuity/known_curvature).
+// difference of Δ_B H from a harmonic function, its history of levels and strategies is empty. `vertices_per_wave`: of
+// the fastest waves of H that are met (continuity/known_curvature).
 Solution join_curvatures(const Problem& problem, const KnownCurvature& known, const Points& start,
                          int vertices_per_wave, const Progress& progress);
 

@@ -62,7 +62,8 @@ VectorX continued(const Patch& patch, const Points& points, const VectorX& borde
     return logarithms.array().exp();
 }
 
-// Makes every length at most (or, with `sign` −1, at least) that of a neighbour plus (minus) `growth` times the way.
+// Makes every length at most (or, with `sign` −1, at least) that of a neighbour plus (minus) `growth` times the
+// distance.
 void grade(const Patch& patch, const Points& points, double growth, double sign, VectorX& lengths) {
     NearestFirst reached(VectorX::Constant(lengths.size(), std::numeric_limits<double>::infinity()));
     for (int v = 0; v < patch.vertex_count(); ++v) reached.lower(v, sign * lengths[v]);

@@ -32,7 +32,7 @@ struct Link {
     std::size_t start = 0;  // in that loop
 };
 
-// The shortest way from the polygon to a loop that isn't part of it yet. Corners at the end of a link are left out: at
+// The shortest path from the polygon to a loop that isn't part of it yet. Corners at the end of a link are left out: at
 // these the order around the corner would matter.
 Link shortest_link(const Points& points, const Indices& polygon, const std::vector<Indices>& loops,
                    const std::vector<char>& joined) {

@@ -8,12 +8,12 @@ namespace fairing {
 
 namespace {
 
-constexpr double leads_away = -0.3;  // mean cosine of the ways into the surface and to the others; −.17 at 200° bends
+constexpr double leads_away = -0.3;  // mean cosine of directions into the surface and to the others; −.17 at 200° bends
 constexpr double leads_aside = 0.1;  // of the same: the side of a loop whose surface leads neither there nor away
 constexpr double facing = 0.5;       // of the same, and between normals and the directions from a loop's middle
 
 // Mean cosine between the directions into a loop's surface and to the nearest of other points; 0 for a lone loop.
-double way_to_others(const std::vector<BoundaryLoop>& loops, std::size_t one) {
+double cosine_to_others(const std::vector<BoundaryLoop>& loops, std::size_t one) {
     const LoopShape& loop = loops[one].shape;
     std::vector<Vector3> others;
     for (std::size_t l = 0; l < loops.size(); ++l) {
@@ -63,7 +63,7 @@ double outward(const LoopShape& loop) {
 
 // A tube that is seen from outside at one end and from inside at the other one crosses itself.
 void check_sides(const std::vector<BoundaryLoop>& loops) {
-    if (loops.size() != 2 || std::min(way_to_others(loops, 0), way_to_others(loops, 1)) < facing) return;
+    if (loops.size() != 2 || std::min(cosine_to_others(loops, 0), cosine_to_others(loops, 1)) < facing) return;
     const double one = outward(loops[0].shape);
     const double other = outward(loops[1].shape);
     if (std::min(std::abs(one), std::abs(other)) <= facing || one * other >= 0.0) return;
@@ -122,7 +122,7 @@ void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
     std::vector<std::size_t> turned;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         if (!loops[l].is_bare) continue;
-        if (joined ? way_to_others(loops, l) < leads_away : leads_outside(loops[l].shape)) turned.push_back(l);
+        if (joined ? cosine_to_others(loops, l) < leads_away : leads_outside(loops[l].shape)) turned.push_back(l);
     }
     for (const std::size_t l : turned) {
         loops[l].turn();
@@ -134,11 +134,11 @@ void settle_sides(std::vector<BoundaryLoop>& loops, bool bridge) {
 }
 
 Diagnostic not_joined(const std::vector<BoundaryLoop>& loops) {
-    std::vector<double> ways;
-    ways.reserve(loops.size());
-    for (std::size_t l = 0; l < loops.size(); ++l) ways.push_back(way_to_others(loops, l));
-    const auto worst = static_cast<std::size_t>(std::min_element(ways.begin(), ways.end()) - ways.begin());
-    if (ways[worst] > leads_aside) {
+    std::vector<double> cosines;
+    cosines.reserve(loops.size());
+    for (std::size_t l = 0; l < loops.size(); ++l) cosines.push_back(cosine_to_others(loops, l));
+    const auto worst = static_cast<std::size_t>(std::min_element(cosines.begin(), cosines.end()) - cosines.begin());
+    if (cosines[worst] > leads_aside) {
         Indices all;
         for (const BoundaryLoop& loop : loops) all.insert(all.end(), loop.vertices.begin(), loop.vertices.end());
         return refusal(

@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-// A closed row of vertices with their shares of the way around; the first one has 0.
+// A closed row of vertices with their shares of the length around; the first one has 0.
 struct Row {
     Indices vertices;
     std::vector<double> shares;

@@ -73,11 +73,11 @@ private:
     [[nodiscard]] std::vector<double> corners() const {
         std::vector<double> found;
         for (std::size_t k = 0; k < darts_.size(); ++k) {
-            const WireNode& node = network_->from(other_way(darts_[k]));
+            const WireNode& node = network_->from(opposite(darts_[k]));
             const auto angle = [&](int dart) {
                 return node.angles[static_cast<std::size_t>(std::ranges::find(node.darts, dart) - node.darts.begin())];
             };
-            const double corner = angle(other_way(darts_[k])) - angle(darts_[(k + 1) % darts_.size()]);
+            const double corner = angle(opposite(darts_[k])) - angle(darts_[(k + 1) % darts_.size()]);
             found.push_back(corner > 0.0 ? corner : corner + 2.0 * pi);
         }
         return found;
@@ -88,7 +88,7 @@ private:
         const Indices path = network_->path(dart);
         const Points here = carried(network_->from(dart).normal, *points_, path);
         const Points there =
-            carried(network_->from(other_way(dart)).normal, *points_, Indices(path.rbegin(), path.rend()));
+            carried(network_->from(opposite(dart)).normal, *points_, Indices(path.rbegin(), path.rend()));
         const auto count = here.cols();
         const auto normal = [&](Eigen::Index k) -> Vector3 {
             const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
@@ -114,7 +114,7 @@ std::vector<Face> faces_of(const WireNetwork& network, const View<Points>& point
     Indices after(2 * network.arcs.size(), none);
     for (const auto& [v, node] : network.nodes)
         for (std::size_t k = 0; k < node.darts.size(); ++k)
-            after[other_way(node.darts[k])] = node.darts[(k + node.darts.size() - 1) % node.darts.size()];
+            after[opposite(node.darts[k])] = node.darts[(k + node.darts.size() - 1) % node.darts.size()];
     std::vector<Face> faces;
     std::vector<char> seen(after.size(), 0);
     for (int begin = 0; begin < static_cast<int>(after.size()); ++begin) {
@@ -132,7 +132,7 @@ std::vector<Face> faces_of(const WireNetwork& network, const View<Points>& point
 void refuse_both_sides(const WireNetwork& network, const Indices& darts, const char* text, const char* which) {
     std::set<int> vertices;
     for (const int dart : darts)
-        if (std::ranges::find(darts, other_way(dart)) != darts.end())
+        if (std::ranges::find(darts, opposite(dart)) != darts.end())
             vertices.insert(network.arcs[dart / 2].begin(), network.arcs[dart / 2].end());
     const Indices where(vertices.begin(), vertices.end());
     if (!where.empty()) refuse_wires(Code::no_cell, "the wires at " + listed(where) + text, where, which);

@@ -94,16 +94,16 @@ void turn_to_one_side(WireNetwork& network, const View<Points>& points) {
 }
 
 // Counter-clockwise about the normal.
-void put_in_order(int vertex, WireNode& node, const Points& ways) {
-    const Points flat = ways - node.normal * (node.normal.transpose() * ways);
+void put_in_order(int vertex, WireNode& node, const Points& directions) {
+    const Points flat = directions - node.normal * (node.normal.transpose() * directions);
     Eigen::Index longest = 0;
     flat.colwise().norm().maxCoeff(&longest);
     const Vector3 x = flat.col(longest).normalized();
     const Vector3 y = node.normal.cross(x);
     std::vector<std::pair<double, int>> by_angle;
     for (std::size_t k = 0; k < node.darts.size(); ++k) {
-        const Vector3 way = flat.col(static_cast<Eigen::Index>(k));
-        by_angle.emplace_back(std::atan2(way.dot(y), way.dot(x)), node.darts[k]);
+        const Vector3 tangent = flat.col(static_cast<Eigen::Index>(k));
+        by_angle.emplace_back(std::atan2(tangent.dot(y), tangent.dot(x)), node.darts[k]);
     }
     std::ranges::sort(by_angle);
     node.darts.clear();
@@ -124,15 +124,15 @@ void put_in_order(int vertex, WireNode& node, const Points& ways) {
 WireNetwork network_of(std::vector<Indices> arcs, const View<Points>& points) {
     WireNetwork network{std::move(arcs), {}};
     const auto count = 2 * static_cast<int>(network.arcs.size());
-    Points ways(3, count);
+    Points directions(3, count);
     for (int dart = 0; dart < count; ++dart) {
         const Indices path = network.path(dart);
-        ways.col(dart) = direction_along(points, path);
+        directions.col(dart) = direction_along(points, path);
         network.nodes[path[0]].darts.push_back(dart);
     }
-    for (auto& [v, node] : network.nodes) node.normal = nearest_plane(ways(Eigen::all, node.darts));
+    for (auto& [v, node] : network.nodes) node.normal = nearest_plane(directions(Eigen::all, node.darts));
     turn_to_one_side(network, points);
-    for (auto& [v, node] : network.nodes) put_in_order(v, node, ways(Eigen::all, node.darts));
+    for (auto& [v, node] : network.nodes) put_in_order(v, node, directions(Eigen::all, node.darts));
     return network;
 }
 
@@ -168,8 +168,8 @@ Points carried(const Vector3& normal, const View<Points>& points, const Indices&
     Points found(3, static_cast<Eigen::Index>(path.size()) - 1);
     Vector3 here = normal;
     for (Eigen::Index k = 0; k < found.cols(); ++k) {
-        const Vector3 way = (points.col(path[k + 1]) - points.col(path[k])).normalized();
-        const Vector3 across = here - here.dot(way) * way;
+        const Vector3 tangent = (points.col(path[k + 1]) - points.col(path[k])).normalized();
+        const Vector3 across = here - here.dot(tangent) * tangent;
         if (across.norm() > straight) here = across.normalized();
         found.col(k) = here;
     }

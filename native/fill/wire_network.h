@@ -25,7 +25,7 @@ struct WireNetwork {
     [[nodiscard]] const WireNode& from(int dart) const;  // the node that it leaves
 };
 
-inline int other_way(int dart) { return dart % 2 == 0 ? dart + 1 : dart - 1; }
+inline int opposite(int dart) { return dart % 2 == 0 ? dart + 1 : dart - 1; }
 
 struct Wires {
     std::vector<WireNetwork> networks;

@@ -10,7 +10,7 @@ namespace {
 struct Label {
     int band = none;
     int side = none;  // not known yet beside an inner vertex of the seam
-    double way = 0.0;
+    double station = 0.0;
     [[nodiscard]] bool is_like(const Label& other) const { return band == other.band && side == other.side; }
 };
 
@@ -62,7 +62,7 @@ private:
             arc.closed = next == first;
             if (arc.closed) break;
             arc.half_edges.push_back(next);
-            arc.ways.push_back(arc.ways.back() + mesh_.length[next]);
+            arc.stations.push_back(arc.stations.back() + mesh_.length[next]);
         }
         const auto number = static_cast<int>(made_.bands.size());
         for (std::size_t k = 0; k < arc.half_edges.size(); ++k) {
@@ -82,14 +82,14 @@ private:
             if (is_meeting(v)) return {};
             const auto [band, k] = at_[out_[v][0]];
             const SeamArc& arc = made_.bands[band].arc;
-            return {band, none, arc.ways[mesh_.tail(arc.half_edges[k]) == v ? k : k + 1]};
+            return {band, none, arc.stations[mesh_.tail(arc.half_edges[k]) == v ? k : k + 1]};
         }
         const auto [band, k] = at_[foot.half_edge];
         if (band == none) return {};
         const SeamArc& arc = made_.bands[band].arc;
         const bool is_left = arc.half_edges[k] == foot.half_edge;
         return {band, static_cast<int>(is_left ? left : right),
-                is_left ? arc.ways[k] + foot.along : arc.ways[k + 1] - foot.along};
+                is_left ? arc.stations[k] + foot.along : arc.stations[k + 1] - foot.along};
     }
 
     // Beside inner vertices of a seam the border is on the side on which it was before, or will be.
@@ -122,13 +122,13 @@ private:
             Run run{loop, k, 1, at(k)};
             while (run.count < count && at(k + run.count).is_like(at(k)) && !begins(k + run.count)) ++run.count;
             runs_.push_back(run);
-            for (int j = k; j < k + run.count; ++j) ways_[{loop, j % count}] = at(j).way;
+            for (int j = k; j < k + run.count; ++j) stations_[{loop, j % count}] = at(j).station;
         }
     }
 
     // Over the place where a closed arc begins.
     [[nodiscard]] bool turns_over(const Label& before, const Label& after) const {
-        return std::abs(after.way - before.way) > 0.5 * made_.bands[after.band].arc.length();
+        return std::abs(after.station - before.station) > 0.5 * made_.bands[after.band].arc.length();
     }
 
     [[nodiscard]] int vertex(const Run& run, int k) const {
@@ -146,12 +146,12 @@ private:
         for (int k = 0; k < run.count; ++k) {
             const int at = run.label.side == right ? k : run.count - 1 - k;
             side.vertices.push_back(vertex(run, at));
-            const double way = ways_.at({run.loop, (run.first + at) % size});
-            side.ways.push_back(side.ways.empty() ? way : std::max(way, side.ways.back()));
+            const double station = stations_.at({run.loop, (run.first + at) % size});
+            side.stations.push_back(side.stations.empty() ? station : std::max(station, side.stations.back()));
         }
         if (band.arc.closed && run.count == size) {
             side.vertices.push_back(side.vertices.front());
-            side.ways.push_back(side.ways.front() + band.arc.length());
+            side.stations.push_back(side.stations.front() + band.arc.length());
         }
     }
 
@@ -204,7 +204,8 @@ private:
             BandSide& side = band.sides[which];
             const bool at_end = sector.from.at_last;
             side.vertices.insert(at_end ? side.vertices.end() : side.vertices.begin(), vertex);
-            side.ways.insert(at_end ? side.ways.end() : side.ways.begin(), at_end ? band.arc.length() : 0.0);
+            side.stations.insert(at_end ? side.stations.end() : side.stations.begin(),
+                                 at_end ? band.arc.length() : 0.0);
         };
         if (one) {
             extend(sector.from.at_last ? right : left, chain[1]);
@@ -247,7 +248,7 @@ private:
     std::vector<Indices> out_;            // of each vertex: the half-edges on seams that begin there
     std::vector<std::array<int, 2>> at_;  // of each half-edge on a seam: its arc, and its place in it
     std::vector<Run> runs_;
-    std::map<std::array<int, 2>, double> ways_;  // of places in loops
+    std::map<std::array<int, 2>, double> stations_;  // of places in loops
     Bands made_;
 };
 

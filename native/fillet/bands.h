@@ -8,16 +8,16 @@ namespace fairing {
 // A seam from one meeting to the next: from vertices that two seams don't come to.
 struct SeamArc {
     Indices half_edges;
-    std::vector<double> ways;  // along it at each vertex, from 0
-    bool closed;               // comes back to its begin, which is no meeting
-    [[nodiscard]] double length() const { return ways.back(); }
+    std::vector<double> stations;  // along it at each vertex, from 0
+    bool closed;                   // comes back to its begin, which is no meeting
+    [[nodiscard]] double length() const { return stations.back(); }
 };
 
 enum Side : std::size_t { right = 0, left = 1 };
 
 struct BandSide {
-    Indices vertices;          // of the border, in the arc's direction; those of a closed one begin anew at the end
-    std::vector<double> ways;  // of their feet along the arc, not falling
+    Indices vertices;              // of the border, in the arc's direction; those of a closed one begin anew at the end
+    std::vector<double> stations;  // of their feet along the arc, not falling
 };
 
 struct Band {

@@ -62,9 +62,9 @@ int CutTriangle::add_on_side(int k, const Vector2& place) {
 
 // Between the ends of an edge: in a triangle without area a point may be on the lines of all sides.
 bool CutTriangle::is_on(int a, int b, int point) const {
-    const Vector2 way = places_[b] - places_[a];
-    const double along = way.dot(places_[point] - places_[a]);
-    return area(a, b, point) <= flat_ && along > 0.0 && along < way.squaredNorm();
+    const Vector2 chord = places_[b] - places_[a];
+    const double along = chord.dot(places_[point] - places_[a]);
+    return area(a, b, point) <= flat_ && along > 0.0 && along < chord.squaredNorm();
 }
 
 int CutTriangle::add_inside(const Vector2& place) {
@@ -144,17 +144,17 @@ void CutTriangle::make_delaunay() {
     }
 }
 
-// A point on the straight way between two others, the nearest to the first; `none` without.
+// A point on the straight line between two others, the nearest to the first; `none` without.
 int CutTriangle::point_between(int a, int b) const {
-    const Vector2 way = places_[b] - places_[a];
-    const double size = way.squaredNorm();
+    const Vector2 chord = places_[b] - places_[a];
+    const double size = chord.squaredNorm();
     int found = none;
     double nearest = 1.0;
     for (int p = 0; p < static_cast<int>(places_.size()); ++p) {
         if (p == a || p == b) continue;
         const Vector2 to = places_[p] - places_[a];
-        const double share = to.dot(way) / size;
-        if (share <= 0.0 || share >= nearest || std::abs(cross2(way, to)) > straight * size) continue;
+        const double share = to.dot(chord) / size;
+        if (share <= 0.0 || share >= nearest || std::abs(cross2(chord, to)) > straight * size) continue;
         nearest = share;
         found = p;
     }
@@ -172,7 +172,7 @@ bool CutTriangle::add_edge(int a, int b) {
     return false;
 }
 
-// What the way crosses is meshed anew on both of its sides (Anglada 1997).
+// What the line crosses is meshed anew on both of its sides (Anglada 1997).
 bool CutTriangle::join(int a, int b) {
     if (at(a, b) == none && at(b, a) == none) {
         const std::optional<Passage> passed = passage(a, b);
@@ -187,7 +187,7 @@ bool CutTriangle::join(int a, int b) {
     return true;
 }
 
-// Nothing where the way touches a point between, or an edge that is held.
+// Nothing where the line touches a point between, or an edge that is held.
 std::optional<CutTriangle::Passage> CutTriangle::passage(int a, int b) const {
     Passage found;
     int right = none;
@@ -216,7 +216,7 @@ std::optional<CutTriangle::Passage> CutTriangle::passage(int a, int b) const {
     return std::nullopt;
 }
 
-// The polygon on the left of the way from a to b, by triangles whose circles hold none of its points. Around an edge
+// The polygon on the left of the line from a to b, by triangles whose circles hold none of its points. Around an edge
 // that hangs into it a point comes twice: only one of both parts it well.
 bool CutTriangle::cover(int a, int b, const Indices& chain, std::vector<Corners>& made) const {
     if (chain.empty()) return true;

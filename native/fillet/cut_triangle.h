@@ -18,7 +18,7 @@ public:
     // Points come first on sides, then inside; each returns its number. On side k, from corner k on: in order.
     int add_on_side(int k, const Vector2& place);
     int add_inside(const Vector2& place);
-    // Makes the triangles round, and then the straight way between two points an edge. A point on that way parts it.
+    // Makes the triangles round, and then the straight line between two points an edge. A point on that line parts it.
     // False where roundoff leaves no way to do so, in a triangle with nearly no area.
     void make_delaunay();
     [[nodiscard]] bool add_edge(int a, int b);
@@ -38,7 +38,7 @@ private:
     void remove_sides(int triangle);
     bool flip(int a, int b);
     bool join(int a, int b);  // without points between
-    struct Passage {          // what the way between two points crosses, from the first one on
+    struct Passage {          // what the line between two points crosses, from the first one on
         Indices triangles;
         Indices left, right;  // points beside it
     };

@@ -23,8 +23,8 @@ double radius(const SeamMesh& mesh, const Piece& piece, const Vector3& middle) {
     return result;
 }
 
-// Distances change by no more than the way: pieces that can't hold the largest one, or none above `thin`, are left, the
-// others are quartered.
+// Distances change by no more than one moves: pieces that can't hold the largest one, or none above `thin`, are left,
+// the others are quartered.
 double farthest(const SeamMesh& mesh, const SeamDistance& distance, const Indices& triangles, double thin) {
     double best = 0.0;
     std::vector<Piece> open;

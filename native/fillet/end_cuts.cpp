@@ -20,14 +20,14 @@ constexpr double derivative = 1e-4;  // of a section's length
 // Directions in which seams leave vertices at which no other one does.
 std::map<int, Vector3> seam_ends(const SeamMesh& mesh) {
     std::map<int, int> count;
-    std::map<int, Vector3> ways;
+    std::map<int, Vector3> headings;
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none) continue;
         ++count[mesh.tail(h)];
-        ways[mesh.tail(h)] = direction(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h)));
+        headings[mesh.tail(h)] = direction(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h)));
     }
-    std::erase_if(ways, [&](const auto& way) { return count.at(way.first) != 1; });
-    return ways;
+    std::erase_if(headings, [&](const auto& heading) { return count.at(heading.first) != 1; });
+    return headings;
 }
 
 // Edges of walls from one point of the line to the next, the fillet on their left.
@@ -81,7 +81,7 @@ private:
     }
 
     // The middle of all seams that end there; zero without any.
-    [[nodiscard]] Vector3 seam_way(const Chain& chain, int& end) const {
+    [[nodiscard]] Vector3 seam_heading(const Chain& chain, int& end) const {
         Vector3 sum = Vector3::Zero();
         for (std::size_t k = 1; k + 1 < chain.size(); ++k) {
             const auto found = ends_.find(chain[k]);
@@ -99,16 +99,16 @@ private:
 
     void add_section(const Chain& chain, const EndFaces& faces, std::vector<EndSection>& sections) {
         int end = none;
-        const Vector3 way = seam_way(chain, end);
-        if (way.isZero()) return;
+        const Vector3 heading = seam_heading(chain, end);
+        if (heading.isZero()) return;
         const std::optional<Vector3> plane = faces.plane_beyond(chain);
-        if (!plane || std::abs(way.dot(*plane)) < slanted) return;
+        if (!plane || std::abs(heading.dot(*plane)) < slanted) return;
         const Vector3 begin = faces.place(chain.front());
         const Vector3 last = faces.place(chain.back());
         const Vector3 middle = faces.place(end);
-        const auto across = [&](const Vector3& v) { return Vector3(v - v.dot(way) * way); };
+        const auto across = [&](const Vector3& v) { return Vector3(v - v.dot(heading) * heading); };
         const auto along_side = [&](const VertexPair& side, const Vector3& place, const Vector3& wanted) {
-            const Vector3 found = side_normal(faces.parent(faces.at(side[0], side[1])), place).cross(way);
+            const Vector3 found = side_normal(faces.parent(faces.at(side[0], side[1])), place).cross(heading);
             return Vector3(found.dot(wanted) < 0.0 ? -found : found);
         };
         const CurveEnd from{across(begin - middle), along_side({chain[0], chain[1]}, begin, middle - begin)};
@@ -119,23 +119,23 @@ private:
         all << shares, (shares.array() - derivative).max(0.0), (shares.array() + derivative).min(1.0);
         const Points curve = fair_curve(from, to, all);
         const Vector3 normal = side_normal(faces.parent(faces.at(chain[0], chain[1])), begin);
-        const double sign = from.direction.cross(way).dot(normal) < 0.0 ? -1.0 : 1.0;
+        const double sign = from.direction.cross(heading).dot(normal) < 0.0 ? -1.0 : 1.0;
         EndSection section{chain, {}, {}, *plane, none, {}, {}, {}};
         for (Eigen::Index k = 0; k < shares.size(); ++k) {
             const Vector3 place = curve.col(k);
-            section.places.emplace_back(middle + place - place.dot(*plane) / way.dot(*plane) * way);
+            section.places.emplace_back(middle + place - place.dot(*plane) / heading.dot(*plane) * heading);
             const Vector3 tangent = curve.col(2 * shares.size() + k) - curve.col(shares.size() + k);
-            section.normals.emplace_back(sign * tangent.cross(way).normalized());
+            section.normals.emplace_back(sign * tangent.cross(heading).normalized());
         }
         sections.push_back(std::move(section));
     }
 
     // Of the chain's length, at its vertices.
     [[nodiscard]] static VectorX shares_along(const Chain& chain, const EndFaces& faces) {
-        std::vector<double> ways{0.0};
+        std::vector<double> lengths{0.0};
         for (std::size_t k = 1; k < chain.size(); ++k)
-            ways.push_back(ways.back() + (faces.place(chain[k]) - faces.place(chain[k - 1])).norm());
-        return VectorX::Map(ways.data(), std::ssize(ways)) / ways.back();
+            lengths.push_back(lengths.back() + (faces.place(chain[k]) - faces.place(chain[k - 1])).norm());
+        return VectorX::Map(lengths.data(), std::ssize(lengths)) / lengths.back();
     }
 
     const SeamMesh& mesh_;

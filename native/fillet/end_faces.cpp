@@ -87,8 +87,8 @@ bool EndFaces::lies_in(int given, const Vector3& plane, const Vector3& origin) c
     const auto [a, b, c] = corners_given(given);
     const double extent = std::max((place(b) - place(a)).norm(), (place(c) - place(a)).norm());
     for (const int v : {a, b, c}) {
-        const Vector3 way = place(v) - origin;
-        if (std::abs(way.dot(plane)) > flat * std::max(extent, way.norm())) return false;
+        const Vector3 offset = place(v) - origin;
+        if (std::abs(offset.dot(plane)) > flat * std::max(extent, offset.norm())) return false;
     }
     return area_vector(place(a), place(b), place(c)).dot(plane) >= 0.0;
 }
@@ -125,9 +125,9 @@ void EndFaces::replace(std::vector<EndSection>& sections) {
             continue;
         }
         const auto is_there = [&](const std::vector<EndSection*>& face) {
-            const Vector3 way = origin - place(face.front()->chain.front());
+            const Vector3 offset = origin - place(face.front()->chain.front());
             return section.plane.dot(face.front()->plane) > 1.0 - flat &&
-                   std::abs(way.dot(section.plane)) <= flat * way.norm();
+                   std::abs(offset.dot(section.plane)) <= flat * offset.norm();
         };
         const auto found = std::ranges::find_if(faces, is_there);
         (found == faces.end() ? faces.emplace_back() : *found).push_back(&section);

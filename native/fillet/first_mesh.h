@@ -1,5 +1,5 @@
 // The mesh that a fillet's new one begins with: the pieces of the old one, without what booleans leave. Triangles of
-// nearly no area stop all moves of a mesh that is made even, and places that no shortest way enters look as if they
+// nearly no area stop all moves of a mesh that is made even, and places that no shortest path enters look as if they
 // were outside.
 #pragma once
 

@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double steepest = 1.5;  // values change by at most that times the way, at widths that change by one along it
+constexpr double steepest = 1.5;  // values change by at most that times the distance, at widths that change by one
 
 }  // namespace
 
@@ -47,9 +47,9 @@ HalvedMesh::HalvedMesh(const SeamMesh& mesh, const SeamDistance& distance, doubl
         const auto long_and_cut = [&] {
             const Piece& piece = pieces_[p];
             const int side = longest_side(piece);
-            const Vector3 way = nodes_[piece.nodes[side]].place - nodes_[piece.nodes[(side + 1) % 3]].place;
-            return way.norm() > resolution * std::min(nodes_[piece.nodes[side]].size,
-                                                      nodes_[piece.nodes[(side + 1) % 3]].size) &&
+            const Vector3 offset = nodes_[piece.nodes[side]].place - nodes_[piece.nodes[(side + 1) % 3]].place;
+            return offset.norm() > resolution * std::min(nodes_[piece.nodes[side]].size,
+                                                         nodes_[piece.nodes[(side + 1) % 3]].size) &&
                    is_cut(piece);
         };
         while (long_and_cut()) halve(static_cast<int>(p));

@@ -78,7 +78,7 @@ private:
         return distance_.value(piece.triangle, weights);
     }
 
-    // As a share of the way from the node inside. Regula falsi that halves the end's value that stays (Dowell &
+    // As a share of the length from the node inside. Regula falsi that halves the end's value that stays (Dowell &
     // Jarratt 1971), and the interval where that is infinite.
     [[nodiscard]] double root(int p, int k, int inner) const {
         const int other = halves_.across(p, k);

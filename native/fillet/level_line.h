@@ -10,7 +10,7 @@ struct LinePoint {
     Vector3 place;
     int vertex;       // of the mesh that it is, or `none`;
     int edge;         // the number of the edge that it is on, as SeamMesh has it, or `none`:
-    double along;     // then the way from that edge's smaller vertex, as a share of 1
+    double along;     // then the distance from that edge's smaller vertex, as a share of 1
     int triangle;     // that it is in or beside,
     Vector3 weights;  // and where there
     [[nodiscard]] bool bound() const { return vertex != none || edge != none; }

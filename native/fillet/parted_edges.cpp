@@ -35,7 +35,7 @@ struct Parts {
         growth = std::log(last / first);
         wanted = mesh.length[h] / spacing * (std::abs(growth) > equal ? growth / (last - first) : 1.0 / first);
     }
-    // Where part k of so many begins, as a share of the way.
+    // Where part k of so many begins, as a share of the length.
     [[nodiscard]] double begin(int k, int count) const {
         const double share = static_cast<double>(k) / count;
         return std::abs(growth) > equal ? std::expm1(growth * share) / std::expm1(growth) : share;

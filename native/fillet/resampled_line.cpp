@@ -69,30 +69,30 @@ private:
     }
 
     void add_piece(const Indices& chain, int triangle) {
-        std::vector<double> way{0.0};  // in spacings
+        std::vector<double> offset{0.0};  // in spacings
         double length = 0.0;
         double bulge = 0.0;
         const Vector3 chord = place(chain.back()) - place(chain.front());
         for (std::size_t k = 1; k < chain.size(); ++k) {
             const double step = (place(chain[k]) - place(chain[k - 1])).norm();
             length += step;
-            way.push_back(way.back() + step / spacing_between(chain[k - 1], chain[k], triangle));
+            offset.push_back(offset.back() + step / spacing_between(chain[k - 1], chain[k], triangle));
             const Vector3 off = place(chain[k]) - place(chain.front());
             const double size = chord.squaredNorm();
             bulge = std::max(bulge, size > 0.0 ? (off - off.dot(chord) / size * chord).norm() : off.norm());
         }
         const bool closed = chain.front() == chain.back();
-        auto count = static_cast<int>(std::ceil(way.back() / longest_edge - nearly_whole));
+        auto count = static_cast<int>(std::ceil(offset.back() / longest_edge - nearly_whole));
         if (closed || bulge > straight * length || runs_straight(chain.front(), chain.back(), triangle))
-            count = static_cast<int>(std::lround(way.back()));
+            count = static_cast<int>(std::lround(offset.back()));
         count = std::max(count, 1);
         if (closed) count = std::max(count, fewest_of_loop);
         int from = taken(chain.front());
         std::size_t at = 1;
         for (int k = 1; k < count; ++k) {
-            const double wanted = way.back() * k / count;
-            while (at + 1 < way.size() && way[at] < wanted) ++at;
-            const double share = (wanted - way[at - 1]) / (way[at] - way[at - 1]);
+            const double wanted = offset.back() * k / count;
+            while (at + 1 < offset.size() && offset[at] < wanted) ++at;
+            const double share = (wanted - offset[at - 1]) / (offset[at] - offset[at - 1]);
             made_.points.push_back(between(chain[at - 1], chain[at], share, triangle));
             const int to = static_cast<int>(made_.points.size()) - 1;
             made_.segments.push_back({from, to, triangle});
@@ -117,9 +117,9 @@ private:
         if (known.triangle == triangle) return known.weights;
         const int h = 3 * triangle;
         const Vector3 x = (mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h))) / mesh_.length[h];
-        const Vector3 way = known.place - mesh_.points.col(mesh_.tail(h));
-        const double along = way.dot(x);
-        return weights_at(h, {along, (way - along * x).norm()});
+        const Vector3 offset = known.place - mesh_.points.col(mesh_.tail(h));
+        const double along = offset.dot(x);
+        return weights_at(h, {along, (offset - along * x).norm()});
     }
 
     [[nodiscard]] Vector3 weights_at(int h, const Vector2& place) const {
@@ -135,8 +135,8 @@ private:
         const Vector3 first = weights_in(a, triangle);
         const Vector3 second = weights_in(b, triangle);
         Vector3 weights = first + share * (second - first);
-        const Vector2 way = mesh_.in_frame(h, second) - mesh_.in_frame(h, first);
-        const Vector2 inward = Vector2(-way[1], way[0]).normalized();
+        const Vector2 offset = mesh_.in_frame(h, second) - mesh_.in_frame(h, first);
+        const Vector2 inward = Vector2(-offset[1], offset[0]).normalized();
         for (int step = 0; step < most_steps; ++step) {
             const double value = distance_.value(triangle, weights);
             if (!std::isfinite(value)) break;

@@ -8,7 +8,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double round_corner = 0.6;  // of the width: a longer way around a corner is a side of its own
+constexpr double round_corner = 0.6;  // of the width: a longer path around a corner is a side of its own
 constexpr double least_spoke = 0.1;   // of the width: so far from a corner a strip ends, or more
 
 class Making {
@@ -104,15 +104,15 @@ private:
 
     void extend(const BandEnd& end, Side which, int vertex) {
         RowStrip& strip = strips_[end.band].rows;
-        auto& [vertices, ways] = strip.sides[which];
+        auto& [vertices, stations] = strip.sides[which];
         if (end.at_last) {
             const double step = surface_.length_before(vertex, vertices.back());
             vertices.push_back(vertex);
-            ways.push_back(std::max(ways.back(), std::min(strip.arc->length(), ways.back() + step)));
+            stations.push_back(std::max(stations.back(), std::min(strip.arc->length(), stations.back() + step)));
         } else {
             const double step = surface_.length_before(vertex, vertices.front());
             vertices.insert(vertices.begin(), vertex);
-            ways.insert(ways.begin(), std::min(ways.front(), std::max(0.0, ways.front() - step)));
+            stations.insert(stations.begin(), std::min(stations.front(), std::max(0.0, stations.front() - step)));
         }
     }
 
@@ -176,9 +176,9 @@ private:
         const SeamArc& arc = bands_.bands[end.band].arc;
         const Column& column = last_column(end);
         const double from = end.at_last ? arc.length() : 0.0;
-        if (std::abs(column.way - from) < least_spoke * sizes_.width) throw NoRows();
+        if (std::abs(column.station - from) < least_spoke * sizes_.width) throw NoRows();
         Indices found = surface_.between(middle, column.ids[half_], half_);
-        for (int k = 1; k < half_; ++k) columns_.lift(found[k - 1], arc, from + (column.way - from) * k / half_);
+        for (int k = 1; k < half_; ++k) columns_.lift(found[k - 1], arc, from + (column.station - from) * k / half_);
         found.insert(found.begin(), middle);
         found.push_back(column.ids[half_]);
         return found;
@@ -191,7 +191,7 @@ private:
                                      : Indices(ids.begin() + half_, ids.end());
     }
 
-    // Blocks around a pole: one in each sector, two where the way around it is long.
+    // Blocks around a pole: one in each sector, two where the path around it is long.
     void lay(const std::vector<Sector>& sectors, std::vector<Quad>& quads) {
         Vector3 sum = Vector3::Zero();
         for (const Sector& sector : sectors) sum += surface_.place(last_column(sector.from).ids[half_]);

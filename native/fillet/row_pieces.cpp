@@ -49,18 +49,20 @@ bool RowPieces::is_whole_wall(const Piece& piece, int which) const {
 // Of the first column and of the last one: away from where rows end, which is straight across.
 std::array<Pair, 2> RowPieces::bounds(Piece& piece) const {
     std::array<Pair, 2> found = piece.outer;
-    const auto way = [&](std::size_t which, Side side) { return strip_.sides[side].ways[piece.outer[which][side]]; };
-    const double begin = std::max(way(0, right), way(0, left));
-    const double end = std::min(way(1, right), way(1, left));
+    const auto station = [&](std::size_t which, Side side) {
+        return strip_.sides[side].stations[piece.outer[which][side]];
+    };
+    const double begin = std::max(station(0, right), station(0, left));
+    const double end = std::min(station(1, right), station(1, left));
     const double room = end_room * sizes_.width;
     const auto ends = [&](int which) { return piece.ends[which] != RowEnd::corner && !is_whole_wall(piece, which); };
     for (const Side side : {right, left}) {
-        const std::vector<double>& ways = strip_.sides[side].ways;
+        const std::vector<double>& stations = strip_.sides[side].stations;
         const auto up_to = [&](double to) {
-            return static_cast<int>(std::upper_bound(ways.begin(), ways.end(), to) - ways.begin()) - 1;
+            return static_cast<int>(std::upper_bound(stations.begin(), stations.end(), to) - stations.begin()) - 1;
         };
         const auto from = [&](double at) {
-            return static_cast<int>(std::lower_bound(ways.begin(), ways.end(), at) - ways.begin());
+            return static_cast<int>(std::lower_bound(stations.begin(), stations.end(), at) - stations.begin());
         };
         if (piece.ends[0] == RowEnd::open) piece.outer[0][side] = std::max(piece.outer[0][side], up_to(begin));
         if (piece.ends[1] == RowEnd::open) piece.outer[1][side] = std::min(piece.outer[1][side], from(end));
@@ -72,12 +74,12 @@ std::array<Pair, 2> RowPieces::bounds(Piece& piece) const {
 }
 
 // From the right to the left, from the last column out, over, and back.
-Indices RowPieces::beyond(const Column& last, const Piece& piece, int which, const Indices& way) const {
+Indices RowPieces::beyond(const Column& last, const Piece& piece, int which, const Indices& path) const {
     const int step = which == 0 ? -1 : 1;
     Indices far;
     for (int k = last.at[right]; k != piece.outer[which][right]; k += step)
         far.push_back(strip_.sides[right].vertices[k]);
-    far.insert(far.end(), way.begin(), way.end());
+    far.insert(far.end(), path.begin(), path.end());
     for (int k = piece.outer[which][left]; k != last.at[left];) {
         k -= step;
         far.push_back(strip_.sides[left].vertices[k]);
@@ -90,16 +92,16 @@ bool RowPieces::add_end(const Column& last, const Piece& piece, int which) {
     if (piece.ends[which] == RowEnd::corner || is_whole_wall(piece, which)) return true;
     const Pair& outer = piece.outer[which];
     const bool is_open = piece.ends[which] == RowEnd::open;
-    const Indices way = is_open ? surface_.way_within(strip_.sides[right].vertices[outer[right]],
-                                                      strip_.sides[left].vertices[outer[left]])
-                                : strip_.walls[which];
-    const Indices far = beyond(last, piece, which, way);
+    const Indices path = is_open ? surface_.path_within(strip_.sides[right].vertices[outer[right]],
+                                                        strip_.sides[left].vertices[outer[left]])
+                                 : strip_.walls[which];
+    const Indices far = beyond(last, piece, which, path);
     const std::vector<Eigen::Vector3i> made = which == 0 ? surface_.zip(last.ids, far) : surface_.zip(far, last.ids);
     if (made.empty()) return false;
     strip_.triangles.insert(strip_.triangles.end(), made.begin(), made.end());
     if (!is_open) return true;
-    surface_.take(way, owner_);
-    for (std::size_t k = 0; k + 1 < way.size(); ++k) strip_.edges.push_back({way[k], way[k + 1]});
+    surface_.take(path, owner_);
+    for (std::size_t k = 0; k + 1 < path.size(); ++k) strip_.edges.push_back({path[k], path[k + 1]});
     return true;
 }
 

@@ -7,7 +7,7 @@ namespace fairing {
 
 class RowPieces {
 public:
-    // Keeps references. `owner`: of the ways over the surface at which rows end.
+    // Keeps references. `owner`: of the paths over the surface at which rows end.
     RowPieces(RowColumns& columns, RowSurface& surface, const RowSizes& sizes, RowStrip& strip, int owner)
         : columns_(columns), surface_(surface), sizes_(sizes), strip_(strip), owner_(owner) {}
 
@@ -25,7 +25,7 @@ private:
     [[nodiscard]] std::array<Pair, 2> bounds(Piece& piece) const;
     [[nodiscard]] bool is_whole_wall(const Piece& piece, int which) const;
     bool add_end(const Column& last, const Piece& piece, int which);
-    [[nodiscard]] Indices beyond(const Column& last, const Piece& piece, int which, const Indices& way) const;
+    [[nodiscard]] Indices beyond(const Column& last, const Piece& piece, int which, const Indices& path) const;
 
     RowColumns& columns_;
     RowSurface& surface_;

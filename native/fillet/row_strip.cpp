@@ -21,26 +21,26 @@ constexpr double skew = 0.4;         // of the width: a column leads no further 
 constexpr double seen = 1.05;        // of width · tan(turn / 2): as far along are feet of what lies across from a turn
 constexpr std::size_t fewest = 5;    // columns of a closed strip, the first one twice
 
-double way_of(const RowStrip& strip, const Pair& at) {
-    return 0.5 * (strip.sides[right].ways[at[right]] + strip.sides[left].ways[at[left]]);
+double station_of(const RowStrip& strip, const Pair& at) {
+    return 0.5 * (strip.sides[right].stations[at[right]] + strip.sides[left].stations[at[left]]);
 }
 
 double turn_at(const SeamMesh& mesh, const SeamArc& arc, std::size_t k) {
-    const auto way = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
+    const auto chord = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
     const std::size_t count = arc.half_edges.size();
-    return radians_between(way(arc.half_edges[(k + count - 1) % count]), way(arc.half_edges[k]));
+    return radians_between(chord(arc.half_edges[(k + count - 1) % count]), chord(arc.half_edges[k]));
 }
 
 // Of a closed seam: where it turns, or across from an edge outside.
 double begin_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must) {
     for (std::size_t k = 0; k < band.arc.half_edges.size(); ++k) {
-        if (turn_at(mesh, band.arc, k) >= corner_angle) return band.arc.ways[k];
+        if (turn_at(mesh, band.arc, k) >= corner_angle) return band.arc.stations[k];
     }
     for (const BandSide& side : band.sides) {
         const auto found = std::ranges::find_if(side.vertices, [&](int v) { return must[v] != 0; });
-        if (found != side.vertices.end()) return side.ways[found - side.vertices.begin()];
+        if (found != side.vertices.end()) return side.stations[found - side.vertices.begin()];
     }
-    return band.sides[right].ways.front();
+    return band.sides[right].stations.front();
 }
 
 }  // namespace
@@ -53,13 +53,13 @@ void RowStrip::turn_to(const Pair& at) {
     for (const Side side : {right, left}) {
         BandSide& own = sides[side];
         own.vertices.pop_back();
-        own.ways.pop_back();
+        own.stations.pop_back();
         const auto begin = at[side] % std::ssize(own.vertices);
-        for (int k = 0; k < begin; ++k) own.ways[k] += arc->length();
+        for (int k = 0; k < begin; ++k) own.stations[k] += arc->length();
         std::rotate(own.vertices.begin(), own.vertices.begin() + begin, own.vertices.end());
-        std::rotate(own.ways.begin(), own.ways.begin() + begin, own.ways.end());
+        std::rotate(own.stations.begin(), own.stations.begin() + begin, own.stations.end());
         own.vertices.push_back(own.vertices.front());
-        own.ways.push_back(own.ways.front() + arc->length());
+        own.stations.push_back(own.stations.front() + arc->length());
     }
 }
 
@@ -69,13 +69,13 @@ RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char
         strip.closed = strip.closed && side.vertices.size() > 3 && side.vertices.front() == side.vertices.back();
     if (!strip.closed) return strip;
     const double length = band.arc.length();
-    const double way = begin_of(mesh, band, must);
+    const double station = begin_of(mesh, band, must);
     Pair at{};
     for (const Side side : {right, left}) {
         BandSide& own = strip.sides[side];
         const auto off = [&](int k) {
             const double bonus = must[own.vertices[k]] != 0 ? pairing * width : 0.0;
-            return std::abs(std::remainder(own.ways[k] - way, length)) - bonus;
+            return std::abs(std::remainder(own.stations[k] - station, length)) - bonus;
         };
         for (int k = 1; k + 1 < std::ssize(own.vertices); ++k) {
             if (off(k) < off(at[side])) at[side] = k;
@@ -83,8 +83,8 @@ RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char
         int last = at[side];  // of several that are reached from one place the middle one
         while (last + 2 < std::ssize(own.vertices) && off(last + 1) == off(at[side])) ++last;
         at[side] = (at[side] + last) / 2;
-        const double laps = std::round((own.ways[at[side]] - way) / length);
-        for (double& each : own.ways) each -= laps * length;
+        const double laps = std::round((own.stations[at[side]] - station) / length);
+        for (double& each : own.stations) each -= laps * length;
     }
     strip.turn_to(at);
     return strip;
@@ -97,18 +97,18 @@ void add_quads(const std::vector<Indices>& grid, std::vector<Quad>& quads) {
     }
 }
 
-Vector3 RowColumns::on_seam(const SeamArc& arc, double way, int& half_edge) const {
-    const double on_arc = arc.closed ? way - arc.length() * std::floor(way / arc.length()) : way;
-    const auto after = std::upper_bound(arc.ways.begin(), arc.ways.end(), on_arc) - arc.ways.begin();
+Vector3 RowColumns::on_seam(const SeamArc& arc, double station, int& half_edge) const {
+    const double on_arc = arc.closed ? station - arc.length() * std::floor(station / arc.length()) : station;
+    const auto after = std::upper_bound(arc.stations.begin(), arc.stations.end(), on_arc) - arc.stations.begin();
     const auto k = std::clamp<std::ptrdiff_t>(after - 1, 0, std::ssize(arc.half_edges) - 1);
     half_edge = arc.half_edges[k];
-    const double along = std::clamp((on_arc - arc.ways[k]) / mesh_.length[half_edge], 0.0, 1.0);
+    const double along = std::clamp((on_arc - arc.stations[k]) / mesh_.length[half_edge], 0.0, 1.0);
     return (1.0 - along) * mesh_.points.col(mesh_.tail(half_edge)) + along * mesh_.points.col(mesh_.head(half_edge));
 }
 
-void RowColumns::lift(int vertex, const SeamArc& arc, double way) {
+void RowColumns::lift(int vertex, const SeamArc& arc, double station) {
     int half_edge = none;
-    const Vector3 before = on_seam(arc, way, half_edge);
+    const Vector3 before = on_seam(arc, station, half_edge);
     surface_.lift(vertex, half_edge, before);
 }
 
@@ -117,7 +117,7 @@ Column RowColumns::column(const RowStrip& strip, const Crossing& crossing) {
     const int from = strip.sides[right].vertices[crossing.at[right]];
     const int to = strip.sides[left].vertices[crossing.at[left]];
     int half_edge = none;
-    const Vector3 seam = on_seam(*strip.arc, crossing.way, half_edge);
+    const Vector3 seam = on_seam(*strip.arc, crossing.station, half_edge);
     const Vector3 come = surface_.place(from) - seam;
     const Vector3 go = surface_.place(to) - seam;
     const double weight = std::sin(0.5 * radians_between(come, go));  // a circle's, between sides of one length
@@ -125,24 +125,24 @@ Column RowColumns::column(const RowStrip& strip, const Crossing& crossing) {
         const double begin = (1.0 - t) * (1.0 - t);
         return Vector3(seam + (begin * come + t * t * go) / (begin + 2.0 * weight * t * (1.0 - t) + t * t));
     };
-    Column made{crossing.at, crossing.way, surface_.along(conic, sizes_.rows)};
+    Column made{crossing.at, crossing.station, surface_.along(conic, sizes_.rows)};
     surface_.lift(made.ids[sizes_.rows / 2 - 1], half_edge, seam);
     made.ids.insert(made.ids.begin(), from);
     made.ids.push_back(to);
     return made;
 }
 
-// The vertex on a side that is nearest to a way; one that an edge outside needs comes first if it is near, too.
-int RowColumns::nearest(const BandSide& side, double way) const {
+// The vertex on a side that is nearest to a station; one that an edge outside needs comes first if it is near, too.
+int RowColumns::nearest(const BandSide& side, double station) const {
     const auto off = [&](int k) {
-        return std::abs(side.ways[k] - way) - (must_[side.vertices[k]] != 0 ? pairing * sizes_.width : 0.0);
+        return std::abs(side.stations[k] - station) - (must_[side.vertices[k]] != 0 ? pairing * sizes_.width : 0.0);
     };
     int best = 0;
-    for (int k = 1; k < std::ssize(side.ways); ++k) {
+    for (int k = 1; k < std::ssize(side.stations); ++k) {
         if (off(k) < off(best)) best = k;
     }
     int last = best;  // of several that are reached from one place, as around a corner, the middle one
-    while (last + 1 < std::ssize(side.ways) && off(last + 1) == off(best)) ++last;
+    while (last + 1 < std::ssize(side.stations) && off(last + 1) == off(best)) ++last;
     return (best + last) / 2;
 }
 
@@ -152,19 +152,19 @@ std::vector<RowColumns::Turn> RowColumns::turns(const SeamArc& arc, double from)
     const std::size_t count = arc.half_edges.size();
     for (std::size_t k = arc.closed ? 0 : 1; k < count; ++k) {
         const double angle = turn_at(mesh_, arc, k);
-        const double first = arc.closed ? std::floor((from - arc.ways[k]) / arc.length()) : 0.0;
+        const double first = arc.closed ? std::floor((from - arc.stations[k]) / arc.length()) : 0.0;
         for (int lap = 0; lap < (arc.closed ? 3 : 1); ++lap)
-            found.push_back({arc.ways[k] + (first + lap) * arc.length(), angle});
+            found.push_back({arc.stations[k] + (first + lap) * arc.length(), angle});
     }
     return found;
 }
 
 // What lies across from a turn has its foot beside it: the column leads over the turn.
-double RowColumns::over_turn(double way, const std::vector<Turn>& turns) const {
+double RowColumns::over_turn(double station, const std::vector<Turn>& turns) const {
     for (const auto& [at, angle] : turns) {
-        if (std::abs(way - at) <= seen * sizes_.width * std::tan(0.5 * angle)) way = at;
+        if (std::abs(station - at) <= seen * sizes_.width * std::tan(0.5 * angle)) station = at;
     }
-    return way;
+    return station;
 }
 
 // Where the seam turns, and across from each vertex that an edge outside needs.
@@ -182,17 +182,17 @@ std::vector<RowColumns::Crossing> RowColumns::wanted(const RowStrip& strip, cons
             if (must_[own.vertices[k]] == 0) continue;
             Pair at{};
             at[side] = k;
-            at[1 - side] = nearest(across, own.ways[k]);
-            if (std::abs(across.ways[at[1 - side]] - own.ways[k]) <= skew * sizes_.width)
-                found.push_back({at, over_turn(way_of(strip, at), turns)});
+            at[1 - side] = nearest(across, own.stations[k]);
+            if (std::abs(across.stations[at[1 - side]] - own.stations[k]) <= skew * sizes_.width)
+                found.push_back({at, over_turn(station_of(strip, at), turns)});
         }
     }
-    std::ranges::stable_sort(found, {}, &Crossing::way);
+    std::ranges::stable_sort(found, {}, &Crossing::station);
     return found;
 }
 
 bool RowColumns::is_clear(const RowStrip& strip, const Crossing& one, const Crossing& two) const {
-    return two.way > one.way && std::ranges::all_of(std::array{right, left}, [&](Side side) {
+    return two.station > one.station && std::ranges::all_of(std::array{right, left}, [&](Side side) {
                const Indices& own = strip.sides[side].vertices;
                return two.at[side] > one.at[side] &&
                       surface_.length_before(own[two.at[side]], own[one.at[side]]) >= near_column * sizes_.width;
@@ -201,10 +201,10 @@ bool RowColumns::is_clear(const RowStrip& strip, const Crossing& one, const Cros
 
 std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first, const Pair& last,
                                         const std::array<Indices, 2>& given) {
-    const double from = way_of(strip, first);
+    const double from = station_of(strip, first);
     const std::vector<Turn> turned = turns(*strip.arc, from);
     const Crossing begin{first, strip.closed ? over_turn(from, turned) : from};
-    const Crossing end{last, strip.closed ? begin.way + strip.arc->length() : way_of(strip, last)};
+    const Crossing end{last, strip.closed ? begin.station + strip.arc->length() : station_of(strip, last)};
     std::vector<Crossing> crossings{begin};
     for (const Crossing& each : wanted(strip, first, last, turned)) {
         if (is_clear(strip, crossings.back(), each) && is_clear(strip, each, end)) crossings.push_back(each);
@@ -212,7 +212,7 @@ std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first
     std::vector<Column> made;
     made.reserve(crossings.size() + 1);
     for (const Crossing& each : crossings) made.push_back(column(strip, each));
-    made.push_back(strip.closed ? Column{end.at, end.way, made.front().ids} : column(strip, end));
+    made.push_back(strip.closed ? Column{end.at, end.station, made.front().ids} : column(strip, end));
     if (!given[0].empty()) made.front().ids = given[0];
     if (!given[1].empty()) made.back().ids = given[1];
     for (std::size_t k = 0; k + 1 < made.size();) {  // more where the surface is not straight
@@ -230,8 +230,8 @@ std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first
 // Half way between two columns, where these are not near.
 std::optional<RowColumns::Crossing> RowColumns::between(const RowStrip& strip, const Column& one,
                                                         const Column& two) const {
-    Crossing found{{}, 0.5 * (one.way + two.way)};
-    if (two.way - one.way <= shortest * sizes_.width) return std::nullopt;
+    Crossing found{{}, 0.5 * (one.station + two.station)};
+    if (two.station - one.station <= shortest * sizes_.width) return std::nullopt;
     for (const Side side : {right, left}) {
         if (two.at[side] - one.at[side] < 2) return std::nullopt;
         found.at[side] = half_way(strip.sides[side], one.at[side], two.at[side]);
@@ -249,7 +249,7 @@ int RowColumns::half_way(const BandSide& side, int begin, int end) const {
 
 bool RowColumns::is_bent(const Column& one, const Column& middle, const Column& two) const {
     const auto at = [&](int v) { return surface_.place(v); };
-    const double share = two.way > one.way ? (middle.way - one.way) / (two.way - one.way) : 0.5;
+    const double share = two.station > one.station ? (middle.station - one.station) / (two.station - one.station) : 0.5;
     const Vector3 chord = 0.5 * (at(middle.ids.front()) + at(middle.ids.back()));
     double off = 0.0;
     double bulge = std::numeric_limits<double>::infinity();

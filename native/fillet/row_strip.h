@@ -18,9 +18,9 @@ enum class RowEnd { corner, wall, open };
 using Pair = std::array<int, 2>;
 
 struct Column {
-    Pair at;      // by their places on the sides
-    double way;   // along the seam
-    Indices ids;  // from the right to the left
+    Pair at;         // by their places on the sides
+    double station;  // along the seam
+    Indices ids;     // from the right to the left
 };
 
 struct RowStrip {
@@ -55,22 +55,22 @@ public:
     // `given`: the first and the last one, or empty.
     std::vector<Column> columns(const RowStrip& strip, const Pair& first, const Pair& last,
                                 const std::array<Indices, 2>& given = {});
-    // As on the seam, `way` along it.
-    void lift(int vertex, const SeamArc& arc, double way);
+    // As on the seam, `station` along it.
+    void lift(int vertex, const SeamArc& arc, double station);
 
 private:
     struct Crossing {
         Pair at;
-        double way;
+        double station;
     };
-    [[nodiscard]] Vector3 on_seam(const SeamArc& arc, double way, int& half_edge) const;
+    [[nodiscard]] Vector3 on_seam(const SeamArc& arc, double station, int& half_edge) const;
     Column column(const RowStrip& strip, const Crossing& crossing);
-    [[nodiscard]] int nearest(const BandSide& side, double way) const;
+    [[nodiscard]] int nearest(const BandSide& side, double station) const;
     struct Turn {
-        double way, angle;
+        double station, angle;
     };
     [[nodiscard]] std::vector<Turn> turns(const SeamArc& arc, double from) const;
-    [[nodiscard]] double over_turn(double way, const std::vector<Turn>& turns) const;
+    [[nodiscard]] double over_turn(double station, const std::vector<Turn>& turns) const;
     [[nodiscard]] std::vector<Crossing> wanted(const RowStrip& strip, const Pair& first, const Pair& last,
                                                const std::vector<Turn>& turns) const;
     [[nodiscard]] bool is_clear(const RowStrip& strip, const Crossing& one, const Crossing& two) const;

@@ -8,7 +8,7 @@ namespace fairing {
 
 namespace {
 
-constexpr int samples = 4;            // for each edge: ways on the fillet are measured in so many chords
+constexpr int samples = 4;            // for each edge: lengths on the fillet are measured in so many chords
 constexpr double least_round = 1e-4;  // twice the area over the longest side squared: lower triangles are none
 constexpr double most_wide = 170.0;   // degrees: short of a quad that is not convex
 
@@ -70,15 +70,15 @@ void RowSurface::lift(int vertex, int half_edge, const Vector3& before) {
 
 Indices RowSurface::along(const std::function<Vector3(double)>& curve, int parts) {
     const int steps = samples * parts;
-    std::vector<double> ways{0.0};
+    std::vector<double> lengths{0.0};
     for (int k = 1; k <= steps; ++k)
-        ways.push_back(ways.back() + (curve(static_cast<double>(k) / steps) - curve((k - 1.0) / steps)).norm());
+        lengths.push_back(lengths.back() + (curve(static_cast<double>(k) / steps) - curve((k - 1.0) / steps)).norm());
     Indices found;
     for (int k = 1, at = 0; k < parts; ++k) {
-        const double wanted = ways.back() * k / parts;
-        while (at + 1 < steps && ways[at + 1] < wanted) ++at;
-        const double step = ways[at + 1] - ways[at];
-        found.push_back(add(curve((at + (step > 0.0 ? (wanted - ways[at]) / step : 0.0)) / steps)));
+        const double wanted = lengths.back() * k / parts;
+        while (at + 1 < steps && lengths[at + 1] < wanted) ++at;
+        const double step = lengths[at + 1] - lengths[at];
+        found.push_back(add(curve((at + (step > 0.0 ? (wanted - lengths[at]) / step : 0.0)) / steps)));
     }
     return found;
 }
@@ -89,7 +89,7 @@ Indices RowSurface::between(int from, int to, int parts) {
     return along([&](double t) { return Vector3((1.0 - t) * begin + t * end); }, parts);
 }
 
-Indices RowSurface::way_within(int from, int to) const {
+Indices RowSurface::path_within(int from, int to) const {
     NearestFirst reached(VectorX::Constant(count(), std::numeric_limits<double>::infinity()));
     Indices come(static_cast<std::size_t>(count()), none);
     reached.lower(from, 0.0);
@@ -100,14 +100,14 @@ Indices RowSurface::way_within(int from, int to) const {
             if (reached.lower(other, reached[v] + (place(other) - place(v)).norm())) come[other] = v;
         }
     }
-    Indices way{to};
-    while (way.back() != from) way.push_back(come[way.back()]);
-    std::reverse(way.begin(), way.end());
-    return way;
+    Indices path{to};
+    while (path.back() != from) path.push_back(come[path.back()]);
+    std::reverse(path.begin(), path.end());
+    return path;
 }
 
-void RowSurface::take(const Indices& way, int owner) {
-    for (std::size_t k = 1; k + 1 < way.size(); ++k) taken_[way[k]] = owner;
+void RowSurface::take(const Indices& path, int owner) {
+    for (std::size_t k = 1; k + 1 < path.size(); ++k) taken_[path[k]] = owner;
 }
 
 void RowSurface::leave(int owner) {

@@ -43,13 +43,13 @@ public:
     // On the surface, nearest to a place.
     int add(const Vector3& near);
     void lift(int vertex, int half_edge, const Vector3& before);
-    // New vertices that part a curve over 0 to 1, or a straight way, into edges of one length; without its ends.
+    // New vertices that part a curve over 0 to 1, or a straight line, into edges of one length; without its ends.
     Indices along(const std::function<Vector3(double)>& curve, int parts);
     Indices between(int from, int to, int parts);
-    // The shortest way over inner edges between two vertices of the border, clear of others that were asked for and
+    // The shortest path over inner edges between two vertices of the border, clear of others that were asked for and
     // taken. Throws NoRows.
-    [[nodiscard]] Indices way_within(int from, int to) const;
-    void take(const Indices& way, int owner);
+    [[nodiscard]] Indices path_within(int from, int to) const;
+    void take(const Indices& path, int owner);
     void leave(int owner);
 
     [[nodiscard]] bool are_good(const std::vector<Quad>& quads) const;  // convex, and not turned over
@@ -71,7 +71,7 @@ private:
     std::map<int, int> next_, previous_;  // on the border
     std::vector<std::set<int>> beside_;
     Points normals_;
-    std::map<int, int> taken_;  // inner vertices on ways: by whom
+    std::map<int, int> taken_;  // inner vertices on paths: by whom
     std::vector<RowVertex> made_;
 };
 

@@ -9,7 +9,7 @@ namespace fairing {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();  // not reached yet
-constexpr double right_angle = 0.5 * std::numbers::pi;                // shortest ways leave the seam at one
+constexpr double right_angle = 0.5 * std::numbers::pi;                // shortest paths leave the seam at one
 constexpr double roundoff = 1e-9;  // relative: neighbouring windows overlap by that, so that no crack is between them
 
 Vector2 turned_left(const Vector2& v) { return {-v[1], v[0]}; }
@@ -103,14 +103,16 @@ void SeamDistance::seed_sector(int first_half_edge, const SeamWidths& widths) {
     }
 }
 
-// Where a seam ends on a wall, ways square to it come from its extension, over that wall as far as it is straight; so
+// Where a seam ends on a wall, paths square to it come from its extension, over that wall as far as it is straight; so
 // the fillet's line runs on to it. `angle`: between both, at most a right one.
 void SeamDistance::seed_extension(int wall, int seam, double angle, double width) {
     const bool comes = mesh_.seam[seam] != none && mesh_.tail(seam) == mesh_.head(wall);  // the wall, to the seam's end
     const Vector2 zero(std::cos(angle), comes ? std::sin(angle) : -std::sin(angle));
     sources_.push_back({0.0, 0.0, width, width, true, {seam, false, comes ? 0.0 : mesh_.length[seam]}});
     const int source = static_cast<int>(sources_.size()) - 1;
-    const auto way = [&](int h) { return Vector3(mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h))); };
+    const auto offset = [&](int h) {
+        return Vector3(mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h)));
+    };
     double passed = 0.0;
     for (int h = wall; passed * zero[0] <= reach_;) {
         const Vector2 origin(comes ? passed + mesh_.length[h] : -passed, 0.0);
@@ -127,15 +129,15 @@ void SeamDistance::seed_extension(int wall, int seam, double angle, double width
         } else {
             while (mesh_.twin[next] != none) next = SeamMesh::next(mesh_.twin[next]);
         }
-        const Vector3 before = way(h);
-        if (next == wall || before.cross(way(next)).norm() > roundoff * before.norm() * way(next).norm() ||
-            before.dot(way(next)) <= 0.0)
+        const Vector3 before = offset(h);
+        if (next == wall || before.cross(offset(next)).norm() > roundoff * before.norm() * offset(next).norm() ||
+            before.dot(offset(next)) <= 0.0)
             break;
         h = next;
     }
 }
 
-// From a vertex that shortest ways bend around, into all triangles there.
+// From a vertex that shortest paths bend around, into all triangles there.
 void SeamDistance::emit_fan(int half_edge, int source) {
     int start = half_edge;
     for (int h = mesh_.turned_back(half_edge); h != none && h != half_edge; h = mesh_.turned_back(h)) start = h;
@@ -172,15 +174,15 @@ double SeamDistance::tolerance(const Window& window) const {
 }
 
 double SeamDistance::coordinate(const Window& window, const Vector2& place) const {
-    const Vector2 way = place - window.origin;
-    if (sources_[window.source].parallel) return way.dot(window.zero);
-    return window.base + std::atan2(cross2(way, window.zero), way.dot(window.zero));
+    const Vector2 offset = place - window.origin;
+    if (sources_[window.source].parallel) return offset.dot(window.zero);
+    return window.base + std::atan2(cross2(offset, window.zero), offset.dot(window.zero));
 }
 
 double SeamDistance::distance(const Window& window, const Vector2& place) const {
-    const Vector2 way = place - window.origin;
-    if (sources_[window.source].parallel) return std::abs(cross2(window.zero, way));
-    return window.offset + way.norm();
+    const Vector2 offset = place - window.origin;
+    if (sources_[window.source].parallel) return std::abs(cross2(window.zero, offset));
+    return window.offset + offset.norm();
 }
 
 double SeamDistance::width(const Window& window, double ray) const {
@@ -194,18 +196,18 @@ double SeamDistance::width(const Window& window, double ray) const {
 double SeamDistance::crossing(const Window& window, double ray) const {
     const double length = mesh_.length[window.half_edge];
     Vector2 start = window.origin;
-    Vector2 way = turned_left(window.zero);
+    Vector2 offset = turned_left(window.zero);
     if (sources_[window.source].parallel) {
         start += ray * window.zero;
     } else {
         const double angle = window.base - ray;
-        way = std::cos(angle) * window.zero + std::sin(angle) * turned_left(window.zero);
+        offset = std::cos(angle) * window.zero + std::sin(angle) * turned_left(window.zero);
     }
-    if (!(way[1] > 0.0)) return way[0] > 0.0 ? length : 0.0;
-    return std::clamp(start[0] - start[1] / way[1] * way[0], 0.0, length);
+    if (!(offset[1] > 0.0)) return offset[0] > 0.0 ? length : 0.0;
+    return std::clamp(start[0] - start[1] / offset[1] * offset[0], 0.0, length);
 }
 
-// Whether shortest ways bend around the half-edge's tail: where the angles are more than flat, or a wall ends the
+// Whether shortest paths bend around the half-edge's tail: where the angles are more than flat, or a wall ends the
 // surface behind more than a half turn.
 bool SeamDistance::bends(int half_edge) const {
     double total = 0.0;
@@ -252,11 +254,11 @@ void SeamDistance::propagate(int w) {
     if (ray < window.last) pass(window, next, std::max(window.first, ray), window.last);
 }
 
-// Out of a triangle through one of its half-edges, unless other ways to all that lies behind are shorter.
+// Out of a triangle through one of its half-edges, unless other paths to all that lies behind are shorter.
 void SeamDistance::pass(const Window& window, int through, double first, double last) {
     const int entered = mesh_.twin[through];
     if (entered == none || mesh_.seam[through] != none) return;
-    if (window.crossed > mesh_.triangles.cols()) return;  // a shortest way enters each triangle once
+    if (window.crossed > mesh_.triangles.cols()) return;  // a shortest path enters each triangle once
     const bool is_next = through == SeamMesh::next(window.half_edge);
     const Vector2 apex = mesh_.apex[window.half_edge];
     const Vector2 tail = is_next ? apex : Vector2::Zero();

@@ -18,7 +18,7 @@ struct SeamPlace {
     double width;     // at the seam's nearest point, on this side
 };
 
-// Where a shortest way from the seam begins: on a seam's half-edge `half_edge`, `along` it from its tail; or at a
+// Where a shortest path from the seam begins: on a seam's half-edge `half_edge`, `along` it from its tail; or at a
 // corner, in the sector that begins with that half-edge, in a direction `along` it radians counter-clockwise from
 // there.
 struct SeamFoot {
@@ -29,7 +29,7 @@ struct SeamFoot {
 
 // Windows of straight rays, unfolded from triangle to triangle (Mitchell, Mount & Papadimitriou 1987; Chen & Han 1990,
 // with the filter of Xin & Wang 2009): parallel ones from each seam, fans from its corners, and from the vertices that
-// shortest ways bend around. All distances up to `reach` are exact but for roundoff.
+// shortest paths bend around. All distances up to `reach` are exact but for roundoff.
 class SeamDistance {
 public:
     // `widths`: entries at the seams' vertices are read. `through`: seams that end on walls go on beyond these. Asks
@@ -53,7 +53,7 @@ private:
         double first, last;              // coordinates,
         double width_first, width_last;  // and the widths there
         bool parallel;
-        SeamFoot foot;  // `along`: of ways that bend around a vertex, else that of each ray
+        SeamFoot foot;  // `along`: of paths that bend around a vertex, else that of each ray
     };
     struct Window {
         int half_edge;  // whose frame `origin` and `zero` are in; rays enter its triangle there,
@@ -61,7 +61,7 @@ private:
         Vector2 origin, zero;
         double base;         // the coordinate of the ray along `zero`
         double first, last;  // rays
-        double offset;       // the way to the origin
+        double offset;       // the distance to the origin
         int source;
         int crossed = 0;  // edges
     };
@@ -101,7 +101,7 @@ private:
     double reach_;
     bool through_;
     double widest_ = 0.0;
-    double slack_ = 0.0;  // ways that are longer by less than that may lead to wider fillets
+    double slack_ = 0.0;  // paths that are longer by less than that may lead to wider fillets
     double size_ = 1.0;
     std::vector<Source> sources_;
     std::vector<Window> windows_;

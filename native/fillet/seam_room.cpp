@@ -12,33 +12,33 @@ constexpr double infinite = std::numeric_limits<double>::infinity();  // no seam
 constexpr double share = 0.2;                                         // of a side: what modellers begin with
 constexpr double most = 0.9;     // of the seams has longer sides than the one that counts: a narrow place is no measure
 constexpr double taken = 0.9;    // of the way: what is left of a face is no narrower than the new edges are long
-constexpr double grazing = 0.3;  // cosine: sides that a way hardly meets are measured by their own ways
+constexpr double grazing = 0.3;  // cosine: sides that a path hardly meets are measured by their own paths
 constexpr double corner = 0.8;   // radians: where seams turn by more another piece begins
 
 struct Way {
     double length;
     int end;       // the half-edge on a seam, wall or border at which it comes out, or `none`,
-    double slope;  // and the cosine of the angle to the way square to that one
+    double slope;  // and the cosine of the angle to the path square to that one
 };
 
 // From a place on a half-edge, square to it straight on until the face ends.
-Way way_across(const SeamMesh& mesh, int h, double along) {
+Way ray_across(const SeamMesh& mesh, int h, double along) {
     Vector2 from(along * mesh.length[h], 0.0);
-    Vector2 way = Vector2::UnitY();
+    Vector2 ray = Vector2::UnitY();
     double length = 0.0;
     for (Eigen::Index crossed = 0; crossed < mesh.triangles.cols(); ++crossed) {
-        const bool through_next = cross2(way, mesh.apex[h] - from) > 0.0;
+        const bool through_next = cross2(ray, mesh.apex[h] - from) > 0.0;
         const int out = through_next ? SeamMesh::next(h) : SeamMesh::previous(h);
         const Vector2 tail = through_next ? Vector2(mesh.length[h], 0.0) : mesh.apex[h];
         const Vector2 head = through_next ? mesh.apex[h] : Vector2::Zero();
-        const double speed = cross2(way, head - tail);
+        const double speed = cross2(ray, head - tail);
         if (!(speed > 0.0)) break;
         const double step = cross2(tail - from, head - tail) / speed;
         length += step;
         if (mesh.seam[out] != none || mesh.twin[out] == none) return {length, out, speed / (head - tail).norm()};
         const Vector2 x = (tail - head).normalized();
-        from = {(from + step * way - head).dot(x), 0.0};
-        way = {way.dot(x), cross2(x, way)};
+        from = {(from + step * ray - head).dot(x), 0.0};
+        ray = {ray.dot(x), cross2(x, ray)};
         h = mesh.twin[out];
     }
     return {length, none, 0.0};
@@ -48,13 +48,13 @@ Way way_across(const SeamMesh& mesh, int h, double along) {
 struct Sides {
     explicit Sides(const SeamMesh& mesh) : of(mesh.half_edge_count()) {
         const auto is_hard = [&](int h) { return mesh.seam[h] != none || mesh.twin[h] == none; };
-        const auto way = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
+        const auto ray = [&](int h) { return Vector3(mesh.points.col(mesh.head(h)) - mesh.points.col(mesh.tail(h))); };
         std::vector<VertexPair> turns;
         for (int h = 0; h < mesh.half_edge_count(); ++h) {
             if (!is_hard(h)) continue;
             int next = SeamMesh::next(h);
             while (!is_hard(next)) next = SeamMesh::next(mesh.twin[next]);
-            if (radians_between(way(h), way(next)) > corner)
+            if (radians_between(ray(h), ray(next)) > corner)
                 turns.push_back({h, next});
             else
                 of.join(h, next);
@@ -90,13 +90,13 @@ SeamRoom seam_room(const SeamMesh& mesh) {
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || !(mesh.length[h] > 0.0)) continue;
         for (const double along : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-            const Way way = way_across(mesh, h, along);
-            if (way.end == none || way.slope < grazing || of.meet(h, way.end)) continue;
-            sides.emplace_back(way.length, mesh.length[h]);
-            const bool meets = mesh.seam[way.end] != none;
-            const double width = meets ? way.slope / (1.0 + way.slope) * way.length : way.length;
+            const Way ray = ray_across(mesh, h, along);
+            if (ray.end == none || ray.slope < grazing || of.meet(h, ray.end)) continue;
+            sides.emplace_back(ray.length, mesh.length[h]);
+            const bool meets = mesh.seam[ray.end] != none;
+            const double width = meets ? ray.slope / (1.0 + ray.slope) * ray.length : ray.length;
             limit(h, width);
-            if (meets) limit(way.end, width);
+            if (meets) limit(ray.end, width);
         }
     }
     room.usual = usual_width(sides);

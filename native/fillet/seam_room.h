@@ -11,7 +11,7 @@ struct SeamRoom {
         widest;  // of each vertex: so wide fillets from both sides nearly meet, or reach a wall; infinite without limit
 };
 
-// By ways square to the seams' edges straight on over the surface to the next seam, wall or border. Sides of a face
+// By paths square to the seams' edges straight on over the surface to the next seam, wall or border. Sides of a face
 // that meet in a corner do not limit each other.
 SeamRoom seam_room(const SeamMesh& mesh);
 

@@ -28,8 +28,8 @@ std::vector<BentEdge> bent_edges(const Points& points, const Triangles& triangle
         if (mesh.seam[h] == none || mesh.twin[h] < h) continue;
         const int other = mesh.twin[h];
         const Vector3 start = points.col(mesh.tail(h));
-        const Vector3 way = Vector3(points.col(mesh.head(h))) - start;
-        const Vector3 normal = way.cross(Vector3(points.col(mesh.tail(SeamMesh::previous(h)))) - start).normalized();
+        const Vector3 offset = Vector3(points.col(mesh.head(h))) - start;
+        const Vector3 normal = offset.cross(Vector3(points.col(mesh.tail(SeamMesh::previous(h)))) - start).normalized();
         const Vector3 across = Vector3(points.col(mesh.tail(SeamMesh::previous(other)))) - start;
         const double height = normal.dot(across);
         const double flat = straight_angle * across.norm();

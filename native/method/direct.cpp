@@ -25,7 +25,7 @@ double residual_of(const Problem& problem, const Points& points) {
     return largest_residual(problem, state, outer_residual(problem, state));
 }
 
-// The vertices of a surface, placed on it by their inner fairness.
+// The vertices of a surface, projected onto it by their inner fairness.
 Points settled(const Problem& problem, const Workspace& work, const Points& points) {
     const SurfaceState state = measured_surface(problem, points);
     const TargetSurface target(problem.patch, points, state.normals);
@@ -182,7 +182,7 @@ Solution with_spread_pins(const Problem& problem, double radius, Solution sharp,
     }
     const double seconds = watch.seconds();
     sharp.seconds["pins"] = seconds;
-    sharp.ways.push_back({"pins", seconds});
+    sharp.strategies.push_back({"pins", seconds});
     if (found.flaw != Flaw::absent) {
         const bool close = are_close(problem, pins, 2.0 * radius);
         return with_pins(std::move(sharp), close ? Pins::too_close : Pins::not_found);
@@ -190,7 +190,7 @@ Solution with_spread_pins(const Problem& problem, double radius, Solution sharp,
     found.initial_residual = sharp.initial_residual;
     found.levels = sharp.levels;
     found.seconds = sharp.seconds;
-    found.ways = sharp.ways;
+    found.strategies = sharp.strategies;
     found.uniform_weights = sharp.uniform_weights;
     return found;
 }

@@ -11,7 +11,7 @@ namespace fairing {
 // goes first where it varies less. With all the patience of the problem's options.
 Solution solve_directly(const Problem& problem, const Progress& progress);
 
-// The same as a fast path: left at the first sign of trouble, since other ways come next.
+// The same as a fast path: left at the first sign of trouble, since other strategies come next.
 Solution try_directly(const Problem& problem, const Progress& progress);
 
 // Whether the surface of `a` has less Willmore energy than that of `b`; no number counts as most.
@@ -21,7 +21,7 @@ bool less_bent(const Problem& problem, const Solution& a, const Solution& b);
 // or for equations that are not of fourth order.
 Indices pins_to_spread(const Problem& problem);
 
-// The surface without pins, lifted to them over `radius` (units of D), on the patch's own mesh or else step by step.
+// The surface without pins, lifted to them over `radius` (units of D), on its proxy mesh or else step by step.
 // Nothing where it is not accepted. `guess`: 3 × local vertices of a surface with the pins.
 std::optional<Solution> lift_pins(const Problem& problem, double radius, std::optional<Points> guess,
                                   const Progress& progress);

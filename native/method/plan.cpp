@@ -61,7 +61,7 @@ std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, b
     if (problem.options.equation == Equation::least_variation) return {Step::least_variation};
     std::vector<Step> steps{traits.has_levels ? Step::levels : Step::direct};
     const bool is_hopeless = (traits.is_large && traits.is_beyond_reach) || has_little_chance(traits);
-    if (!is_hopeless) steps.push_back(Step::own_mesh);
+    if (!is_hopeless) steps.push_back(Step::proxy_mesh);
     if (traits.has_levels && goes_on_directly(problem, traits)) {
         const bool at_last = problem.options.equation == Equation::harmonic;  // the engine's mesh begins with that
         steps.insert(at_last ? steps.end() : steps.begin() + 1, Step::direct);
@@ -127,7 +127,7 @@ const char* name_of(Step step) {
     switch (step) {
         case Step::levels: return "levels";
         case Step::direct: return "direct";
-        case Step::own_mesh: return "own mesh";
+        case Step::proxy_mesh: return "proxy mesh";
         case Step::uniform_weights: return "uniform weights";
         case Step::low_passed: return "low-passed";
         case Step::lifted_pins: return "lifted pins";

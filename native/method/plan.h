@@ -49,9 +49,9 @@ enum class Step {
     // The equation asked for.
     levels,           // from coarse to fine over the user's connectivity (method/nested)
     direct,           // at once on the user's mesh (method/direct)
-    own_mesh,         // on a mesh of the engine's own, the vertices placed on it (method/own_mesh)
+    proxy_mesh,       // on a mesh of the engine's own, the vertices projected onto it (method/proxy_surface)
     uniform_weights,  // all of these with uniform weights, where the problem's turn triangles over
-    low_passed,       // on a mesh of the engine's own between loops without their short waves (method/own_mesh)
+    low_passed,       // on a mesh of the engine's own between loops without their short waves (method/proxy_surface)
     lifted_pins,      // the surface without pins, lifted to pins that have a radius (method/direct)
     // What stands in for it.
     least_variation,  // the surface of least variation, also as the equation asked for
@@ -70,7 +70,7 @@ struct Plan {
     bool operator==(const Plan&) const = default;
 };
 
-// "direct, own mesh | least variation".
+// "direct, proxy mesh | least variation".
 std::string text_of(const Plan& plan);
 
 // `lifts_pins`: isolated pins may have a radius.

@@ -7,7 +7,7 @@
 #include "geometry/surface_fit.h"
 #include "method/direct.h"
 #include "method/nested.h"
-#include "method/own_mesh.h"
+#include "method/proxy_surface.h"
 #include "problem/surface_state.h"
 #include "shape/girth.h"
 #include "stand_in/stand_in.h"
@@ -87,7 +87,7 @@ public:
 
     // `varied`: least variation was tried.
     Solution stand_in(Solution first, bool varied = false) {
-        attempts_.log = first.ways;
+        attempts_.log = first.strategies;
         const bool may_replace = !is_answer(first) && first.reached_load == 0.0 && !has_run_out(problem_, first);
         if (!may_replace) return first;
         const bool is_found = first.flaw == Flaw::folded;  // only its vertices fold: they would on another one, too
@@ -135,7 +135,7 @@ private:
                 const bool is_all = problem_.options.equation == Equation::soap_film;
                 return is_all ? solve_directly(problem_, progress) : try_directly(problem_, progress);
             }
-            case Step::own_mesh: return solve_on_own_mesh(problem_, traits_, attempts_, progress);
+            case Step::proxy_mesh: return solve_on_proxy_mesh(problem_, traits_, attempts_, progress);
             case Step::uniform_weights: return solve_uniform_weights(problem_, progress);
             case Step::low_passed: return solve_low_passed(problem_, traits_, attempts_, progress);
             case Step::lifted_pins: return lift_pins(problem_, pin_radius_, std::nullopt, progress);
@@ -164,7 +164,7 @@ private:
 
     Solution finished(Solution solution) {
         complete(problem_, solution);
-        solution.ways = attempts_.log;
+        solution.strategies = attempts_.log;
         return solution;
     }
 
@@ -179,7 +179,7 @@ private:
 Found answer(const Problem& problem, Found solution, const char* name, const Stopwatch& watch) {
     if (!solution) return std::nullopt;
     solution->flaw = flaw_of(problem, *solution);
-    solution->ways = {{name, watch.seconds()}};
+    solution->strategies = {{name, watch.seconds()}};
     if (!is_answer(*solution)) return std::nullopt;
     complete(problem, *solution);
     return solution;
@@ -225,7 +225,7 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Near& ne
     Solution first = begun ? std::move(*begun) : harmonic.equation();
     Solution best = first;
     double least = lost_girth(problem, best);
-    std::vector<WayTaken> ways = first.ways;
+    std::vector<StrategyTried> strategies = first.strategies;
     Problem other = problem;
     for (const Equation equation : {Equation::minimal_energy, Equation::least_variation}) {
         if (least <= kept_girth || has_run_out(problem, best)) break;
@@ -235,7 +235,7 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Near& ne
         Found found = near(other, part);
         if (!found) found = alone(other, part);
         if (!found) continue;
-        ways.insert(ways.end(), found->ways.begin(), found->ways.end());
+        strategies.insert(strategies.end(), found->strategies.begin(), found->strategies.end());
         const double lost = lost_girth(problem, *found);
         if (lost >= least) continue;
         least = lost;
@@ -243,7 +243,7 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Near& ne
         problem.options.equation = equation;
     }
     if (least == HUGE_VAL) return harmonic.stand_in(std::move(first), true);
-    best.ways = std::move(ways);
+    best.strategies = std::move(strategies);
     return best;
 }
 

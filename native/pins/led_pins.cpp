@@ -13,7 +13,7 @@ namespace fairing {
 namespace {
 
 constexpr double longest_step = 0.05;    // of a pin, in units of D
-constexpr double shortest_step = 0.005;  // likewise: below, there is no way on
+constexpr double shortest_step = 0.005;  // likewise: below, the search ends
 constexpr double edge_of_radius = 0.35;  // so that bells have three edges to fall off
 
 class LedPins {
@@ -31,9 +31,9 @@ public:
     }
 
     std::optional<Solution> run() {
-        const double way = largest_length(problem_.fixed_points - start_.rightCols(problem_.fixed_points.cols()));
-        const double shortest = shortest_step / std::max(way, longest_step);
-        double step = std::min(1.0, longest_step / std::max(way, longest_step));
+        const double distance = largest_length(problem_.fixed_points - start_.rightCols(problem_.fixed_points.cols()));
+        const double shortest = shortest_step / std::max(distance, longest_step);
+        double step = std::min(1.0, longest_step / std::max(distance, longest_step));
         bool growing = true;  // until a step has failed: failures cost most
         for (double reached = 0.0; reached < 1.0;) {
             progress_.report(0.8 * reached, "pins");
@@ -49,7 +49,7 @@ public:
         }
         // Once more on the mesh that belongs to it.
         if (!go_to(1.0)) return std::nullopt;
-        return placed();
+        return projected();
     }
 
 private:
@@ -82,14 +82,14 @@ private:
         return true;
     }
 
-    std::optional<Solution> placed() {
+    std::optional<Solution> projected() {
         const auto& [mesh, solution] = *last_;
         const Problem own = on_mesh(mesh.patch, 1.0);
         const Points normals = measured_surface(own, mesh.points).normals;
         const TargetSurface target(mesh.patch, mesh.points, normals);
         const auto tangential =
             make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        const Placed best = place(problem_, *tangential, {mesh_, mesh, target}, guess_, progress_.range(0.8, 1.0));
+        const Projected best = place(problem_, *tangential, {mesh_, mesh, target}, guess_, progress_.range(0.8, 1.0));
         Solution result = solution;
         result.polished = false;
         result.points = best.placement.points;

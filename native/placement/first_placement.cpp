@@ -7,7 +7,7 @@ namespace fairing {
 
 namespace {
 
-// Walks from the places of neighbours that are placed already.
+// Walks from the places of neighbours that are projected already.
 class Follower {
 public:
     Follower(const Problem& problem, const Points& surface, const Patch& proxy, const TargetSurface& target)

@@ -20,17 +20,17 @@ public:
     // start is needed.
     bool from(const Placement& start) {
         Placement placement = start;
-        settle(problem_, tangential_, target_, placement, progress_.here());
-        return from_settled(std::move(placement)) || keep_untangled(start);
+        relax(problem_, tangential_, target_, placement, progress_.here());
+        return from_relaxed(std::move(placement)) || keep_untangled(start);
     }
 
-    bool from_settled(Placement placement) {
+    bool from_relaxed(Placement placement) {
         const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
         folded_by_springs_ = std::min(folded_by_springs_, folded);
         return keep_untangled(std::move(placement));
     }
 
-    [[nodiscard]] Placed best() && {
+    [[nodiscard]] Projected best() && {
         best_->folded_by_springs = folded_by_springs_;
         return std::move(*best_);
     }
@@ -54,7 +54,7 @@ private:
         const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
         if (!best_ || folded.size() < best_->folded.size() ||
             (folded.size() == best_->folded.size() && merit < merit_)) {
-            best_ = Placed{std::move(placement), std::move(folded), 0};
+            best_ = Projected{std::move(placement), std::move(folded), 0};
             merit_ = merit;
         }
         return done;
@@ -64,7 +64,7 @@ private:
     const TangentialStep& tangential_;
     const TargetSurface& target_;
     const Progress& progress_;
-    std::optional<Placed> best_;
+    std::optional<Projected> best_;
     double merit_ = 0.0;
     std::size_t folded_by_springs_ = std::numeric_limits<std::size_t>::max();
 };
@@ -118,8 +118,8 @@ VectorX carried_over(const Placement& placement, const TargetSurface& target, co
     return result;
 }
 
-Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-             const std::optional<Points>& guess, const Progress& progress) {
+Projected place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+                const std::optional<Points>& guess, const Progress& progress) {
     const TargetSurface& target = surface.target;
     Placing placing(problem, tangential, target, progress);
     if (guess && placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
@@ -128,20 +128,20 @@ Placed place(const Problem& problem, const TangentialStep& tangential, const Own
     return std::move(placing).best();
 }
 
-Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                     Placement settled, const Progress& progress) {
+Projected project_relaxed(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                          Placement relaxed, const Progress& progress) {
     Placing placing(problem, tangential, target, progress);
-    placing.from_settled(std::move(settled));
+    placing.from_relaxed(std::move(relaxed));
     return std::move(placing).best();
 }
 
-void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution) {
+void refuse_folds(const Problem& problem, const Projected& projected, Solution& solution) {
     constexpr double tolerated_share = 0.05;  // of the triangles
-    const bool senseless = !is_uniform(problem.weights) && static_cast<double>(placed.folded_by_springs) >
+    const bool senseless = !is_uniform(problem.weights) && static_cast<double>(projected.folded_by_springs) >
                                                                tolerated_share * problem.patch.triangle_count();
-    if (!senseless && placed.folded.size() <= problem.tolerated_folds) return;
+    if (!senseless && projected.folded.size() <= problem.tolerated_folds) return;
     solution.termination = Termination::folded;
-    solution.bad_triangles = placed.folded;
+    solution.bad_triangles = projected.folded;
 }
 
 }  // namespace fairing

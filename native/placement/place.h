@@ -35,7 +35,7 @@ Placement moved(const Placement& placement, const TargetSurface& target, const P
 VectorX carried_over(const Placement& placement, const TargetSurface& target, const VectorX& values,
                      const Problem& problem);
 
-struct Placed {
+struct Projected {
     Placement placement;
     Indices folded;                     // triangles of the problem's patch that no placement turned back
     std::size_t folded_by_springs = 0;  // triangles that the least folded minimum of the springs alone turns over
@@ -51,15 +51,15 @@ struct OwnMeshSurface {
 // Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
 // begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the proxy
 // mesh (placement/first_placement). Where the springs' minimum is folded, folds are turned back vertex by vertex.
-Placed place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-             const std::optional<Points>& guess, const Progress& progress);
+Projected place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
+                const std::optional<Points>& guess, const Progress& progress);
 
 // The same from vertices that springs have spread already.
-Placed place_settled(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                     Placement settled, const Progress& progress);
+Projected project_relaxed(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
+                          Placement relaxed, const Progress& progress);
 
-// Ends a placed solution as `folded` where the placement is, or where the weights' own minimum has so many folds that
-// it says nothing about these vertices.
-void refuse_folds(const Problem& problem, const Placed& placed, Solution& solution);
+// Ends a projected solution as `folded` where the placement is, or where the weights' own minimum has so many folds
+// that it says nothing about these vertices.
+void refuse_folds(const Problem& problem, const Projected& projected, Solution& solution);
 
 }  // namespace fairing

@@ -140,8 +140,8 @@ void relax(const TangentialStep& tangential, const TargetSurface& target, Placem
     Relaxation(tangential, target, placement).run();
 }
 
-void settle(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement,
-            const Progress& progress) {
+void relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement,
+           const Progress& progress) {
     if (const auto* rows = std::get_if<RowWeights>(&*problem.weights)) {
         const auto symmetric = make_tangential_step(problem.patch, symmetrised(*rows), problem.fixed_points, progress);
         relax(*symmetric, target, placement);
@@ -150,11 +150,11 @@ void settle(const Problem& problem, const TangentialStep& tangential, const Targ
 }
 
 void follow_boundary(const Patch& patch, const Points& offsets, Points& points) {
-    const Points placed = points;
+    const Points projected = points;
     Points moves = following(patch, offsets);
     while (true) {
-        points = placed + moves;
-        const Indices turned = turned_inside(patch, placed, points);
+        points = projected + moves;
+        const Indices turned = turned_inside(patch, projected, points);
         if (turned.empty()) return;  // at last where none of them moves
         for (const int t : turned) {
             for (const int v : patch.triangles.col(t)) moves.col(v).setZero();

@@ -43,7 +43,7 @@ bool is_folded(const Problem& problem, const TargetSurface& target, const Placem
 // All of them, as a mask.
 std::vector<char> folded_mask(const Problem& problem, const TargetSurface& target, const Placement& placement);
 
-// All of them, and those that are turned over against their neighbours in the placed mesh itself; ascending.
+// All of them, and those that are turned over against their neighbours in the projected mesh itself; ascending.
 Indices folded_triangles(const Problem& problem, const TargetSurface& target, const Placement& placement);
 
 // The same without triangles at the boundary that only their neighbours speak against: where the boundary itself turns

@@ -43,7 +43,7 @@ inline constexpr StepLimits brisk{60, 12};
 // none of the surface's: 1e-3 D off a sphere after 100 steps, 2e-3 D off a cylinder after 29.
 inline constexpr StepLimits nearby{20, 6};
 
-// Free vertices from which on a patch is large: coarser levels pay, and its own mesh resolves it best.
+// Free vertices from which on a patch is large: coarser levels pay, and the proxy mesh resolves it best.
 inline constexpr int smallest_large = 1500;
 // Free vertices of the coarsest level of a large one, which has the surface from its boundary alone wherever there is
 // one; up to so many all patience pays.

@@ -41,8 +41,9 @@ enum class Pins { absent, spread, no_surface, no_boundary, too_close, not_found,
 // Where a surface comes from. Whoever makes a surface sets it, and nothing changes it afterwards. All but the first two
 // stand in for a surface that the problem's equation does not have (method/solve).
 enum class Provenance {
-    equation,    // the problem's equation, between the boundary loops as they are
-    low_passed,  // the same between loops without their short waves, beside which the real ones lie (method/own_mesh)
+    equation,         // the problem's equation, between the boundary loops as they are
+    low_passed,       // the same between loops without their short waves, beside which the real ones lie
+                      // (method/proxy_surface)
     least_variation,  // the surface of least variation, where another equation was asked for
     loft,
     least_bent,     // where the descent of the bending energy ended (start/globalisation)
@@ -60,8 +61,8 @@ constexpr bool is_loft(Provenance provenance) {
            provenance == Provenance::swept_tube;
 }
 
-// A way that was tried (method/solve), and how long it took.
-struct WayTaken {
+// A strategy that was tried (method/solve), and how long it took.
+struct StrategyTried {
     std::string name;
     double seconds;
 };
@@ -78,7 +79,7 @@ struct Solution {
     double reached_load = 0.0;      // share of the load for which `points` solve the equation, where not the whole
     std::vector<int> levels;        // vertex counts, coarse to fine; empty: only the patch itself
     std::map<std::string, double> seconds;
-    std::vector<WayTaken> ways;  // a log for people: no code decides by it
+    std::vector<StrategyTried> strategies;  // a log for people: no code decides by it
     Flaw flaw = Flaw::absent;
     Indices bad_triangles;             // of the patch: folded or crossing ones, for those flaws
     std::optional<Indices> crossings;  // triangles of the patch that pass through others, where they were looked for

@@ -1,4 +1,4 @@
-// The engine's own mesh of a patch: the same boundary, an interior of its own, well-shaped whatever it came from.
+// The proxy mesh of a patch: the same boundary, an interior of its own, well-shaped whatever it came from.
 #pragma once
 
 #include "mesh/surface_mesh.h"

@@ -37,11 +37,11 @@ private:
     Points points_;  // 3 × free count
 };
 
-std::optional<Solution> accepted(const Problem& problem, Solution solution, const WayTaken& way) {
+std::optional<Solution> accepted(const Problem& problem, Solution solution, const StrategyTried& strategy) {
     if (solution.termination != Termination::converged) return std::nullopt;
     solution.flaw = flaw_of(problem, solution);
     if (solution.flaw != Flaw::absent) return std::nullopt;
-    solution.ways = {way};
+    solution.strategies = {strategy};
     return solution;
 }
 
@@ -191,7 +191,7 @@ std::optional<Solution> WarmStart::solve(const Problem& problem, const Progress&
     solution.flaw = flaw_of(problem, solution);
     if (solution.flaw != Flaw::absent) return std::nullopt;
     solution.seconds = {{"prediction", prediction}, {"iteration", watch.lap()}};
-    solution.ways = {{"warm", prediction + solution.seconds["iteration"]}};
+    solution.strategies = {{"warm", prediction + solution.seconds["iteration"]}};
     return solution;
 }
 
@@ -211,7 +211,7 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     try {
         solution = solve_equation(attempt, work, start.points, progress);
     } catch (const SolverError&) {
-        return std::nullopt;  // a start without a factor: the other ways don't need it
+        return std::nullopt;  // a start without a factor: the other strategies don't need it
     }
     if (solution.termination != Termination::converged) return std::nullopt;
     solution.boundary_normals = one_sided_normals(problem.patch, solution.points);

@@ -115,7 +115,7 @@ std::optional<Solution> best_of(const Problem& problem, std::vector<Candidate> c
 
 constexpr int most_rounds = 14;  // 2^-13 D is less than the edges of any patch that is solved
 
-// Half of what it was, or of 2 D, at some vertices; around them no longer than that and the way there.
+// Half of what it was, or of 2 D, at some vertices; around them no longer than that and the distance there.
 void shorten(const Patch& patch, const Points& before, const Indices& vertices, VectorX& wavelengths) {
     NearestFirst reached(wavelengths);
     for (const int v : vertices) reached.lower(v, 0.5 * std::min(wavelengths[v], 2.0));

@@ -14,7 +14,7 @@ namespace fairing {
 std::optional<Solution> lofted(const Problem& problem, const Progress& progress);
 
 // All of the shape before is smoothed (start/quick_surface), between the tangent planes given. Around its blemishes
-// (shape/kinks) what is longer than D stays, then D/2, …, and a unit longer with each unit of way from there,
+// (shape/kinks) what is longer than D stays, then D/2, …, and a unit longer with each unit of distance from there,
 // until there are none. Nothing for one boundary, where no shape before is known, or none is accepted.
 std::optional<Solution> smoothed(const Problem& problem, const Progress& progress);
 

@@ -10,7 +10,7 @@ namespace {
 // Where vertices lie on a cylinder. Rows: s from the first end to the last, then turns around.
 using CylinderMap = Eigen::Matrix2Xd;
 
-// Vertices of a shortest way from the first section to the last.
+// Vertices of a shortest path from the first section to the last.
 Indices seam(const Patch& patch, const SweptTube& tube) {
     Indices before(patch.vertex_count(), none);
     Indices queue;
@@ -25,10 +25,10 @@ Indices seam(const Patch& patch, const SweptTube& tube) {
             queue.push_back(u);
         }
     }
-    Indices way{patch.free_count + tube.last().vertices().front()};
-    while (before[way.back()] != way.back()) way.push_back(before[way.back()]);
-    std::reverse(way.begin(), way.end());
-    return way;
+    Indices path{patch.free_count + tube.last().vertices().front()};
+    while (before[path.back()] != path.back()) path.push_back(before[path.back()]);
+    std::reverse(path.begin(), path.end());
+    return path;
 }
 
 // By how much the turns at the far end of each edge (edge_ends: from the first to the second) count less: the edges
@@ -88,11 +88,11 @@ std::optional<CylinderMap> unrolled(const Patch& patch, const SweptTube& tube, c
     const Stiffness even = uniform_stiffness(patch);
     LaplaceOperator laplace(patch);
     if (!laplace.update(even, progress)) return std::nullopt;
-    const Indices way = seam(patch, tube);
-    const VectorX jump = jumps(patch, way);
+    const Indices path = seam(patch, tube);
+    const VectorX jump = jumps(patch, path);
     CylinderMap map = CylinderMap::Zero(2, patch.vertex_count());
-    write(tube.first(), 0.0, way.front(), patch.free_count, map);
-    write(tube.last(), 1.0, way.back(), patch.free_count, map);
+    write(tube.first(), 0.0, path.front(), patch.free_count, map);
+    write(tube.last(), 1.0, path.back(), patch.free_count, map);
     CylinderMap flux = even.apply(patch, map, patch.free_count);
     flux.row(1) += jump_flux(patch, even, jump);
     map.leftCols(patch.free_count) = -laplace.solve(flux.transpose()).transpose();

@@ -199,9 +199,9 @@ private:
     void add_angle(const Pair& pair, const Residual& by_angle, Jacobian& J) const {
         const double square = std::max(pair.in_plane.squaredNorm(), flattest * flattest * pair.length * pair.length);
         const Eigen::Vector2d turn = Eigen::Vector2d(-pair.in_plane[1], pair.in_plane[0]) / square;
-        const Vector3 way = turn[0] * e1_ + turn[1] * e2_;
-        J.col(3L * pair.i) -= way.dot(n_.col(pair.i)) * by_angle;
-        J.col(3L * pair.j) += way.dot(n_.col(pair.j)) * by_angle;
+        const Vector3 tangent = turn[0] * e1_ + turn[1] * e2_;
+        J.col(3L * pair.i) -= tangent.dot(n_.col(pair.i)) * by_angle;
+        J.col(3L * pair.j) += tangent.dot(n_.col(pair.j)) * by_angle;
         if (pair.across == 0.0) return;
         for (int k = 0; k < 3; ++k)
             J.col(3L * k) -= pair.across * turn.dot(tilt_by_height(k)) * normal_.dot(n_.col(k)) * by_angle;

@@ -136,14 +136,14 @@ std::unique_ptr<TangentialStep> step_within(const Problem& problem, UniformStep 
 }
 
 // The user's vertices on the solved surface.
-Solution placed(const Problem& given, const ProxyMesh& mesh, const SolvedSheet& solved, UniformStep within,
-                const Progress& progress) {
+Solution projected(const Problem& given, const ProxyMesh& mesh, const SolvedSheet& solved, UniformStep within,
+                   const Progress& progress) {
     Problem problem = given;
     problem.fixed_points = solved.sheet.points.rightCols(given.fixed_points.cols());  // a free edge has moved
     const Termination end = ending(solved.result, problem);
     const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
     const auto tangential = step_within(problem, std::move(within), progress.here());
-    const Placed best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt, progress.here());
+    const Projected best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt, progress.here());
     const Placement& placement = best.placement;
     const SurfaceState state = measured_surface(on_patch(problem, solved.mesh.patch), solved.sheet.points);
     Solution solution;
@@ -193,7 +193,7 @@ Attempt ended(const Problem& problem, Begun begun, const Progress& progress) {
 }
 
 Solution solution_of(const Problem& problem, const Attempt& attempt, UniformStep within, const Progress& progress) {
-    Solution solution = placed(problem, attempt.mesh, attempt.fine, std::move(within), progress);
+    Solution solution = projected(problem, attempt.mesh, attempt.fine, std::move(within), progress);
     solution.iterations = attempt.fine.result.steps;
     solution.residual = attempt.fine.result.gradient;
     solution.initial_residual = attempt.coarse_gradient;

@@ -78,7 +78,7 @@ def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
     inner = np.array([vertex(3, 3), vertex(3, 4), vertex(4, 4), vertex(4, 3)])
     done = fill(pierced, np.eye(4), [*loops, inner], FillOptions())
     (piece,), reasons = done.pieces, [each.reason for each in done.left]
-    assert set(piece.outline.tolist()) == set(loops[1].tolist())
+    assert set(piece.boundary.tolist()) == set(loops[1].tolist())
     assert "no loop of border edges" in reasons[0]
     assert "pass" in reasons[1]
     assert set(done.left_vertices.tolist()) == {*loops[0].tolist(), *inner.tolist()}
@@ -104,7 +104,7 @@ def two_tubes(*, turned_over: bool = False) -> MeshArrays:
     return polygon_mesh(points, quads, np.zeros(len(quads), dtype=bool))
 
 
-def test_a_tube_turned_over_is_reported_and_four_outlines_are_too_many() -> None:
+def test_a_tube_turned_over_is_reported_and_four_boundaries_are_too_many() -> None:
     with pytest.raises(MeshRefusal, match=r"faces around the boundary through vertex .* are turned over") as error:
         filled(two_tubes(turned_over=True), 48, 72, bridge=True)
     assert set(error.value.elements.tolist()) == set(range(72, 96))
@@ -128,7 +128,7 @@ def test_a_surface_through_the_mesh_is_unusable() -> None:
 
 
 def judged(points: Floats, join: Join, **of_result: object) -> Verdict:
-    """The verdict on a disc with these points, whose outline comes first, and nothing around it."""
+    """The verdict on a disc with these points, whose boundary comes first, and nothing around it."""
     (flat, triangles), rim = hexagon(3), 18
     alone = polygon_mesh(flat[:rim], [[0, 1, 2]], [False])
     seen = measured(replace(alone, triangles=alone.triangles[:0]), np.arange(rim), points, triangles, np.arange(rim))
@@ -147,7 +147,7 @@ def test_what_has_not_converged_is_unusable() -> None:
 
 
 def joined(degrees: float = 0.0, limit: float = 12.0) -> Join:
-    """One vertex of the outline, 2, with such a kink."""
+    """One vertex of the boundary, 2, with such a kink."""
     values = np.where(np.arange(4) == 2, degrees, 1.0)
     return Join(np.arange(4), values, np.flatnonzero(values > limit), limit)
 
@@ -194,7 +194,7 @@ def test_the_curvature_around_is_continued_where_it_can_be() -> None:
     assert "met in slope only, not in curvature. The curvature around it looks like noise" in note
 
 
-# Shape keys over a new surface: one of their own where they bend its outline, otherwise what was carried over.
+# Shape keys over a new surface: one of their own where they bend its boundary, otherwise what was carried over.
 RIM = 32
 
 
@@ -224,7 +224,7 @@ def test_a_larger_ball_comes_back_from_offsets_that_are_too_flat() -> None:
     assert np.abs(np.linalg.norm(found, axis=1) - 1.5).max() < 2e-4
 
 
-def test_keys_that_move_the_outline_as_a_whole_keep_their_offsets() -> None:
+def test_keys_that_move_the_boundary_as_a_whole_keep_their_offsets() -> None:
     surface, around, places = filled_keys()
     shift = np.array([0.1, 0.2, 0.3])
     still, aside = surface.points[RIM:], surface.points[RIM:] + shift

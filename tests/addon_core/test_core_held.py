@@ -1,4 +1,4 @@
-"""Curves and borders of a patch, and outlines on the slope of a bump."""
+"""Curves and borders of a patch, and boundaries on the slope of a bump."""
 
 from dataclasses import replace
 
@@ -34,7 +34,7 @@ def with_marks(mesh: MeshArrays) -> MeshArrays:
     return with_pinned_edges(replace(mesh, sharp=marked(mesh)), FairOptions(), none(mesh))
 
 
-def test_a_crease_reaches_the_outline_and_a_smooth_curve_stops_before_it() -> None:
+def test_a_crease_reaches_the_boundary_and_a_smooth_curve_stops_before_it() -> None:
     mesh = grid(SIZE, 0.6)  # 4 × 4 quads: rows from −0.5 to 0.5
     sharp = make_patch(with_curve(mesh, "creases"))
     rounded = make_patch(with_curve(mesh, "smooth_curves"))
@@ -159,7 +159,7 @@ def off_fold_each(points: np.ndarray) -> np.ndarray:  # type: ignore[type-arg]
     return np.minimum(np.abs(points[:, 0]), np.abs(points[:, 2]))
 
 
-def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_outline() -> None:
+def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_boundary() -> None:
     mesh = with_curve(grid(16, 0.55, folded), "creases")
     options = FairOptions(pin_edges="SHARP", smooth_boundary=True)
     with pytest.raises(ValueError, match="Smooth Boundary would round off the creases"):
@@ -167,7 +167,7 @@ def test_a_crease_that_runs_out_of_the_selection_does_not_go_with_a_smoothed_out
     assert solve(replace(mesh, creases=None), np.eye(4), options).result.converged
 
 
-def test_a_patch_without_an_outline_has_no_edges() -> None:
+def test_a_patch_without_a_boundary_has_no_edges() -> None:
     """Three faces meet at an edge: that is for the solve to say."""
     points = np.array([[0.0, 0, 0], [0, 1, 0], [1, 0, 0], [-1, 0, 0], [0, 0, 1]])
     fan = polygon_mesh(points, [[0, 2, 1], [0, 1, 3], [0, 1, 4]], [True, True, True])

@@ -63,7 +63,7 @@ def test_no_convergence_is_no_answer_and_a_stop_is_heard(monkeypatch: pytest.Mon
 
 
 def test_the_skin_that_the_region_had_stays_on_it() -> None:
-    """Keep Detail: it turns and grows with the outline. The region's own later places say nothing."""
+    """Keep Detail: it turns and grows with the boundary. The region's own later places say nothing."""
     mesh = sphere()
     free = LiveRegion(mesh, EYE, FairOptions()).free
     heights = 0.01 * np.random.default_rng(5).normal(size=(len(free), 1))
@@ -129,11 +129,11 @@ def test_a_step_longer_than_an_edge_makes_no_hard_edge() -> None:
     mesh = grid(SIZE, 0.35, lambda points: points)
     region = LiveRegion(mesh, EYE, FairOptions())
     moved = mesh.positions.copy()
-    outline = np.abs(mesh.positions[region.outline, :2]).max()
-    moved[:, 2] -= 1.5 * np.maximum(np.abs(moved[:, :2]).max(axis=1) - outline, 0.0)
+    boundary = np.abs(mesh.positions[region.boundary, :2]).max()
+    moved[:, 2] -= 1.5 * np.maximum(np.abs(moved[:, :2]).max(axis=1) - boundary, 0.0)
     answer = region.answer(moved[region.vertices], EYE)
     assert answer is not None
-    assert answer[:, 2].max() > 0.1 * outline
+    assert answer[:, 2].max() > 0.1 * boundary
 
 
 def test_the_curvature_is_continued_on_the_part_that_asks_for_it_as_by_the_operator() -> None:

@@ -134,7 +134,7 @@ def test_a_vertex_inside_is_kept_by_one_edge_of_the_patch() -> None:
     assert np.array_equal(np.flatnonzero(kept), found)
 
 
-def test_what_hangs_on_the_outline_or_outside_needs_none() -> None:
+def test_what_hangs_on_the_boundary_or_outside_needs_none() -> None:
     assert not edges_at_wires(hung_on()).any()
     assert not edges_at_wires(hung_on(2 * 9 + 4, 0)).any()
 

@@ -124,7 +124,7 @@ def tube_uvs(columns: int = 12, rows: int = 8, height: float = 3.0) -> Surface:
 
 
 def halves(surface: Surface, uv: Floats, other: Floats, is_other: Mask, mirrored: Mask | None = None) -> RimUVs:
-    """UVs (n, 2) around the outline, the other ones at the edges (by their tails) of a mask."""
+    """UVs (n, 2) around the boundary, the other ones at the edges (by their tails) of a mask."""
     rim = np.concatenate(surface.loops)
     rows = np.empty((2, len(rim), 2))
     for loop in surface.loops:
@@ -172,7 +172,7 @@ def test_two_islands_go_on_by_themselves_to_the_middle(turned_over: bool) -> Non
     assert set(is_right.reshape(-1, 3).sum(axis=1)) == {0, 3}
     assert odd_ends(found.seams) == [6, 30]
     assert found.distortion == pytest.approx(0.0, abs=1e-8)
-    # The line between the two seams that reach the outline; all triangles lie on the nearer side, but for an edge.
+    # The line between the two seams that reach the boundary; all triangles lie on the nearer side, but for an edge.
     a, b = surface.points[6, :2], surface.points[30, :2]
     along = (b - a) / np.linalg.norm(b - a)
     middles = surface.points[surface.triangles].mean(axis=1)[:, :2] - a
@@ -183,7 +183,7 @@ def test_two_islands_go_on_by_themselves_to_the_middle(turned_over: bool) -> Non
     assert sides[beyond.argmax()] != sides[beyond.argmin()]
 
 
-def test_corners_at_the_outline_keep_their_bits() -> None:
+def test_corners_at_the_boundary_keep_their_bits() -> None:
     surface = disc()
     rng = np.random.default_rng(0)
     uv = surface.points[:, :2] * 0.1 + 0.01 * rng.normal(size=(len(surface.points), 2))

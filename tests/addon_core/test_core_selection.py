@@ -30,7 +30,7 @@ def where(test: Callable[[Floats], Mask]) -> Mask:
     return np.array(test(CENTRES.T))
 
 
-def outline_of(mesh: MeshArrays, faces: Mask) -> Mask:
+def boundary_of(mesh: MeshArrays, faces: Mask) -> Mask:
     """The edges between the faces and the others."""
     uses = np.bincount(mesh.corner_edges[faces[mesh.corner_faces]], minlength=len(mesh.edges))
     rest = np.bincount(mesh.corner_edges[~faces[mesh.corner_faces]], minlength=len(mesh.edges))
@@ -40,7 +40,7 @@ def outline_of(mesh: MeshArrays, faces: Mask) -> Mask:
 
 def test_a_loop_of_edges_encloses_the_smaller_side() -> None:
     inside = where(lambda c: np.abs(c).max(axis=0) < 0.5)
-    assert np.array_equal(enclosed_faces(FLAT, outline_of(FLAT, inside)), inside)
+    assert np.array_equal(enclosed_faces(FLAT, boundary_of(FLAT, inside)), inside)
 
 
 @pytest.mark.parametrize(("low", "high"), [(3, 6), (12, 19), (5, 15), (2, 18)])
@@ -49,11 +49,11 @@ def test_two_loops_round_a_limb_enclose_what_is_between(low: int, high: int) -> 
     mesh = polygon_mesh(points, quads, [False] * len(quads))
     row = np.arange(len(mesh.in_patch)) // 10
     between = (row >= low) & (row < high)
-    assert np.array_equal(enclosed_faces(mesh, outline_of(mesh, between)), between)
+    assert np.array_equal(enclosed_faces(mesh, boundary_of(mesh, between)), between)
 
 
 def test_a_loop_that_does_not_close_encloses_nothing() -> None:
-    walls = outline_of(FLAT, where(lambda c: np.abs(c).max(axis=0) < 0.5))
+    walls = boundary_of(FLAT, where(lambda c: np.abs(c).max(axis=0) < 0.5))
     walls[np.flatnonzero(walls)[0]] = False
     assert not enclosed_faces(FLAT, walls).any()
     assert not enclosed_faces(FLAT, np.zeros_like(walls)).any()
@@ -139,7 +139,7 @@ def with_a_fin() -> list[list[int]]:
 
 
 def test_a_fin_is_left_out() -> None:
-    """An upright triangle, selected too, on an edge of the outline of the middle 4 × 4 of 6 × 6 quads."""
+    """An upright triangle, selected too, on an edge of the boundary of the middle 4 × 4 of 6 × 6 quads."""
     plain = grid(6, 0.67)
     points = np.vstack([plain.positions, [[-0.2, -0.7, 1.0]]])
     mesh = polygon_mesh(points, [*grid_quads(6), [9, 10, 49]], [*plain.in_patch, True])
@@ -206,7 +206,7 @@ def test_custom_normals_stay_with_their_corners() -> None:
 
 
 def test_the_result_and_what_is_said_of_it_are_those_of_a_clean_mesh() -> None:
-    """Normals along the outline would point to both sides, and each turned face would look like a kink of 180°."""
+    """Normals along the boundary would point to both sides, and each turned face would look like a kink of 180°."""
     plain = sphere(np.array([]))
     options = FairOptions()
     clean, spoilt = (
@@ -220,7 +220,7 @@ def test_the_result_and_what_is_said_of_it_are_those_of_a_clean_mesh() -> None:
     }
 
 
-# X mirror: the outline by position, the inside by connectivity.
+# X mirror: the boundary by position, the inside by connectivity.
 def expected_images(size: int, vertices: np.ndarray) -> np.ndarray:
     row, column = np.divmod(vertices, size + 1)
     return np.searchsorted(vertices, row * (size + 1) + size - column)
@@ -238,11 +238,11 @@ def test_images_in_a_grid_whatever_lies_inside() -> None:
 
 @pytest.mark.parametrize(("shift", "found"), [(0.9 * NEAR, True), (1.1 * NEAR, False), (-1.1 * NEAR, False)])
 @pytest.mark.parametrize("axis", [0, 1, 2])
-def test_the_outline_is_compared_as_far_as_blender_looks(shift: float, axis: int, found: bool) -> None:
+def test_the_boundary_is_compared_as_far_as_blender_looks(shift: float, axis: int, found: bool) -> None:
     mesh = grid(8, 0.8)
     patch = make_patch(mesh)
     points = mesh.positions.copy()
-    points[patch.vertices[patch.outline[1]], axis] += shift
+    points[patch.vertices[patch.boundary[1]], axis] += shift
     assert (mirror_map(replace(mesh, positions=points), patch) is not None) == found
 
 

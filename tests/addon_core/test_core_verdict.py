@@ -251,8 +251,8 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
         assert judged(spoilt).remedies[-1] == WRITE
     reported = fairing.Diagnostic("NOT_CONVERGED", "", np.empty(0, np.int32), "vertex", {"area": 0.0})
     assert judged(replace(lost, result=replace(lost.result, warnings=(reported,)))).grade == UNUSABLE
-    outline = fine.problem.patch.vertices[fine.problem.patch.outline]
-    assert set(verdict.spots) <= set(outline)
+    boundary = fine.problem.patch.vertices[fine.problem.patch.boundary]
+    assert set(verdict.spots) <= set(boundary)
     assert len(verdict.spots)
     assert verdict.remedies == ()
     border = judged(lost, fair_open_borders=True)
@@ -272,8 +272,8 @@ def test_folds_at_a_pin_name_it(fine: Evidence) -> None:
     assert judged(away).reason == "1 face of the result is folded over"
 
 
-def test_folds_that_hang_on_a_jagged_outline_deserve_a_look(fine: Evidence) -> None:
-    """The engine says how far the outline lies beside the surface; a mesh that had more folds is better off."""
+def test_folds_that_hang_on_a_jagged_boundary_deserve_a_look(fine: Evidence) -> None:
+    """The engine says how far the boundary lies beside the surface; a mesh that had more folds is better off."""
     low_passed = warned("NO_SOLUTION", ints(), distance=0.02)(fine)
     rough = replace(CLEAN, folded=ints(FACE, OTHER), crossing=ints(FACE, OTHER))
     calm = replace(CLEAN, folded=ints(FACE), crossing=ints(OTHER))
@@ -332,7 +332,7 @@ def test_without_anything_outside_there_is_nothing_to_grow_into(fine: Evidence) 
     verdict = judged(lost)
     assert verdict.remedies == ()
     assert verdict.reason.startswith("No fair surface was found: the solver stopped making progress")
-    assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.outline].tolist()
+    assert verdict.spots.tolist() == problem.patch.vertices[problem.patch.boundary].tolist()
 
 
 def test_faces_left_out_within_are_offered_where_something_is_wrong(fine: Evidence) -> None:
@@ -344,7 +344,7 @@ def test_faces_left_out_within_are_offered_where_something_is_wrong(fine: Eviden
 
 
 def without_faces(mesh: MeshArrays, count: int) -> MeshArrays:
-    """As if a lasso had missed some, none beside another or the outline."""
+    """As if a lasso had missed some, none beside another or the boundary."""
     chosen = mesh.in_patch.copy()
     ring = np.isin(mesh.corner_vertices, mesh.corner_vertices[~chosen[mesh.corner_faces]])
     inner = np.setdiff1d(np.flatnonzero(chosen), mesh.corner_faces[ring])

@@ -73,7 +73,7 @@ def with_a_wide_key(obj: bpy.types.Object) -> None:
 
 @pytest.mark.parametrize("scale", [(1.0, 1.0, 1.0), (0.5, 0.8, 1.5), (-1.0, 1.0, 1.0)])
 def test_a_shape_key_gets_a_surface_of_its_own(scale: tuple[float, float, float]) -> None:
-    """A ball 1.5 times as large; offsets carried over from the outline leave it 4 % too flat, with a kink around."""
+    """A ball 1.5 times as large; offsets carried over from the boundary leave it 4 % too flat, with a kink around."""
     obj = open_sphere()
     for name in ("Basis", "Large", "Aside"):
         obj.shape_key_add(name=name)

@@ -1,4 +1,4 @@
-"""What holds inside a selection and around it: creases, smooth curves, pins, open borders, hard outlines."""
+"""What holds inside a selection and around it: creases, smooth curves, pins, open borders, hard boundaries."""
 
 from dataclasses import replace
 from typing import Any

@@ -130,7 +130,7 @@ def test_command_refuses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     assert not output.exists()
 
 
-# The pie, and what scripts ask of a part of an outline.
+# The pie, and what scripts ask of a part of a boundary.
 
 
 @pytest.mark.parametrize("mode", ["EDIT", "SCULPT", "OBJECT"])
@@ -146,7 +146,7 @@ def test_every_entry_of_the_pie_exists(mode: str) -> None:
     bpy.ops.object.mode_set(mode="OBJECT")
 
 
-def test_a_part_of_an_outline_stands_for_all_of_it_in_scripts_too() -> None:
+def test_a_part_of_a_boundary_stands_for_all_of_it_in_scripts_too() -> None:
     obj = open_sphere(lambda c: abs(c.z) > 0.8)
     module().fill_mesh(obj.data, [int(meshes.positions(obj)[:, 2].argmax())])
     assert border_edges(obj) == 40

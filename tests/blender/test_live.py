@@ -57,7 +57,7 @@ def drag(vertices: Any, step: tuple[float, float, float], name: str = "Grid") ->
 
 
 def flank(points: Any) -> Any:
-    """Vertices beside the region: on its outline and outside, on one side."""
+    """Vertices beside the region: on its boundary and outside, on one side."""
     return np.flatnonzero((points[:, 0] > 0.6) & (np.abs(points[:, 1]) < 0.4))
 
 
@@ -176,8 +176,8 @@ def test_options_are_those_of_the_last_run(live: Any) -> None:
     switch(True)
     height = now()[:, 2].max()
     assert height > 0.02
-    outline = np.flatnonzero(now()[:, 0] > 0.55)
-    drag(outline, (0.0, 0.0, 0.001))
+    boundary = np.flatnonzero(now()[:, 0] > 0.55)
+    drag(boundary, (0.0, 0.0, 0.001))
     # Hardly moved: the bulge is as high as before, which a harmonic surface would not be.
     assert now()[:, 2].max() == pytest.approx(height, rel=0.05)
     before = now()
@@ -202,7 +202,7 @@ def test_new_connectivity_is_read_anew(live: Any) -> None:
     assert live.message == ""
 
 
-def test_a_spoilt_outline_is_reported_and_leaves_the_mesh(live: Any) -> None:
+def test_a_spoilt_boundary_is_reported_and_leaves_the_mesh(live: Any) -> None:
     table_mountain()
     before = now()
     beside = flank(before)
@@ -213,7 +213,7 @@ def test_a_spoilt_outline_is_reported_and_leaves_the_mesh(live: Any) -> None:
 
 
 def test_a_slow_answer_is_stood_in_for_until_the_end_of_the_drag(live: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Out of patience at once: a smooth surface goes along with its outline, and the answer comes when all is quiet."""
+    """Out of patience at once: a smooth surface follows its boundary, and the answer comes when all is quiet."""
     home = module("live.live")
     monkeypatch.setattr(home, "PATIENCE", -1.0)
     _, faces = table_mountain()

@@ -54,9 +54,9 @@ def test_report_of_a_restored_hemisphere() -> None:
     assert found["Equation solved"] == ("yes", "TOLD")
     assert found["Kink at the boundary"][1] == "MET"
     # H = −1 inside and out: the maximum principle is met with equality
-    inside, outline = map(float, re.split(" [≤>] ", found["Curvature inside"][0]))
+    inside, boundary = map(float, re.split(" [≤>] ", found["Curvature inside"][0]))
     assert inside == pytest.approx(1.0, abs=5e-3)
-    assert outline == pytest.approx(1.0, abs=5e-3)
+    assert boundary == pytest.approx(1.0, abs=5e-3)
     rough, solved = map(float, found["Residual"][0].split(" → "))
     assert solved < 1e-2 * rough
     before, after = found["Folded faces"][0].split(" → ")

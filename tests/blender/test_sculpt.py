@@ -188,7 +188,7 @@ def test_a_brush_beside_the_mesh_changes_nothing(sculpted: Any) -> None:
     assert ".sculpt_mask" not in obj.data.attributes
 
 
-# What can be done about a selection before a run: loops, left-out faces, bad outlines, the other side.
+# What can be done about a selection before a run: loops, left-out faces, bad boundaries, the other side.
 def square(obj: bpy.types.Object, half: float = 0.6) -> Any:
     return meshes.faces_where(obj, lambda c: max(abs(c.x), abs(c.y)) < half)
 
@@ -206,7 +206,7 @@ def chosen_faces(obj: bpy.types.Object) -> list[int]:
 
 
 def select_loop(obj: bpy.types.Object, faces: Any, kind: str) -> None:
-    """Select the outline of the faces in edit mode, by its edges or its vertices."""
+    """Select the boundary of the faces in edit mode, by its edges or its vertices."""
     mode = (kind == "VERT", kind == "EDGE", False)
     bpy.context.tool_settings.mesh_select_mode = mode
     bpy.ops.mesh.select_all(action="DESELECT")
@@ -254,7 +254,7 @@ def test_left_out_faces_are_offered_and_added() -> None:
 
 
 def folded() -> tuple[bpy.types.Object, Any]:
-    """Add a fine bumpy grid with a fold pressed into one place of a selection's outline."""
+    """Add a fine bumpy grid with a fold pressed into one place of a selection's boundary."""
     obj = bumpy(24)
     faces = square(obj, 0.5)
     points = meshes.positions(obj)
@@ -264,7 +264,7 @@ def folded() -> tuple[bpy.types.Object, Any]:
     return obj, faces
 
 
-def test_bad_outline_vertices_are_marked_and_selected() -> None:
+def test_bad_boundary_vertices_are_marked_and_selected() -> None:
     obj, faces = folded()
     points = meshes.positions(obj)
     obj.location = (0.0, 0.0, 5.0)

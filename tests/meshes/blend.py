@@ -60,7 +60,7 @@ class Rectangle:
 
 
 @dataclass(frozen=True)
-class Outline:
+class Boundary:
     """The flat Y, counter-clockwise: points (k, 2) and for each the rim it is on (−1: a side).
 
     `across` is the position along the rim in [−1, 1]; its ends lie on both rim and sides.
@@ -71,7 +71,7 @@ class Outline:
     across: FloatArray
 
 
-def _outline(reach: float, h: float) -> Outline:
+def _boundary(reach: float, h: float) -> Boundary:
     notch = HALF_WIDTH / np.sin(np.pi / 3)
     points, rims, across = [], [], []
     for k, direction in enumerate(DIRECTIONS):
@@ -87,7 +87,7 @@ def _outline(reach: float, h: float) -> Outline:
         points += [rim, sides]
         rims += [np.full(len(rim), k), np.full(len(sides), -1)]
         across += [share, np.zeros(len(sides))]
-    return Outline(np.vstack(points), np.concatenate(rims), np.concatenate(across))
+    return Boundary(np.vstack(points), np.concatenate(rims), np.concatenate(across))
 
 
 def between(start: FloatArray, end: FloatArray, h: float) -> FloatArray:
@@ -97,29 +97,29 @@ def between(start: FloatArray, end: FloatArray, h: float) -> FloatArray:
     return start + share * (end - start)
 
 
-def inside(outline: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
+def inside(boundary: FloatArray, points: FloatArray) -> NDArray[np.bool_]:
     """Even-odd test of points (k, 2) in a polygon."""
     x, y = points[:, 0], points[:, 1]
     inside = np.zeros(len(points), dtype=bool)
-    for (ax, ay), (bx, by) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
+    for (ax, ay), (bx, by) in zip(boundary, np.roll(boundary, -1, axis=0), strict=True):
         if ay != by:
             inside ^= ((ay > y) != (by > y)) & (x < (bx - ax) * (y - ay) / (by - ay) + ax)
     return inside
 
 
-def sheet(outline: FloatArray, h: float, jitter: float, rng: np.random.Generator) -> FloatArray:
-    """Jittered hexagonal points of random phase and direction, 0.6 h clear of the outline."""
-    reach = int(2 * np.abs(outline).max() / h) + 2
+def sheet(boundary: FloatArray, h: float, jitter: float, rng: np.random.Generator) -> FloatArray:
+    """Jittered hexagonal points of random phase and direction, 0.6 h clear of the boundary."""
+    reach = int(2 * np.abs(boundary).max() / h) + 2
     i, j = np.meshgrid(np.arange(-reach, reach + 1), np.arange(-reach, reach + 1))
     lattice = np.column_stack([(i + 0.5 * (j % 2)).ravel(), (0.5 * np.sqrt(3) * j).ravel()])
     turn = rng.random() * np.pi / 3
     rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
     shaken = lattice + jitter * (rng.random(lattice.shape) - 0.5)
     points = h * (shaken + rng.random(2)) @ rotation.T
-    refined = np.vstack([outline + s * (np.roll(outline, -1, 0) - outline) for s in (0, 0.33, 0.67)])
+    refined = np.vstack([boundary + s * (np.roll(boundary, -1, 0) - boundary) for s in (0, 0.33, 0.67)])
     clear = cKDTree(refined).query(points)[0] > 0.6 * h
     points = points[clear]
-    points = points[inside(outline, points)]
+    points = points[inside(boundary, points)]
     return np.asarray(points[thinned(points, np.full(len(points), 0.6 * h))])
 
 
@@ -131,21 +131,21 @@ def _with_rectangle(sheet: FloatArray, rectangle: Rectangle) -> FloatArray:
     return np.vstack([regular, sheet[outside]])
 
 
-def triangulated(outline: FloatArray, inner: FloatArray) -> IntArray:
-    """Delaunay triangles inside the Y, outline vertices first, counter-clockwise."""
-    points = np.vstack([outline, inner])
+def triangulated(boundary: FloatArray, inner: FloatArray) -> IntArray:
+    """Delaunay triangles inside the Y, boundary vertices first, counter-clockwise."""
+    points = np.vstack([boundary, inner])
     triangles = Delaunay(points).simplices.astype(np.int64)
     a, b, c = (points[triangles[:, k]] for k in range(3))
     doubled = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     triangles[doubled < 0] = triangles[doubled < 0][:, [0, 2, 1]]
-    keep = inside(outline, points[triangles].mean(axis=1)) & (np.abs(doubled) > 1e-9)
+    keep = inside(boundary, points[triangles].mean(axis=1)) & (np.abs(doubled) > 1e-9)
     return np.asarray(triangles[keep])
 
 
-def _on_circle(outline: Outline, which: IntArray, up: int) -> FloatArray:
+def _on_circle(boundary: Boundary, which: IntArray, up: int) -> FloatArray:
     """Unit normals (k, 3) of the cylinders at rim points of the upper (1) or lower (−1) sheet."""
-    angle = 0.5 * np.pi * outline.across[which]
-    direction = DIRECTIONS[outline.rim[which]]
+    angle = 0.5 * np.pi * boundary.across[which]
+    direction = DIRECTIONS[boundary.rim[which]]
     side = np.column_stack([-np.sin(direction), np.cos(direction)])
     return np.column_stack([np.sin(angle)[:, None] * side, up * np.cos(angle)])
 
@@ -173,7 +173,7 @@ def blend_with_rectangle(n_free: int, rectangle: Rectangle, *, rim: int, seed: i
 def _blend(h: float, jitter: float, seed: int, reach: float, regular: tuple[Rectangle, int] | None = None) -> Blend:
     rng = np.random.default_rng(seed)
 
-    def sheets_of(flat: Outline) -> list[FloatArray]:
+    def sheets_of(flat: Boundary) -> list[FloatArray]:
         sheets = [sheet(flat.points, h, jitter, rng) for _ in range(2)]
         if regular is None:
             return sheets
@@ -188,9 +188,9 @@ def _blend(h: float, jitter: float, seed: int, reach: float, regular: tuple[Rect
     return of_sheets(h, reach, sheets_of)
 
 
-def of_sheets(h: float, reach: float, make: Callable[[Outline], list[FloatArray]]) -> Blend:
-    """The blend whose outline has edges of about h, with the points inside that `make` gives for each sheet."""
-    flat = _outline(reach, h)
+def of_sheets(h: float, reach: float, make: Callable[[Boundary], list[FloatArray]]) -> Blend:
+    """The blend whose boundary has edges of about h, with the points inside that `make` gives for each sheet."""
+    flat = _boundary(reach, h)
     sheets = make(flat)
     upper, lower = (triangulated(flat.points, inner) for inner in sheets)
     corners = len(flat.points)
@@ -202,7 +202,7 @@ def of_sheets(h: float, reach: float, make: Callable[[Outline], list[FloatArray]
     return replace(blend, flat=np.vstack([above, inside[0], below, inside[1]]))
 
 
-def _glued(flat: Outline, upper: IntArray, lower: IntArray, sizes: tuple[int, int, int], reach: float) -> Blend:
+def _glued(flat: Boundary, upper: IntArray, lower: IntArray, sizes: tuple[int, int, int], reach: float) -> Blend:
     """Both sheets in one mesh: the sides are shared, the open rim points exist twice."""
     corners, above, below = sizes
     doubled = np.flatnonzero((flat.rim >= 0) & (np.abs(flat.across) < 1 - 1e-9))

@@ -17,22 +17,22 @@ Distance = Callable[[FloatArray], FloatArray]
 
 @dataclass(frozen=True)
 class Creased:
-    """A patch (n, 3), (m, 3) that is held along its outline and along a curve inside.
+    """A patch (n, 3), (m, 3) that is held along its boundary and along a curve inside.
 
     Exact surfaces: side k has `distances[k]`, and `side` (n,) tells which of them each vertex lies on.
     """
 
     vertices: FloatArray
     triangles: IntArray
-    outline: IntArray
-    curve: IntArray  # inside, and its ends on the outline
+    boundary: IntArray
+    curve: IntArray  # inside, and its ends on the boundary
     normals: FloatArray  # (n, 3) of the exact sides; unimportant on the curve
     side: IntArray
     distances: tuple[Distance, ...] = field(default=())
 
     @property
     def fixed(self) -> IntArray:
-        return np.union1d(self.outline, self.curve)
+        return np.union1d(self.boundary, self.curve)
 
     @property
     def free(self) -> IntArray:
@@ -76,28 +76,28 @@ def _plane(axis: int) -> Distance:
 def fading_fold(n: int, seed: int = 0, *, steep: float = 0.6) -> Creased:
     """z = −steep |s| (1 − 2 t)² up to t = ½, flat beyond: the curve is the fold, which ends in the middle."""
     s, t = (x.ravel() for x in np.meshgrid(np.linspace(-1, 1, 2 * n + 1), np.linspace(0, 1, n + 1), indexing="ij"))
-    outline = (np.abs(s) > 1 - 1e-9) | (t < 1e-9) | (t > 1 - 1e-9)
+    boundary = (np.abs(s) > 1 - 1e-9) | (t < 1e-9) | (t > 1 - 1e-9)
     curve = (np.abs(s) < 1e-9) & (t <= 0.5 + 1e-9)
-    st, triangles = _grid(np.column_stack([s, t]), (2 * n + 1, n + 1), outline | curve, seed)
+    st, triangles = _grid(np.column_stack([s, t]), (2 * n + 1, n + 1), boundary | curve, seed)
     s, t = st.T
     fold = np.maximum(1 - 2 * t, 0.0)
     vertices = np.column_stack([s, t, -steep * np.abs(s) * fold**2])
     slope = np.column_stack([steep * np.sign(s) * fold**2, -4 * steep * np.abs(s) * fold, np.ones_like(s)])
     normals = slope / np.linalg.norm(slope, axis=1)[:, None]
-    return Creased(vertices, triangles, np.flatnonzero(outline), np.flatnonzero(curve), normals, (s > 0).astype(int))
+    return Creased(vertices, triangles, np.flatnonzero(boundary), np.flatnonzero(curve), normals, (s > 0).astype(int))
 
 
 def box_edge(n: int, seed: int = 0, *, cut: float = 1.0) -> Creased:
     """Two squares of n × n cells at a right angle; the curve is their common edge, or the share `cut` of it."""
     s, t = (x.ravel() for x in np.meshgrid(np.linspace(-1, 1, 2 * n + 1), np.linspace(0, 1, n + 1), indexing="ij"))
-    outline = (np.abs(s) > 1 - 1e-9) | (t < 1e-9) | (t > 1 - 1e-9)
-    st, triangles = _grid(np.column_stack([s, t]), (2 * n + 1, n + 1), outline | (np.abs(s) < 1e-9), seed)
+    boundary = (np.abs(s) > 1 - 1e-9) | (t < 1e-9) | (t > 1 - 1e-9)
+    st, triangles = _grid(np.column_stack([s, t]), (2 * n + 1, n + 1), boundary | (np.abs(s) < 1e-9), seed)
     s, t = st.T
     vertices = np.column_stack([np.minimum(s, 0.0), t, -np.maximum(s, 0.0)])
     normals = np.where((s < 0)[:, None], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0])
     curve = np.flatnonzero((np.abs(s) < 1e-9) & (t <= cut + 1e-9))
     side = np.where(s < 0, 0, 1)
-    return Creased(vertices, triangles, np.flatnonzero(outline), curve, normals, side, (_plane(2), _plane(0)))
+    return Creased(vertices, triangles, np.flatnonzero(boundary), curve, normals, side, (_plane(2), _plane(0)))
 
 
 def box_corner(n: int, seed: int = 0) -> Creased:
@@ -117,16 +117,16 @@ def box_corner(n: int, seed: int = 0) -> Creased:
     points, triangles = points[first], number.ravel()[np.concatenate(faces)]
     zero = np.abs(points) < 1e-9
     side = np.argmax(zero, axis=1)
-    outline = (points < -1 + 1e-9).any(axis=1)
+    boundary = (points < -1 + 1e-9).any(axis=1)
     curve = zero.sum(axis=1) >= 2
     return Creased(
-        points, triangles, np.flatnonzero(outline), np.flatnonzero(curve), np.eye(3)[side], side,
+        points, triangles, np.flatnonzero(boundary), np.flatnonzero(curve), np.eye(3)[side], side,
         tuple(_plane(axis) for axis in range(3)),
     )  # fmt: skip
 
 
 def lid(rings: int, seed: int = 0, *, depth: float = 0.8) -> Creased:
-    """A disc of radius 1 on a cylinder; the curve is the rim, the outline the circle at −depth."""
+    """A disc of radius 1 on a cylinder; the curve is the rim, the boundary the circle at −depth."""
     rng = np.random.default_rng([seed, 6])
     places = [np.zeros((1, 2))]
     for k in range(1, rings + 1):
@@ -175,7 +175,7 @@ class Hole:
 
     @property
     def size(self) -> float:
-        """The length of the box around the hole's outline."""
+        """The length of the box around the hole's boundary."""
         return float(np.linalg.norm(np.ptp(self.vertices[self.loop], axis=0)))
 
     def error(self, points: FloatArray) -> float:
@@ -296,7 +296,7 @@ class Dented:
 
     vertices: FloatArray
     patch: IntArray
-    fixed: IntArray  # ascending: its outline, and the curve
+    fixed: IntArray  # ascending: its boundary, and the curve
     normals: FloatArray  # at these
     curve: IntArray  # the vertices of hard edges within, with those where they enter
     edges: IntArray  # (h, 2) the hard edges between them
@@ -310,9 +310,9 @@ class Dented:
         return float(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean())
 
     def error(self, points: FloatArray) -> float:
-        """The largest distance to the nearest side, over the size of the box around the outline."""
-        outline = np.setdiff1d(self.fixed, self.curve)
-        size = np.linalg.norm(np.ptp(self.vertices[outline], axis=0))
+        """The largest distance to the nearest side, over the size of the box around the boundary."""
+        boundary = np.setdiff1d(self.fixed, self.curve)
+        size = np.linalg.norm(np.ptp(self.vertices[boundary], axis=0))
         return float(np.min([side(points) for side in self.sides], axis=0).max() / size)
 
 
@@ -322,22 +322,22 @@ def dented(
     """The patch within a ball, thrown about by a twentieth of its edges."""
     inside = (np.linalg.norm(vertices - centre, axis=1) < radius)[triangles].all(axis=1)
     patch, outside = triangles[inside], triangles[~inside]
-    outline = np.unique(np.concatenate(fairing.boundary_loops(patch)))
-    moving = np.setdiff1d(patch, outline)
+    boundary = np.unique(np.concatenate(fairing.boundary_loops(patch)))
+    moving = np.setdiff1d(patch, boundary)
     on = np.array([side(vertices) < 1e-9 for side in sides])
     edges = measures.edges(triangles)
     edges = edges[np.count_nonzero(on[:, edges].all(axis=2), axis=0) > 1]
     within = np.isin(edges, moving).any(axis=1)
-    normals = fairing.boundary_normals(vertices, patch, outline, outside=outside, creases=edges).normals
+    normals = fairing.boundary_normals(vertices, patch, boundary, outside=outside, creases=edges).normals
     ends = vertices[measures.edges(patch)]
     thrown = vertices.copy()
     size = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).mean()
     thrown[moving] += 0.2 * size * np.random.default_rng(0).normal(size=(len(moving), 3))
     faired = fairing.fair_edges(thrown, edges[within], edges[~within])
     curve = np.unique(np.concatenate(faired.curves))
-    fixed = np.union1d(outline, curve)
+    fixed = np.union1d(boundary, curve)
     at_fixed = np.tile([0.0, 0.0, 1.0], (len(fixed), 1))
-    at_fixed[np.isin(fixed, outline)] = normals
+    at_fixed[np.isin(fixed, boundary)] = normals
     return Dented(faired.vertices, patch, fixed, at_fixed, curve, edges[within], sides)
 
 

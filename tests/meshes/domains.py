@@ -123,7 +123,7 @@ def stretched_disc(domain: Domain, style: Style, h: float) -> FloatArray:
     return np.column_stack(sphere.unchart(inside))
 
 
-def outline(domain: Domain, style: Style, h: float, rng: np.random.Generator) -> list[FloatArray]:
+def boundary(domain: Domain, style: Style, h: float, rng: np.random.Generator) -> list[FloatArray]:
     """Boundary loops, evenly spaced in space (times `spacing`), in order around each loop."""
     start, stop = domain.ends
     across = h / np.sqrt(style.aspect) * spacing(domain, style, np.array([start, stop]))
@@ -190,7 +190,7 @@ def jittered(domain: Domain, st: FloatArray, size: FloatArray, style: Style, rng
 
 
 def clearance(domain: Domain, st: FloatArray, loops: list[FloatArray]) -> FloatArray:
-    """Distance in space to the outline, sampled four times per edge."""
+    """Distance in space to the boundary, sampled four times per edge."""
     samples = [domain.space(_refined(domain, loop)) for loop in loops]
     return np.asarray(cKDTree(np.vstack(samples)).query(domain.space(st))[0])
 
@@ -225,7 +225,7 @@ def scattered(domain: Domain, style: Style, h: float, rng: np.random.Generator) 
 
 
 def interior(domain: Domain, style: Style, h: float, loops: list[FloatArray], rng: np.random.Generator) -> FloatArray:
-    """Jittered points inside, none within about 0.4 edges of the outline."""
+    """Jittered points inside, none within about 0.4 edges of the boundary."""
     if style.layout == "random":
         st = scattered(domain, style, h, rng)
     elif domain.shape == "disc" and style.aspect != 1.0:

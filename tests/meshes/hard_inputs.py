@@ -140,15 +140,15 @@ def beside(item: Input, triangles: IntArray, count: int, vertices: FloatArray | 
     )
 
 
-def collapsed_outline_edge(patch: Patch) -> "Input":
-    """Two neighbours on the outline at one place, with one normal."""
+def collapsed_boundary_edge(patch: Patch) -> "Input":
+    """Two neighbours on the boundary at one place, with one normal."""
     start, normals = patch.vertices.copy(), patch.fixed_normals.copy()
     start[patch.fixed[1]], normals[1] = start[patch.fixed[0]], normals[0]
     return of_patch(patch).changed(vertices=start, reference=start, normals=normals)
 
 
 def flat_ear(patch: Patch) -> "Input":
-    """A triangle of the outline whose three vertices lie in a line, the middle one on the outline."""
+    """A triangle of the boundary whose three vertices lie in a line, the middle one on the boundary."""
     a, b = patch.fixed[:2]
     middle = len(patch.vertices)
     vertices = np.vstack([patch.vertices, [0.5 * (patch.vertices[a] + patch.vertices[b])]])
@@ -196,7 +196,7 @@ def with_surroundings(patch: Patch, turned: bool = False) -> "Input":
 
 
 def creased(patch: Patch, degrees: float = 70.0) -> "Input":
-    """Normals of a plane's outline turned to and fro about its x-axis: a crease at every corner of the outline."""
+    """Normals of a plane's boundary turned to and fro about its x-axis: a crease at every corner of the boundary."""
     normals = patch.fixed_normals.copy()
     turn = np.radians(degrees) * np.sign(patch.vertices[patch.fixed, 2] - patch.vertices[patch.fixed, 2].mean())
     axis = np.array([0.0, 0.0, 1.0])

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.spatial import Delaunay, cKDTree
 
 from curves import FloatArray
-from domains import Domain, Style, interior, jittered, outline, spacing, stations
+from domains import Domain, Style, boundary, interior, jittered, spacing, stations
 from grids import IntArray, halves
 
 
@@ -55,7 +55,7 @@ def _area(domain: Domain) -> float:
 
 def _points(domain: Domain, h: float, style: Style) -> tuple[list[FloatArray], FloatArray]:
     rng = np.random.default_rng(style.seed)
-    loops = outline(domain, style, h, rng)
+    loops = boundary(domain, style, h, rng)
     return loops, interior(domain, style, h, loops, rng)
 
 
@@ -64,7 +64,7 @@ def _count(domain: Domain, h: float, style: Style) -> int:
 
 
 def delaunay(domain: Domain, h: float, style: Style) -> Mesh:
-    """Delaunay triangulation in the conformal chart; free vertices first, then the outline."""
+    """Delaunay triangulation in the conformal chart; free vertices first, then the boundary."""
     return triangulated(domain, *_points(domain, h, style), style)
 
 
@@ -97,13 +97,13 @@ def _periodic(chart: FloatArray) -> IntArray:
 
 
 def _without_flat(chart: FloatArray, triangles: IntArray, fixed: IntArray) -> IntArray:
-    """Drop the slivers that Delaunay leaves along a straight or concave outline."""
-    on_outline = np.isin(triangles, fixed).all(axis=1)
+    """Drop the slivers that Delaunay leaves along a straight or concave boundary."""
+    on_boundary = np.isin(triangles, fixed).all(axis=1)
     a, b, c = (chart[triangles[:, k]] for k in range(3))
     ab, ac = b - a, c - a
     doubled = np.abs(ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0])
     longest = np.maximum((ab**2).sum(axis=1), ((ac - ab) ** 2).sum(axis=1))
-    return np.asarray(triangles[~(on_outline & (doubled < 0.05 * longest))])
+    return np.asarray(triangles[~(on_boundary & (doubled < 0.05 * longest))])
 
 
 def face_normals(points: FloatArray, triangles: IntArray) -> FloatArray:

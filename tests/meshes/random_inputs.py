@@ -15,7 +15,7 @@ HOLES = {"disc": [], "annulus": [(0.0, 0.0, 0.45)], "pair of pants": [(-0.45, 0.
 
 
 def planar(shape: str, count: int, rng: np.random.Generator) -> tuple[FloatArray, IntArray]:
-    """Points (n, 2) of the unit disc, evenly round its outlines and at random between, and a Delaunay triangulation."""
+    """Points (n, 2) of the unit disc, evenly round its boundaries, at random between, and a Delaunay triangulation."""
     circles = [(0.0, 0.0, 1.0), *HOLES[shape]]
     angle = 2 * np.pi * np.arange(24) / 24
     rims = [

@@ -16,19 +16,19 @@ LIMIT = 0.3  # what lies above is selected
 
 @dataclass(frozen=True)
 class RoughSphere:
-    """Vertices (n, 3) of the sphere itself, with noise, and with noise and the swelling; triangles; outline (k,)."""
+    """Vertices (n, 3) of the sphere itself, with noise, and with noise and the swelling; triangles; boundary (k,)."""
 
     exact: FloatArray
     skin: FloatArray
     vertices: FloatArray
     inside: IntArray
     outside: IntArray
-    outline: IntArray
+    boundary: IntArray
 
     @property
     def free(self) -> IntArray:
         """Vertices that may move."""
-        return np.setdiff1d(self.inside, self.outline)
+        return np.setdiff1d(self.inside, self.boundary)
 
     @property
     def diameter(self) -> float:
@@ -42,12 +42,12 @@ class RoughSphere:
 
     def normals(self) -> FloatArray:
         """Those of the surroundings."""
-        return fairing.surrounding_normals(self.vertices, self.outside, self.outline).normals
+        return fairing.surrounding_normals(self.vertices, self.outside, self.boundary).normals
 
     def fair(self, **options: Any) -> fairing.FairResult:
         """With the normals of the surroundings unless others are given."""
         chosen = {"fixed_normals": self.normals(), "outside": self.outside, **options}
-        return fairing.fair(self.vertices, self.inside, fixed=self.outline, **chosen)
+        return fairing.fair(self.vertices, self.inside, fixed=self.boundary, **chosen)
 
     def heights(self, points: FloatArray, where: IntArray) -> FloatArray:
         """Over the sphere."""

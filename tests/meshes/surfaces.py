@@ -16,7 +16,7 @@ from curves import Curve, FloatArray
 @dataclass(frozen=True)
 class Surface:
     """What the mesher and the measures need: `point`, `normal`, `mean_curvature` (length⁻¹), `width` (length per unit
-    of t), `frame` (unit tangents along s and t), `locate` (the nearest (s, t), continued a little past the outline),
+    of t), `frame` (unit tangents along s and t), `locate` (the nearest (s, t), continued a little past the boundary),
     `chart` (a conformal map to the plane, in which Delaunay is nearly Delaunay in space). Arrays s, t are (k,).
     """
 
@@ -24,7 +24,7 @@ class Surface:
     side: int = 1
 
     def distance(self, points: FloatArray) -> FloatArray:
-        """Unsigned distances (k,) to the surface, continued a little past its outline."""
+        """Unsigned distances (k,) to the surface, continued a little past its boundary."""
         return np.asarray(np.linalg.norm(points - self.point(*self.locate(points)), axis=1))
 
 

@@ -1,4 +1,4 @@
-"""Tubes round plane curves with irregular meshes, as problems with an outline and normals only."""
+"""Tubes round plane curves with irregular meshes, as problems with a boundary and normals only."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -30,7 +30,7 @@ class Tube:
         return float(2 * np.linalg.norm(rim - rim.mean(axis=0), axis=1).max())
 
     def faired(self, **options: Any) -> fairing.FairResult:
-        """The surface of least variation from the outline alone; `seed` scatters the interior."""
+        """The surface of least variation from the boundary alone; `seed` scatters the interior."""
         start = self.vertices.copy()
         free = np.setdiff1d(np.arange(len(start)), self.fixed)
         start[free] = np.random.default_rng(options.pop("seed", 0)).normal(size=(len(free), 3))

@@ -14,18 +14,18 @@ Kind = Literal["cylinder", "sphere"]
 
 @dataclass(frozen=True)
 class Window:
-    """A ring-shaped patch (n, 3), (m, 3) around a window, held along its outer outline or the part of it given."""
+    """A ring-shaped patch (n, 3), (m, 3) around a window, held along its outer boundary or the part of it given."""
 
     kind: Kind
     vertices: FloatArray
     triangles: IntArray
-    outline: IntArray
+    boundary: IntArray
     normals: FloatArray  # (k, 3) in its order
     border: IntArray  # of the window, those that move
 
     @property
     def moving(self) -> IntArray:
-        return np.setdiff1d(np.arange(len(self.vertices)), self.outline)
+        return np.setdiff1d(np.arange(len(self.vertices)), self.boundary)
 
     @property
     def edge(self) -> float:

@@ -132,7 +132,7 @@ TEST_CASE("triangles that can't carry the equation are a flaw of the user's mesh
 namespace {
 
 // The solved surface, as one of edges of that length.
-struct PlacedSurface {
+struct ProjectedSurface {
     const Solved& solved;
     Solution solution = solved.solution();
     TargetSurface target{solved.patch(), solution.points, solution.points};
@@ -148,17 +148,17 @@ struct PlacedSurface {
 
 TEST_CASE("two surfaces agree within their errors, or within the coarser one's edges") {
     const Solved solved;
-    const PlacedSurface placed{solved};
-    const double fine = 0.5 * placed.mean;
-    Solution own = placed.solution;
+    const ProjectedSurface projected{solved};
+    const double fine = 0.5 * projected.mean;
+    Solution own = projected.solution;
     own.points.col(0) *= 1.0 + 1e-4;
-    CHECK(placed.agrees(own, fine));
+    CHECK(projected.agrees(own, fine));
     own.points.col(0) *= 1.0 + 1e-3;
-    CHECK(!placed.agrees(own, fine));
-    CHECK(placed.agrees(own, 4.0 * fine));
+    CHECK(!projected.agrees(own, fine));
+    CHECK(projected.agrees(own, 4.0 * fine));
     own.points.col(0) *= 1.0 + 4.0 * fine;
-    CHECK(!placed.agrees(own, 4.0 * fine));
-    own.points = placed.solution.points;
+    CHECK(!projected.agrees(own, 4.0 * fine));
+    own.points = projected.solution.points;
     own.mean_curvature *= 1.3;
-    CHECK(!placed.agrees(own, fine));
+    CHECK(!projected.agrees(own, fine));
 }

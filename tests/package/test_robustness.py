@@ -32,7 +32,7 @@ def off_the_sphere(vertices: Any) -> float:
 
 
 def far_corner(value: float) -> Input:
-    """A corner of the surroundings that the outline doesn't touch."""
+    """A corner of the surroundings that the boundary doesn't touch."""
     vertices = AROUND.vertices.copy()
     vertices[-1] = value, 0.0, np.nan
     return AROUND.changed(vertices=vertices, reference=None)
@@ -69,7 +69,7 @@ def test_what_does_no_harm(name: str, method: str, kind: str) -> None:
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_doubled_triangles_are_refused_where_they_would_move(turned: bool) -> None:
-    """A pocket of two triangles on an outline edge: its third vertex would be free and have two neighbours."""
+    """A pocket of two triangles on a boundary edge: its third vertex would be free and have two neighbours."""
     with pytest.raises(fairing.MeshError) as caught:
         hard_inputs.with_pocket(CLEAN, turned).fair()
     assert caught.value.code == "NONMANIFOLD_EDGE"
@@ -86,8 +86,8 @@ def test_an_unwelded_seam_stays_open_and_is_reported(method: str, kind: str) -> 
 
 
 @pytest.mark.parametrize("kept", [1, 2, 3])
-def test_the_winding_at_the_outline_counts(kept: int) -> None:
-    """Most of the patch is wound the other way, all but some rows along the outline, whose normals are given."""
+def test_the_winding_at_the_boundary_counts(kept: int) -> None:
+    """Most of the patch is wound the other way, all but some rows along the boundary, whose normals are given."""
     patch = shapes.cap(300)
     rows = np.isin(patch.triangles, patch.fixed).any(axis=1)
     for _ in range(kept - 1):
@@ -116,9 +116,9 @@ def test_any_valence(item: Input, kind: str) -> None:
 
 
 @in_all_ways
-def test_outlines_without_length_or_area_do_no_harm(method: str, kind: str) -> None:
-    """Two outline vertices at one place; an ear of three in a line, whose middle dents the sphere by 0.014."""
-    edge = hard_inputs.collapsed_outline_edge(CAP).fair(method=method, inner_fairness=kind)
+def test_boundaries_without_length_or_area_do_no_harm(method: str, kind: str) -> None:
+    """Two boundary vertices at one place; an ear of three in a line, whose middle dents the sphere by 0.014."""
+    edge = hard_inputs.collapsed_boundary_edge(CAP).fair(method=method, inner_fairness=kind)
     ear = hard_inputs.flat_ear(CAP).fair(method=method, inner_fairness=kind)
     assert off_the_sphere(edge.vertices) < (4e-2 if method == "paper" else 5e-6)
     assert off_the_sphere(ear.vertices[CAP.free]) < (4e-2 if method == "paper" else 1.4e-2)
@@ -145,7 +145,7 @@ def test_coordinates_whose_sums_are_no_numbers_are_refused(method: str) -> None:
 @in_all_ways
 @pytest.mark.parametrize("ratio", [1e2, 1e4])
 def test_slivers_all_over(ratio: float, method: str, kind: str) -> None:
-    """A plane stretched along one direction, outline included: the plane, or it says that it isn't."""
+    """A plane stretched along one direction, boundary included: the plane, or it says that it isn't."""
     patch = shapes.plane(150)
     spans = np.ptp(patch.vertices, axis=0)
     vertices = patch.vertices * np.where(np.arange(3) == spans.argmax(), ratio, 1.0)
@@ -158,8 +158,8 @@ def test_slivers_all_over(ratio: float, method: str, kind: str) -> None:
 
 
 @in_all_ways
-def test_a_creased_outline_is_reported(method: str, kind: str) -> None:
-    """Normals that jump by 140° where the outline crosses a crease: which vertices, and how well they were met."""
+def test_a_creased_boundary_is_reported(method: str, kind: str) -> None:
+    """Normals that jump by 140° where the boundary crosses a crease: which vertices, and how well they were met."""
     result = hard_inputs.creased(shapes.plane(150)).fair(method=method, inner_fairness=kind)
     (warning,) = (w for w in result.warnings if w.code == "SHARP_BOUNDARY")
     assert "140°" in warning.message and len(warning.elements) == 4

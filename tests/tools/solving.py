@@ -12,7 +12,7 @@ TIGHT = 1e-10
 
 
 def fair_patch(patch: Patch, **options: Any) -> fairing.FairResult:
-    """The patch from its outline and the normals there, starting from a membrane."""
+    """The patch from its boundary and the normals there, starting from a membrane."""
     given = {"fixed": patch.fixed, "fixed_normals": patch.fixed_normals, "tolerance": TIGHT}
     return fairing.fair(shapes.start_from_nothing(patch), patch.triangles, **{**given, **options})
 

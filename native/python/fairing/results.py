@@ -126,7 +126,7 @@ class Solved:
     way: tuple[tuple[str, float], ...]
     """Name and seconds of each strategy that was tried, in order. The last one led to the result, unless none was
     accepted. "warm" begins at the last answer, "near" at the vertices given, "levels" goes from coarse to fine,
-    "direct" stays on the mesh given, "own mesh" takes one of the engine's own, "low-passed" does so over the
+    "direct" stays on the mesh given, "proxy mesh" takes one of the engine's own, "low-passed" does so over the
     low-passed boundary, "uniform weights" stays with uniform ones, "lifted pins" begins without the pins. "least
     variation", "old shape", "loft", "first surface" and "paper" are the surfaces and the method of that name. Several
     components follow each other."""

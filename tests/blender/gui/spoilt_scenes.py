@@ -1,4 +1,4 @@
-"""What the story's later chapters play on: outlines in a bad state, half a sphere, face sets."""
+"""What the story's later chapters play on: boundaries in a bad state, half a sphere, face sets."""
 
 from collections.abc import Callable
 from typing import Any
@@ -46,7 +46,7 @@ def _hills(points: Any) -> Any:
 
 
 def spoilt_rim(size: int = 48) -> int:
-    """A gentle hill, its top selected; on one side the faces around the outline are crumpled."""
+    """A gentle hill, its top selected; on one side the faces around the boundary are crumpled."""
     scenes.clear()
     bpy.ops.mesh.primitive_grid_add(x_subdivisions=size, y_subdivisions=size, size=3.0)
     random = np.random.default_rng(4)

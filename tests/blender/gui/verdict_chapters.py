@@ -57,7 +57,7 @@ def marks_before_a_run() -> Story:
     yield from _look()
     (found,) = module("selection.watch").watch.found
     assert len(found.bad) > 3, found
-    tell(f"bad outline vertices: {len(found.bad)}")
+    tell(f"bad boundary vertices: {len(found.bad)}")
     screenshot("marks")
     with in_view():
         bpy.ops.mesh.fair_select("EXEC_DEFAULT", True, what="BAD")

@@ -13,7 +13,7 @@ from solids import FloatArray, IntArray
 
 def faired(
     vertices: FloatArray, inside: IntArray, outside: IntArray, side: str = "automatic", continuity: str = "G1"
-) -> tuple[fairing.FairResult, fairing.solving.outline.BoundaryNormals, IntArray]:
+) -> tuple[fairing.FairResult, fairing.solving.slopes.BoundaryNormals, IntArray]:
     """The result, the normals, and the free vertices."""
     rim = np.intersect1d(inside, outside)
     found = fairing.boundary_normals(vertices, inside, rim, outside=outside, side=side)
@@ -113,7 +113,7 @@ def test_a_cap_that_is_spoilt_up_to_the_boundary_comes_back_round(degrees: int, 
 
 @pytest.mark.parametrize("continuity", ["G1", "G2"])
 @pytest.mark.parametrize("rings", [0, 0.5, 1, 2])
-def test_an_outline_that_is_partly_hard_mixes_both(rings: float, continuity: str) -> None:
+def test_a_boundary_that_is_partly_hard_mixes_both(rings: float, continuity: str) -> None:
     """One side of the selection lies on a crease: the panel goes on flat there. Tangent to the faces beyond: .05."""
     panel = solids.panel(rings)
     result, found, _ = faired(panel.vertices, panel.inside, panel.outside, continuity=continuity)
@@ -144,7 +144,7 @@ def test_a_boss_or_a_pocket_goes(height: float) -> None:
 
 @pytest.mark.parametrize("above", [0.3, 0.5, 0.7])
 def test_a_dent_that_ends_in_a_crease_goes(above: float) -> None:
-    """A ball whose cap was pushed in: parts of its jagged outline are hard, but these edges end there."""
+    """A ball whose cap was pushed in: parts of its jagged boundary are hard, but these edges end there."""
     vertices, triangles = solids.box(12)
     vertices = np.tan(vertices * np.pi / 4)
     vertices /= np.linalg.norm(vertices, axis=1)[:, None]

@@ -63,9 +63,9 @@ def test_position_on_a_part_and_tangent_on_the_rest_keep_spheres_cylinders_and_p
 def test_a_ball_comes_back_over_a_jagged_boundary(seed: int, share: float) -> None:
     """What the slopes given ask for is carried on to the others at the start: a disc's slopes lead elsewhere."""
     ball = rough_sphere(900, noise=0.0, seed=seed, swelling=0.0)
-    places = ball.exact[ball.outline]
+    places = ball.exact[ball.boundary]
     kinds = np.where(places[:, 0] < np.quantile(places[:, 0], share), "G0", "G1")
-    result = fairing.fair(ball.exact, ball.inside, fairing.Boundary(ball.outline, places, continuity=kinds))
+    result = fairing.fair(ball.exact, ball.inside, fairing.Boundary(ball.boundary, places, continuity=kinds))
     assert result.converged and result.equation == "least_variation"
     assert np.abs(ball.heights(result.vertices, ball.free)).max() < 1e-6
 

@@ -1,4 +1,4 @@
-"""`feather`, `weights` and `detail`: what fades outside the patch, and the outline without its noise."""
+"""`feather`, `weights` and `detail`: what fades outside the patch, and the boundary without its noise."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -47,15 +47,15 @@ def feathered(sphere: RoughSphere) -> fairing.FairResult:
 
 
 def away(sphere: RoughSphere) -> FloatArray:
-    """Chords (n,) to the nearest vertex of the outline, as shares of D."""
-    gaps = sphere.exact[:, None] - sphere.exact[sphere.outline][None]
+    """Chords (n,) to the nearest vertex of the boundary, as shares of D."""
+    gaps = sphere.exact[:, None] - sphere.exact[sphere.boundary][None]
     return np.asarray(np.linalg.norm(gaps, axis=2).min(axis=1) / sphere.diameter)
 
 
 def test_bits_outside_the_band_stay(sphere: RoughSphere, feathered: fairing.FairResult) -> None:
     changed = np.flatnonzero((feathered.vertices != sphere.vertices).any(axis=1))
     assert np.array_equal(changed, np.union1d(sphere.free, feathered.moved))
-    assert np.isin(sphere.outline, feathered.moved).all()
+    assert np.isin(sphere.boundary, feathered.moved).all()
     assert away(sphere)[feathered.moved].max() < WIDTH + 0.02
     beyond = np.setdiff1d(sphere.outside, feathered.moved)
     assert away(sphere)[beyond].min() > 0.9 * WIDTH
@@ -81,7 +81,7 @@ def test_a_ridge_that_runs_into_the_patch_ends_softly() -> None:
 def test_the_change_fades_without_slope_at_either_end(clean: RoughSphere) -> None:
     """Of waves all over the sphere what remains in the band is 1 − w, w = 1 − s² (3 − 2 s) of the distance."""
     waves = 0.01 * np.sin(30 * clean.exact[:, :1]) * clean.exact
-    case = RoughSphere(clean.exact, clean.exact, clean.exact + waves, clean.inside, clean.outside, clean.outline)
+    case = RoughSphere(clean.exact, clean.exact, clean.exact + waves, clean.inside, clean.outside, clean.boundary)
     result = case.fair(feather=WIDTH, detail_size=0.6)
     share = np.clip(away(case)[result.moved] / WIDTH, 0, 1)
     kept, before = (case.heights(points, result.moved) for points in (result.vertices, case.vertices))
@@ -133,7 +133,7 @@ def test_what_is_refused(sphere: RoughSphere, options: dict[str, Any], message: 
 
 @pytest.mark.parametrize("rings", [0, 1, 3])
 def test_a_band_ends_at_a_hard_edge(rings: int) -> None:
-    """A crease beside the patch is not rounded, and what lies beyond keeps its bits, as do faces at a hard outline."""
+    """A crease beside the patch is not rounded, and what lies beyond keeps its bits, as do faces at a hard boundary."""
     panel = solids.panel(rings)
     found = fairing.boundary_normals(panel.vertices, panel.inside, panel.rim, outside=panel.outside)
     crease = 0.3 + 0.05 * rings
@@ -148,46 +148,46 @@ def test_a_band_ends_at_a_hard_edge(rings: int) -> None:
     assert np.abs(result.vertices[near, 2] - panel.clean[near, 2]).max() < 1e-3
 
 
-# `detail` with the triangles outside: both bases meet the outline that the surroundings have without their detail.
+# `detail` with the triangles outside: both bases meet the boundary that the surroundings have without their detail.
 @pytest.fixture(scope="module")
-def sphere_outline() -> RoughSphere:
+def sphere_boundary() -> RoughSphere:
     return rough_sphere(6000, seed=21)
 
 
-def test_the_base_is_the_sphere_though_its_outline_is_rough(sphere_outline: RoughSphere) -> None:
-    """Noise of a quarter edge on the outline, too: the base is within .003 D, and without the low-pass it is not."""
-    smooth, rough = (sphere_outline.fair(detail=1.0, **chosen) for chosen in ({}, {"outside": None}))
+def test_the_base_is_the_sphere_though_its_boundary_is_rough(sphere_boundary: RoughSphere) -> None:
+    """Noise of a quarter edge on the boundary, too: the base is within .003 D, and without the low-pass it is not."""
+    smooth, rough = (sphere_boundary.fair(detail=1.0, **chosen) for chosen in ({}, {"outside": None}))
     off, before = (
-        np.abs(sphere_outline.heights(r.base, sphere_outline.free)).max() / sphere_outline.diameter
+        np.abs(sphere_boundary.heights(r.base, sphere_boundary.free)).max() / sphere_boundary.diameter
         for r in (smooth, rough)
     )
     assert smooth.converged
     assert off < 3e-3
     assert before > 3 * off
-    on_outline = sphere_outline.heights(smooth.base, sphere_outline.outline)
-    assert on_outline.std() < 0.2 * sphere_outline.heights(sphere_outline.skin, sphere_outline.outline).std()
+    on_boundary = sphere_boundary.heights(smooth.base, sphere_boundary.boundary)
+    assert on_boundary.std() < 0.2 * sphere_boundary.heights(sphere_boundary.skin, sphere_boundary.boundary).std()
 
 
-def test_normals_that_were_chosen_stay(sphere_outline: RoughSphere) -> None:
+def test_normals_that_were_chosen_stay(sphere_boundary: RoughSphere) -> None:
     """Leaning outwards by 25°: the base leans with them."""
     up = np.array([0.0, 0.0, 1.0])
-    exact = sphere_outline.exact[sphere_outline.outline]
+    exact = sphere_boundary.exact[sphere_boundary.boundary]
     along = up - exact * (exact @ up)[:, None]
     leaning = exact * np.cos(0.44) + along / np.linalg.norm(along, axis=1)[:, None] * np.sin(0.44)
-    given, free = (sphere_outline.fair(detail=1.0, **chosen) for chosen in ({"fixed_normals": leaning}, {}))
-    top = sphere_outline.free[sphere_outline.exact[sphere_outline.free, 2].argmax()]
+    given, free = (sphere_boundary.fair(detail=1.0, **chosen) for chosen in ({"fixed_normals": leaning}, {}))
+    top = sphere_boundary.free[sphere_boundary.exact[sphere_boundary.free, 2].argmax()]
     flat = fairing.fair(
-        sphere_outline.exact, sphere_outline.inside, fixed=sphere_outline.outline, fixed_normals=leaning
+        sphere_boundary.exact, sphere_boundary.inside, fixed=sphere_boundary.boundary, fixed_normals=leaning
     ).vertices[top, 2]
     assert given.base[top, 2] == pytest.approx(flat, abs=0.02)
     assert free.base[top, 2] > flat + 0.1
 
 
-def test_a_reference_has_its_own_outline(sphere_outline: RoughSphere) -> None:
+def test_a_reference_has_its_own_boundary(sphere_boundary: RoughSphere) -> None:
     """The skin of a sphere turned and twice as large: the same noise in the end."""
     turn = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-    own = sphere_outline.fair(detail=1.0, tolerance=1e-9)
-    other = sphere_outline.fair(detail=1.0, tolerance=1e-9, reference=2 * sphere_outline.vertices @ turn.T)
-    assert other.base[sphere_outline.outline] == pytest.approx(own.base[sphere_outline.outline], abs=1e-12)
-    kept, doubled = (sphere_outline.heights(r.vertices, sphere_outline.free) for r in (own, other))
+    own = sphere_boundary.fair(detail=1.0, tolerance=1e-9)
+    other = sphere_boundary.fair(detail=1.0, tolerance=1e-9, reference=2 * sphere_boundary.vertices @ turn.T)
+    assert other.base[sphere_boundary.boundary] == pytest.approx(own.base[sphere_boundary.boundary], abs=1e-12)
+    kept, doubled = (sphere_boundary.heights(r.vertices, sphere_boundary.free) for r in (own, other))
     assert np.corrcoef(kept, doubled)[0, 1] > 0.95

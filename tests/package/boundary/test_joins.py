@@ -29,7 +29,7 @@ MAKERS = {"torus": shapes.torus, "cubic": cubic_cylinder}
 
 @lru_cache(maxsize=16)
 def joined(family: str, n_free: int) -> tuple[Patch, fairing.FairResult, fairing.FairResult]:
-    """A patch, the surface that meets positions and slopes of its outline, and the one that meets H as well."""
+    """A patch, the surface that meets positions and slopes of its boundary, and the one that meets H as well."""
     patch = MAKERS[family](n_free)
     tangent = fair_patch(patch, tolerance=1e-6)
     return patch, tangent, with_curvature(patch, patch.mean_curvature[patch.fixed])
@@ -58,9 +58,9 @@ def test_surfaces_that_tangent_joins_miss(family: str, goal: float) -> None:
 
 def both_joins(vertices: FloatArray, triangles: IntArray, within: Any) -> list[fairing.FairResult]:
     """The triangles within, faired from what those outside say: tangent, and with their curvature, met everywhere."""
-    outline = np.intersect1d(triangles[within], triangles[~within])
-    fits = fairing.surrounding_normals(vertices, triangles[~within], outline)
-    options = {"fixed": outline, "fixed_normals": fits.normals, "outside": triangles[~within]}
+    boundary = np.intersect1d(triangles[within], triangles[~within])
+    fits = fairing.surrounding_normals(vertices, triangles[~within], boundary)
+    options = {"fixed": boundary, "fixed_normals": fits.normals, "outside": triangles[~within]}
     results = []
     for continuity in ("G1", "G2"):
         results.append(fairing.fair(vertices, triangles[within], continuity=continuity, **options))
@@ -70,8 +70,8 @@ def both_joins(vertices: FloatArray, triangles: IntArray, within: Any) -> list[f
 
 
 @pytest.mark.parametrize("size", [60, 72])
-def test_an_outline_in_steps_is_met_in_its_curvature(size: int) -> None:
-    """A barrel whose curvature changes; the outline of an oval runs in steps along the grid."""
+def test_a_boundary_in_steps_is_met_in_its_curvature(size: int) -> None:
+    """A barrel whose curvature changes; the boundary of an oval runs in steps along the grid."""
     x, y = (part.ravel() for part in np.meshgrid(*2 * [np.linspace(-1, 1, size + 1)], indexing="ij"))
     height = np.sqrt(4 - x**2) - 2 - 0.3 * y**2 + 0.15 * y**3
     vertices = np.column_stack([x, y, height])

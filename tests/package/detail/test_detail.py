@@ -62,7 +62,7 @@ def test_a_rough_swelling_turns_into_a_rough_sphere(cap: Patch) -> None:
     assert np.corrcoef(kept, wanted)[0, 1] > 0.9
 
 
-def test_a_crease_along_the_outline_is_no_detail() -> None:
+def test_a_crease_along_the_boundary_is_no_detail() -> None:
     """A sphere's cap lies flat before: what stays of it is the fair sphere."""
     whole = shapes.cap(800, half_angle=60.0)
     flat = whole.vertices.copy()
@@ -71,7 +71,7 @@ def test_a_crease_along_the_outline_is_no_detail() -> None:
     assert whole.distance(result.vertices).max() < 1e-3 * whole.diameter
 
 
-def test_a_solver_keeps_the_skin_while_the_outline_moves(cap: Patch) -> None:
+def test_a_solver_keeps_the_skin_while_the_boundary_moves(cap: Patch) -> None:
     old = rough(cap)
     turn = some_rotation()
     solver = fairing.Solver(cap.triangles, fixed=cap.fixed, detail=1.0, tolerance=1e-9)

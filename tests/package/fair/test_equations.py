@@ -67,7 +67,7 @@ def test_minimal_energy_reproduces_spheres_but_not_cylinders() -> None:
     assert tube.error(fair_patch(tube, equation="minimal_energy").vertices) > 1e-3
 
 
-# `bulge`: a load by each component's own outline, 8 bulge / a³; and which triangles form a component.
+# `bulge`: a load by each component's own boundary, 8 bulge / a³; and which triangles form a component.
 TIGHT = 1e-10
 
 
@@ -85,7 +85,7 @@ def radius(points: FloatArray) -> float:
 
 @pytest.mark.parametrize("scale", [1.0, 1e-3, 250.0])
 @pytest.mark.parametrize("method", ["global", "paper"])
-def test_it_is_the_load_of_the_outlines_radius(scale: float, method: str) -> None:
+def test_it_is_the_load_of_the_boundaries_radius(scale: float, method: str) -> None:
     patch = shapes.cap(150, half_angle=60.0)
     load = 8 * 0.15 / radius(scale * patch.vertices[patch.fixed]) ** 3
     by_hand, measured = solved(patch, scale, load=load, method=method), solved(patch, scale, bulge=0.15, method=method)
@@ -138,7 +138,7 @@ def test_the_error_against_the_profile_of_one_dimension_falls_with_the_mesh() ->
     assert fine < 0.5 * coarse
 
 
-def test_an_outline_that_makes_no_sense_is_reported_not_refused() -> None:
+def test_a_boundary_that_makes_no_sense_is_reported_not_refused() -> None:
     """Normals that point to and fro on a flat tube of seven columns: the energy of coarse meshes is NaN there."""
     tube = tubes.pipe(2.0, seed=3, around=7)
     flat = np.array([1.0, 0.05, 1.0])

@@ -1,4 +1,4 @@
-"""The outline and its normals alone bring back the exact surface.
+"""The boundary and its normals alone bring back the exact surface.
 
 Distances are over D. With averaged normals instead of fitted ones the errors are 1e-4 and more,
 at any size.
@@ -61,7 +61,7 @@ def test_mean_curvature_of_the_result_is_the_exact_one() -> None:
     assert np.abs(cylinder.mean_curvature + 0.5).max() < 1e-2
 
 
-def test_mean_curvature_has_its_extremes_on_the_outline() -> None:
+def test_mean_curvature_has_its_extremes_on_the_boundary() -> None:
     """§3: a harmonic function; exact for the discrete one where no cotangent sum is negative."""
     patch, result = solved("linear_flux", 4000)
     free, fixed = result.mean_curvature[patch.free], result.mean_curvature[patch.fixed]
@@ -123,7 +123,7 @@ def even(length: float) -> Patch:
     ],
 )
 def test_long_pipes_are_straight(length: float, size: int | None, limit: float) -> None:
-    """With a size: edges of 40 : 1, 24 around the coarser rim; bulbs of .06 to .09 D fit the same outlines."""
+    """With a size: edges of 40 : 1, 24 around the coarser rim; bulbs of .06 to .09 D fit the same boundaries."""
     pipe = even(length) if size is None else graded.regraded(even(length), size)
     # From its boundary, one way and no other equation. On some processors 12 radii, near 4π, stall below 1e-9.
     result = fair_patch(pipe, reference=pipe.vertices, tolerance=1e-8, otherwise="stop")

@@ -39,7 +39,7 @@ def lifted_line(n: int) -> tuple[Creased, fairing.FairResult]:
     vertices = np.column_stack([flat, np.zeros(len(flat))])
     on_line = (np.abs(flat[:, 0]) < 1e-9) & (np.abs(flat[:, 1] - 0.5) < 0.26)
     vertices[on_line, 2] = 0.1
-    fixed = np.union1d(plane.outline, np.flatnonzero(on_line))
+    fixed = np.union1d(plane.boundary, np.flatnonzero(on_line))
     normals = np.tile([0.0, 0.0, 1.0], (len(fixed), 1))
     result = fairing.fair(
         vertices, plane.triangles, fixed=fixed, fixed_normals=normals, smooth_curves=np.flatnonzero(on_line)
@@ -137,14 +137,14 @@ def within(patch: Creased, near: np.ndarray) -> dict[str, np.ndarray]:  # type: 
 
 
 def test_a_fitted_boundary_does_not_follow_creases_outside() -> None:
-    """Refused where a crease runs into the outline, beyond which triangles stand; the rim of a lid is whole inside."""
+    """Refused where a crease runs into the boundary, beyond which triangles stand; the rim of a lid is whole inside."""
     box = creased.box_edge(8)
     middle = within(box, np.abs(box.vertices[box.triangles].mean(axis=1)[:, 1] - 0.5) < 0.3)
     with pytest.raises(ValueError, match="outline: 'mended' can't follow creases outside, and 3 of `creases` lie on"):
         fairing.fair(box.noisy(0.1), outline="mended", **middle)
     lid = creased.lid(6)
     upper = within(lid, lid.vertices[lid.triangles].mean(axis=1)[:, 2] > -0.45)
-    given, fitted = (fairing.fair(lid.noisy(0.04), outline=how, **upper) for how in ("given", "mended"))
+    given, fitted = (fairing.fair(lid.noisy(0.04), boundary=how, **upper) for how in ("given", "mended"))
     assert given.converged
     assert fitted.converged
     assert len(fitted.moved) > 0

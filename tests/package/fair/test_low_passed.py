@@ -14,11 +14,11 @@ from holes import FloatArray, IntArray
 from shapes import Patch, Style
 from tubes import Tube as Region
 
-ROWS = 3  # of free vertices that follow the outline
+ROWS = 3  # of free vertices that follow the boundary
 
 
 def rough_cap(edges: float, radians: float, seed: int, free: int = 2500) -> shapes.Patch:
-    """A half sphere whose outline is moved by so many edges at random and whose normals turn."""
+    """A half sphere whose boundary is moved by so many edges at random and whose normals turn."""
     cap = shapes.cap(free)
     rng = np.random.default_rng(seed)
     vertices, count = cap.vertices.copy(), len(cap.fixed)
@@ -33,7 +33,7 @@ def faired(cap: shapes.Patch) -> fairing.FairResult:
     return fairing.fair(cap.vertices, cap.triangles, fixed=cap.fixed, fixed_normals=cap.fixed_normals, threads=1)
 
 
-def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
+def rows_from_boundary(cap: shapes.Patch) -> np.ndarray:
     """Edges to the next fixed vertex, at most ROWS + 1."""
     return np.asarray(sum(measures.beyond_rings(cap.triangles, cap.fixed, k).astype(int) for k in range(ROWS + 1)))
 
@@ -42,8 +42,8 @@ def rows_from_outline(cap: shapes.Patch) -> np.ndarray:
     ("edges", "radians", "seed", "free"),
     [(0.25, 0.3, 0, 2500), (0.25, 0.3, 0, 8000), (0.25, 0.3, 1, 3000), (0.4, 0.5, 0, 8000)],
 )
-def test_a_rough_outline_that_can_be_met_is(edges: float, radians: float, seed: int, free: int) -> None:
-    """Coarse levels have the outline without its noise; the surface is found on the mesh itself."""
+def test_a_rough_boundary_that_can_be_met_is(edges: float, radians: float, seed: int, free: int) -> None:
+    """Coarse levels have the boundary without its noise; the surface is found on the mesh itself."""
     result = faired(rough_cap(edges, radians, seed, free=free))
     assert result.converged
     assert result.polished
@@ -62,14 +62,14 @@ def test_noise_that_no_surface_meets_is_passed_by(seed: int) -> None:
     assert result.equation == "harmonic"
     edge = 2 * np.pi / len(cap.fixed)
     assert 0.25 * edge < warning.figures["distance"] < 1.5 * edge  # in diameters
-    inside = result.vertices[rows_from_outline(cap) > ROWS]
+    inside = result.vertices[rows_from_boundary(cap) > ROWS]
     assert np.abs(np.linalg.norm(inside, axis=1) - 1).max() < 0.2  # normals are off by a radian
     flipped = fairing.looks.flipped_triangles(result.vertices, cap.triangles, fixed=cap.fixed)
-    assert (rows_from_outline(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
-    assert len(flipped) <= 3  # folds that the outline itself forces
+    assert (rows_from_boundary(cap)[cap.triangles[flipped]].min(axis=1) == 0).all()
+    assert len(flipped) <= 3  # folds that the boundary itself forces
 
 
-def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
+def test_what_folds_beside_a_rough_boundary_is_put_right() -> None:
     """Few of 2,500 triangles with a free corner are turned over or pass through others."""
     left = 0
     for seed in range(6):
@@ -81,7 +81,7 @@ def test_what_folds_beside_a_rough_outline_is_put_right() -> None:
     assert left <= 10
 
 
-# Outline vertices that nearly coincide, as voxel remeshing and booleans leave them: their edges tell nothing.
+# Boundary vertices that nearly coincide, as voxel remeshing and booleans leave them: their edges tell nothing.
 
 
 def with_twins(vertices: FloatArray, triangles: IntArray, ends: IntArray, share: float, degrees: float) -> Region:
@@ -104,7 +104,7 @@ def with_twins(vertices: FloatArray, triangles: IntArray, ends: IntArray, share:
 
 
 def half_ball(share: float, degrees: float) -> Region:
-    """Every sixth edge of its outline is split."""
+    """Every sixth edge of its boundary is split."""
     cap = shapes.cap(700)
     loop = fairing.boundary_loops(cap.triangles)[0]
     return with_twins(cap.vertices, cap.triangles, np.column_stack([loop, np.roll(loop, -1)])[::6], share, degrees)
@@ -134,10 +134,10 @@ def off_ball(region: Region, result: fairing.FairResult) -> float:
     [
         *((half_ball(share, 0.0), 1e-4, 0.05) for share in (1e-2, 1e-3, 1e-5, 1e-9)),
         (half_ball(1e-5, 3.0), 5e-3, 4.0),  # nor do their normals
-        (square(1e-5, 1.0), 2e-3, np.inf),  # at corners normals turn along the outline, and nothing tells H there
+        (square(1e-5, 1.0), 2e-3, np.inf),  # at corners normals turn along the boundary, and nothing tells H there
     ],
 )
-def test_twins_on_the_outline_do_not_matter(region: Region, limit: float, curvature: float) -> None:
+def test_twins_on_the_boundary_do_not_matter(region: Region, limit: float, curvature: float) -> None:
     """The ball comes back, with its H of −1."""
     result = faired_twins(region)
     assert result.converged

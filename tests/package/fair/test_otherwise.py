@@ -70,7 +70,7 @@ def leaning(lean: float) -> tuple[np.ndarray, np.ndarray]:
     return tube.vertices, tube.normals
 
 
-def test_a_solver_stays_with_the_surface_that_it_took_while_the_outline_is_dragged() -> None:
+def test_a_solver_stays_with_the_surface_that_it_took_while_the_boundary_is_dragged() -> None:
     """From 3° to 0.5°, where fair() finds a harmonic surface, and back up from 0.5°."""
     tube = tubes.pipe(5.0, 3.0, seed=3)
     solver = fairing.Solver(tube.triangles, fixed=tube.fixed, threads=1)

@@ -23,7 +23,7 @@ PAPER_FIELDS = [field.name for field in fields(fairing.PaperOptions)]
 
 
 def fair(patch: Any, **options: Any) -> fairing.FairResult:
-    """From the outline alone; enough iterations to converge. `options` may name fields of fairing.PaperOptions."""
+    """From the boundary alone; enough iterations to converge. `options` may name fields of fairing.PaperOptions."""
     of_paper = {name: options.pop(name) for name in PAPER_FIELDS if name in options}
     settings: dict[str, Any] = {"method": "paper", "max_iterations": 2000, **options}
     if of_paper:

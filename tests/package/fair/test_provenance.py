@@ -110,8 +110,8 @@ def test_the_first_surface_is_near_the_fair_one(make, size: int) -> None:  # typ
     start = shapes.membrane(patch.vertices, patch.triangles, patch.fixed)
     before = start.copy()
     first, result = shown_and_found(start, patch.triangles, fixed=patch.fixed, fixed_normals=patch.fixed_normals)
-    outline = start[patch.fixed]
-    diameter = 2 * np.linalg.norm(outline - outline.mean(axis=0), axis=1).max()
+    boundary = start[patch.fixed]
+    diameter = 2 * np.linalg.norm(boundary - boundary.mean(axis=0), axis=1).max()
     assert np.abs(patch.surface.distance(first)).max() < 0.02 * diameter
     assert np.array_equal(first[patch.fixed], start[patch.fixed])
     assert np.array_equal(start, before)

@@ -65,7 +65,7 @@ def test_holes_in_other_surfaces(
 @pytest.mark.parametrize(
     ("place", "distance"), [(tube, lambda p: radius(p) - 1), (catenoid, lambda p: radius(p) - np.cosh(p[:, 2]))]
 )
-def test_two_outlines_become_a_tube(place: Place, distance: Callable[[FloatArray], FloatArray]) -> None:
+def test_two_boundaries_become_a_tube(place: Place, distance: Callable[[FloatArray], FloatArray]) -> None:
     vertices, triangles = holes.sheet(place, (60, 30), holes.band, closed=True)
     loops = sorted(fairing.boundary_loops(triangles), key=lambda loop: abs(vertices[loop, 2].mean()))[:2]
     result = fairing.fill(vertices, triangles, loops, bridge=True)
@@ -89,7 +89,7 @@ def three_tubes() -> tuple[FloatArray, IntArray]:
     return np.concatenate(turned), np.concatenate([faces[:, ::-1] + k * len(part) for k in range(3)])
 
 
-def test_three_outlines_become_a_blend() -> None:
+def test_three_boundaries_become_a_blend() -> None:
     vertices, triangles = three_tubes()
     loops = [loop for loop in fairing.boundary_loops(triangles) if np.linalg.norm(vertices[loop[0]]) < 2]
     result = fairing.fill(vertices, triangles, loops, bridge=True)
@@ -98,7 +98,7 @@ def test_three_outlines_become_a_blend() -> None:
     _, faces = with_new(vertices, triangles, result)
     assert len(fairing.boundary_loops(faces)) == 3
     assert euler_number(faces) == -1  # a sphere with three holes
-    # The surface has the threefold symmetry and the mirror plane of its outlines; its mesh does not.
+    # The surface has the threefold symmetry and the mirror plane of its boundaries; its mesh does not.
     top = result.vertices[np.argsort(np.linalg.norm(result.vertices[:, :2], axis=1))[:12]]
     assert np.ptp(np.abs(top[:, 2])) < 0.05
     assert {*np.sign(top[:, 2])} == {-1.0, 1.0}
@@ -157,7 +157,7 @@ def test_bad_loops_are_refused_with_their_vertices() -> None:
     refused("NONFINITE", {3}, broken, EMPTY, [np.arange(12)], normals=np.tile([0, 0, 1.0], (12, 1)))
 
 
-def test_outlines_that_pass_a_place_twice_are_refused() -> None:
+def test_boundaries_that_pass_a_place_twice_are_refused() -> None:
     """A figure eight, and the two sides of a tear, by position alone. Loops that are filled apart may share places."""
     turn = 2 * np.pi * np.arange(24) / 24
     up = np.tile([0, 0, 1.0], (48, 1))

@@ -146,7 +146,7 @@ def test_more_than_was_allowed_is_refused_before_it_is_made() -> None:
 @pytest.mark.parametrize("times", [0.5, 1.0, 2.0, 8.0])
 @pytest.mark.parametrize("make", [shapes.cap, shapes.cylinder])
 def test_the_size_of_a_new_mesh_is_known_before(make: Callable[[int], shapes.Patch], times: float) -> None:
-    """Of coarse ones, half of whose triangles touch the outline, as well."""
+    """Of coarse ones, half of whose triangles touch the boundary, as well."""
     patch = make(300)
     loop = fairing.boundary_loops(patch.triangles)[0]
     edges = np.linalg.norm(patch.vertices[np.roll(loop, -1)] - patch.vertices[loop], axis=1)
@@ -245,7 +245,7 @@ def typical(result: fairing.FillResult) -> float:
 
 
 @pytest.mark.parametrize("factor", [0.5, 1.0, 2.0])
-def test_edges_follow_the_outlines_or_have_one_length(factor: float) -> None:
+def test_edges_follow_the_boundaries_or_have_one_length(factor: float) -> None:
     even = disc(spacing=factor * MEAN, inner="even")
     assert ratio(even) == pytest.approx(1.0, abs=0.15)
     assert 0.7 < typical(even) / (factor * MEAN) < 1.4
@@ -259,7 +259,7 @@ SQUARE = np.array([[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 
 
 @pytest.mark.parametrize("spacing", [0.4, 0.2, 0.1])
 @pytest.mark.parametrize("dome", [False, True])
-def test_the_wanted_length_holds_inside_an_outline_of_four_edges(spacing: float, dome: bool) -> None:
+def test_the_wanted_length_holds_inside_a_boundary_of_four_edges(spacing: float, dome: bool) -> None:
     """Its edges stay, and new ones grow towards them; angles stay above 18°."""
     slope = SQUARE / np.sqrt(6.0) + [0.0, 0.0, np.sqrt(2.0 / 3.0)]
     normals = slope if dome else np.tile([0.0, 0.0, 1.0], (4, 1))

@@ -211,7 +211,7 @@ def test_curvatures_are_given_in_the_order_of_the_loops_or_of_the_vertices() -> 
     assert error("cubic", 40, wrong) > 1e-3
 
 
-def test_a_rough_outline_keeps_the_tangent_join_and_says_so() -> None:
+def test_a_rough_boundary_keeps_the_tangent_join_and_says_so() -> None:
     vertices, triangles, loop = holed("torus", 40)
     rough = vertices + np.random.default_rng(0).normal(0.0, 2e-3, vertices.shape)
     tangent = fairing.fill(rough, triangles, [loop])
@@ -223,7 +223,7 @@ def test_a_rough_outline_keeps_the_tangent_join_and_says_so() -> None:
     np.testing.assert_array_equal(curved.vertices, tangent.vertices)
 
 
-# What fairing.fill says where an outline is odd: what, where, and what helps.
+# What fairing.fill says where a boundary is odd: what, where, and what helps.
 def t_junctions(bend: float, extra: int) -> tuple[FloatArray, Any, list[int]]:
     """Two rows of faces; where they part, one has vertices on the other one's edge 5-6. And these vertices."""
     turn, places = np.radians(bend), [0.0, 1.0, 2.0, 3.0]

@@ -136,7 +136,7 @@ def test_drawn_edges_that_cross_are_refused_with_their_places() -> None:
 
 
 def test_a_hole_beside_a_hard_edge_takes_no_slope_from_the_other_side() -> None:
-    """Its outline runs along a box edge: flat to roundoff, where normals from beyond the edge make a bulge."""
+    """Its boundary runs along a box edge: flat to roundoff, where normals from beyond the edge make a bulge."""
     box = creased.box_edge(12, 1)
     flat = (np.abs(box.vertices[box.triangles][:, :, 0]) < 1e-12).all(axis=1)
     near = (np.linalg.norm(box.vertices - [0.0, 0.5, 0.0], axis=1) < 0.33)[box.triangles].all(axis=1)

@@ -177,11 +177,11 @@ def test_a_width_that_leaves_nothing_of_a_part_is_refused_with_the_part() -> Non
 
 def slotted() -> tuple[FloatArray, IntArray]:
     """A block of 3 × 3 × 2 with a slot 1 wide and 1 deep along y."""
-    outline = np.array([(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=np.float64)
+    boundary = np.array([(0, 0), (3, 0), (3, 2), (2, 2), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=np.float64)
     caps = np.array([(0, 1, 5), (1, 4, 5), (1, 2, 4), (2, 3, 4), (0, 5, 7), (5, 6, 7)])
     around = np.arange(8)
     after = (around + 1) % 8
-    vertices = np.concatenate([np.insert(outline, 1, depth, axis=1) for depth in (0.0, 3.0)])
+    vertices = np.concatenate([np.insert(boundary, 1, depth, axis=1) for depth in (0.0, 3.0)])
     walls = [np.column_stack([around, after + 8, after]), np.column_stack([around, around + 8, after + 8])]
     return vertices, np.concatenate([caps, caps[:, ::-1] + 8, *walls])
 

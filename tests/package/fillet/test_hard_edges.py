@@ -187,9 +187,9 @@ def test_an_edge_that_runs_through_is_found(make: Callable[[], Through], noise: 
 def test_an_edge_of_which_most_is_lost_is_none() -> None:
     """A third of it is as it was, the rest is smooth."""
     exact, inside, outside, _ = patch_of(creased.box_edge(24, 1), (0.0, 0.5, 0.0), 0.4)
-    outline = np.unique(np.concatenate(fairing.boundary_loops(inside)))
-    normals = fairing.surrounding_normals(exact.vertices, outside, outline).normals
-    smooth = fairing.fair(exact.vertices, inside, fixed=outline, fixed_normals=normals).vertices
+    boundary = np.unique(np.concatenate(fairing.boundary_loops(inside)))
+    normals = fairing.surrounding_normals(exact.vertices, outside, boundary).normals
+    smooth = fairing.fair(exact.vertices, inside, fixed=boundary, fixed_normals=normals).vertices
     mixed = np.where(exact.vertices[:, 1:2] < 0.35, exact.vertices, smooth)
     hard = fairing.hard_edges(mixed, np.concatenate([inside, outside]))
     assert np.count_nonzero(np.isin(hard, inner_vertices(inside)).all(axis=1)) > 5
@@ -257,7 +257,7 @@ def on_circle(count: int) -> FloatArray:
 
 @pytest.mark.parametrize("exact", [on_line(20), on_circle(20)], ids=["straight", "circle"])
 def test_a_dented_edge_comes_back(exact: FloatArray) -> None:
-    """Onto the line or the circle; its neighbours outside and the vertices at the outline keep their bits."""
+    """Onto the line or the circle; its neighbours outside and the vertices at the boundary keep their bits."""
     inner = slice(6, 14)
     given = dented(exact, inner)
     result = fairing.fair_edges(given, chain(5, 10), chain(0, 6) + chain(14, 6))

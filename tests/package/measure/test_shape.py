@@ -118,7 +118,7 @@ def test_a_kink_is_seen_along_more_than_an_eighth_of_the_boundary(columns: int, 
     assert bool(len(join.seen)) == is_seen
 
 
-# Hard edges that a smoothed outline rounds are distinguished from noise.
+# Hard edges that a smoothed boundary rounds are distinguished from noise.
 Floats = npt.NDArray[np.float64]
 
 
@@ -197,8 +197,8 @@ def test_a_flat_piece_is_laid_out_from_two_neighbours() -> None:
     np.testing.assert_allclose(found, places, atol=1e-9)
 
 
-def test_a_sphere_is_projected_from_half_of_its_outline() -> None:
-    """The stereographic projection from the south pole keeps angles; the other half of the outline is free."""
+def test_a_sphere_is_projected_from_half_of_its_boundary() -> None:
+    """The stereographic projection from the south pole keeps angles; the other half of the boundary is free."""
     errors = []
     for n_free in (200, 800, 3200):
         patch = shapes.cap(n_free)

@@ -43,7 +43,7 @@ def test_the_surface_stays_and_the_mesh_is_clean(cap: shapes.Patch, factor: floa
     assert 1 / np.sqrt(2) < np.median(lengths) < np.sqrt(2)
 
 
-def test_the_outline_and_its_edges_stay(cap: shapes.Patch) -> None:
+def test_the_boundary_and_its_edges_stay(cap: shapes.Patch) -> None:
     result = remeshed(cap)
     before, after = (fairing.boundary_loops(faces) for faces in (cap.triangles, result.triangles))
     assert [loop.tolist() for loop in before] == [loop.tolist() for loop in after]
@@ -96,7 +96,7 @@ def whole_sphere() -> tuple[FloatArray, holes.IntArray]:
 
 
 def across(patch: shapes.Patch) -> holes.IntArray:
-    """Edges (k, 2) on a shortest path from outline to outline through the top."""
+    """Edges (k, 2) on a shortest path from boundary to boundary through the top."""
     neighbours: dict[int, set[int]] = {}
     for a, b in measures.edges(patch.triangles).tolist():
         neighbours.setdefault(a, set()).add(b)
@@ -206,8 +206,8 @@ def test_a_patch_without_free_vertices_gets_some(points: FloatArray, triangles: 
     whole = np.cross(old[:, 1] - old[:, 0], old[:, 2] - old[:, 0])[:, 2].sum()
     assert (areas > 0.0).all()
     assert areas.sum() == pytest.approx(whole)
-    outline = {tuple(sorted(pair)) for pair in zip(fixed.tolist(), np.roll(fixed, -1).tolist(), strict=True)}
-    assert outline <= set(map(tuple, measures.edges(result.triangles).tolist()))
+    boundary = {tuple(sorted(pair)) for pair in zip(fixed.tolist(), np.roll(fixed, -1).tolist(), strict=True)}
+    assert boundary <= set(map(tuple, measures.edges(result.triangles).tolist()))
     rows, weights = result.origin
     assert set(rows.tolist()) <= set(range(len(triangles)))
     np.testing.assert_allclose(weights.sum(axis=1), 1.0)

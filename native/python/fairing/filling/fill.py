@@ -212,7 +212,7 @@ def fill(
         curvature around it, too. Default: fitted to the triangles around.
     edges : "run_on" | "ignored"
         "run_on": hard edges (:func:`fairing.hard_edges`) that end at a hole run on through it. Ends that belong
-        together are joined by a curve of least variation, three and more meet in a point. Each curve is a crease of a
+        together are joined by a fair curve, three and more meet in a point. Each curve is a crease of a
         surface of least variation (docs/hard_surfaces.md); ``curves`` names it, EDGES_LEFT_ALONE ends that are not
         joined. So do narrow bands of high curvature, bevels and rolled edges (``bands``). Not with ``bridge``.
     wires : (w, 2) int

@@ -42,7 +42,7 @@ def surface_from_curves(
 
     The wires' directions where they meet tell in which order they lie around that point, and so which cells they
     enclose (docs/curves.md). No surface closes an opening: a loop at which half of the wires that meet it end, or one
-    that is seen from outside, such as a bottle's mouth, the rim of a boat and the outline of a sheet.
+    that is seen from outside, such as a bottle's mouth, the rim of a boat and the boundary of a sheet.
 
     Parameters
     ----------

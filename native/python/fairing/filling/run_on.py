@@ -151,7 +151,7 @@ class _Finder:
     wanted: Wanted
 
     def found(self) -> Curves:
-        """Where curves meet the outline or each other, bands are left out, and then all but drawn edges."""
+        """Where curves meet the boundary or each other, bands are left out, and then all but drawn edges."""
         vertices, triangles = self.mesh
         drawn = loops.drawn(self.loop, self.edges.wires)
         there = ends_at(self.loop, vertices, triangles, self.edges.hard, self.edges.marked)
@@ -172,7 +172,7 @@ class _Finder:
                 found = found.parted(vertices, triangles)
             if not trees if found.cut is None else not _is_tangled(found.cut, making):
                 return found
-        raise loops.refusal("meet its outline or each other", drawn.vertices, "move them apart")
+        raise loops.refusal("meet its boundary or each other", drawn.vertices, "move them apart")
 
     def _edges(self, ends: list[EdgeEnd], drawn: Sequence[Tree], making: Making) -> tuple[list[Tree], list[Diagnostic]]:
         lengths = lengths_at(self.mesh[0][self.loop])

@@ -13,7 +13,7 @@ from fairing.options import arguments
 from fairing.options.checks import given
 from fairing.options.groups import Boundary, Options
 from fairing.results import RemeshResult
-from fairing.solving import outline, surroundings
+from fairing.solving import slopes, surroundings
 
 
 def remesh(
@@ -68,7 +68,7 @@ def remesh(
     beside = surroundings.Surroundings.of(points, corners, held, around.outside)
     joined = surroundings.Boundary(points, held, given_normals)
     if chosen.surface.continuity == "G2":
-        joined = outline.with_curvatures(joined, beside, around.curvatures, around.continuity)
+        joined = slopes.with_curvatures(joined, beside, around.curvatures, around.continuity)
     outside = beside.outside if around.outside is not None else corners[:0]
     patch = points, corners, joined.fixed, given_normals, joined.curvatures, outside
     values = _core.new_patch(patch, lines.tolist(), engine, (length.length, length.even, in_rows, most), progress)

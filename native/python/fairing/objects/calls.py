@@ -22,7 +22,7 @@ from fairing.objects.seams import filled, rounded
 from fairing.options import arguments
 from fairing.results import Diagnostic, FairResult, FilletResult, FillResult, IntArray, NewMeshResult
 from fairing.solving.fair import fair
-from fairing.solving.outline import boundary_normals
+from fairing.solving.slopes import boundary_normals
 
 Result = TypeVar("Result", FairResult, FillResult, FilletResult)
 log = logging.getLogger(__name__.partition(".")[0])
@@ -58,13 +58,13 @@ def fair_faces(mesh: Any, selected: Any, *, side: str = "automatic", **options: 
     mask[_selection(selected, parts)] = True
     within = mask[parts.faces.face_of]
     inside, outside = parts.triangles[within], parts.triangles[~within]
-    outline = np.unique(np.concatenate([np.empty(0, np.int32), *boundary_loops(inside)]))
-    slopes = boundary_normals(parts.points, inside, outline, outside=outside, side=side).normals
+    boundary = np.unique(np.concatenate([np.empty(0, np.int32), *boundary_loops(inside)]))
+    slopes = boundary_normals(parts.points, inside, boundary, outside=outside, side=side).normals
     known = np.linalg.norm(slopes, axis=1) > 0
     if (parts.faces.sizes[mask] > 3).any():
         options.setdefault("neighbours", _edges(parts, mask))
     result = fair(
-        parts.points, inside, fixed=outline[known], fixed_normals=slopes[known], outside=outside, **options
+        parts.points, inside, fixed=boundary[known], fixed_normals=slopes[known], outside=outside, **options
     )  # fmt: skip
     moved = np.flatnonzero((result.vertices != parts.points).any(axis=1)[parts.same]).astype(np.int32)
     points = parts.points.copy()

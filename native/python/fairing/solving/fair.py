@@ -13,7 +13,7 @@ from fairing.options import arguments, checks
 from fairing.options.checks import given
 from fairing.options.groups import Boundary, Options
 from fairing.results import FairResult, FloatArray
-from fairing.solving import feather, outline, surroundings
+from fairing.solving import feather, slopes, surroundings
 
 Progress = Callable[[float, str], "bool | None"]
 Preview = Callable[[FloatArray], object]
@@ -108,7 +108,7 @@ def solved(
     if not joins and boundary.curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
-        as_given = outline.with_curvatures(as_given, around, boundary.curvatures, boundary.continuity)
+        as_given = slopes.with_curvatures(as_given, around, boundary.curvatures, boundary.continuity)
 
     def call(held: surroundings.Boundary) -> dict[str, Any]:
         return _core.fair(

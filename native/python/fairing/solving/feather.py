@@ -16,7 +16,7 @@ from fairing.options import arguments
 from fairing.options.groups import Skin
 from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
 from fairing.solving import surroundings
-from fairing.solving.outline import boundary_normals
+from fairing.solving.slopes import boundary_normals
 from fairing.solving.surroundings import Answer, Boundary, Surroundings, marked
 
 Marks = npt.NDArray[np.bool_]
@@ -230,6 +230,6 @@ def _sizes(points: FloatArray, inside: IntArray, outside: IntArray, weights: Flo
     return _diameter(points[np.unique(rim)]), width
 
 
-def _diameter(outline: FloatArray) -> float:
+def _diameter(boundary: FloatArray) -> float:
     """D of a patch with this boundary (k, 3)."""
-    return 2.0 * float(np.linalg.norm(outline - outline.mean(axis=0), axis=1).max())
+    return 2.0 * float(np.linalg.norm(boundary - boundary.mean(axis=0), axis=1).max())

@@ -77,7 +77,7 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
     if len(ends):
         raise ValueError(
             f"outline: 'mended' can't follow creases outside, and {len(ends)} of `creases` lie on the boundary, "
-            f"vertex {int(ends[0])} among them: pass outline 'given', or leave `creases` out"
+            f"vertex {int(ends[0])} among them: pass boundary 'given', or leave `creases` out"
         )
 
 

@@ -1,9 +1,9 @@
-// On a mesh of the engine's own for large patches: it is made from a coarse level, the user's vertices are placed level
-// by level.
+// On a mesh of the engine's own for large patches: it is made from a coarse level, the user's vertices are projected
+// level by level.
 #pragma once
 
-#include "method/own_mesh.h"
 #include "method/plan.h"
+#include "method/proxy_surface.h"
 
 namespace fairing {
 
@@ -23,7 +23,7 @@ struct CoarseStart {
 // Nothing of the user's size is solved before its surface is known. Folds count on the finest level alone: coarse
 // levels may have no placement without any. Where springs alone fold triangles, the equation's solution by them would
 // be folded, too, and it is not solved on the user's mesh.
-std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                                 Polish polish, const CoarseStart& start, const Progress& progress);
+std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                              Polish polish, const CoarseStart& start, const Progress& progress);
 
 }  // namespace fairing

@@ -1,10 +1,10 @@
-#include "method/own_mesh.h"
+#include "method/proxy_surface.h"
 
 #include "geometry/neighbourhood.h"
 #include "geometry/self_intersection.h"
 #include "geometry/surface_fit.h"
 #include "iteration/accelerated_iteration.h"
-#include "method/coarse_own_mesh.h"
+#include "method/coarse_proxy.h"
 #include "placement/relax.h"
 #include "placement/tears.h"
 
@@ -33,16 +33,17 @@ private:
     [[nodiscard]] Points membrane() const override { return proxy_membrane(problem_, progress_); }
     [[nodiscard]] Points on_source(const Points& points) const override { return points; }
 
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
+    Projected projected(const SolvedProxy& proxy, const TargetSurface& target,
+                        const std::optional<Points>& own) override {
         if (!work_.tangential)
             work_.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         return place(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
     }
 
-    std::optional<Solution> on_users_mesh(const Solution& placed) override {
+    std::optional<Solution> on_users_mesh(const Solution& projected) override {
         work_.normal = make_normal_operator(problem_);
-        return polished(problem_, work_, placed, progress_.range(0.8, 1.0));
+        return polished(problem_, work_, projected, progress_.range(0.8, 1.0));
     }
 
     Workspace work_;
@@ -55,24 +56,24 @@ const CoarseStart& start_of(const Problem& problem, const Traits& traits, Attemp
     return *attempts.start;
 }
 
-// Placed alone: for a surface that the problem's own mesh has no equal of. `traits`, `attempts`: of the problem whose
-// loops may have been low-passed since.
-std::optional<Solution> place_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
-                                          const Progress& progress) {
+// Projected alone: for a surface that the problem's own mesh has no equal of. `traits`, `attempts`: of the problem
+// whose loops may have been low-passed since.
+std::optional<Solution> project_onto_proxy_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
+                                                const Progress& progress) {
     if (!traits.is_large) return FineOwnMesh(problem, progress).run(std::nullopt, Polish::unwanted);
-    return solve_on_coarse_own_mesh(problem, std::nullopt, Polish::unwanted,
-                                    start_of(problem, traits, attempts, progress), progress);
+    return solve_on_coarse_proxy(problem, std::nullopt, Polish::unwanted, start_of(problem, traits, attempts, progress),
+                                 progress);
 }
 
-// The placed vertices beside the boundary that lies off their surface by these offsets. The rows next to it follow it;
-// where that leaves triangles torn and the rows that stay have fewer, these do.
-Points beside(const Patch& patch, const Points& offsets, const Points& placed) {
-    Points followed = placed;
+// The projected vertices beside the boundary that lies off their surface by these offsets. The rows next to it follow
+// it; where that leaves triangles torn and the rows that stay have fewer, these do.
+Points beside(const Patch& patch, const Points& offsets, const Points& projected) {
+    Points followed = projected;
     follow_boundary(patch, offsets, followed);
     followed = untorn(patch, std::move(followed));
     const std::size_t torn = torn_triangles(patch, followed).size();
     if (torn == 0) return followed;
-    Points kept = placed;
+    Points kept = projected;
     kept.rightCols(offsets.cols()) += offsets;
     kept = untorn(patch, std::move(kept));
     return torn_triangles(patch, kept).size() < torn ? kept : followed;
@@ -87,34 +88,34 @@ Problem for_few_steps(const Problem& problem) {
     return result;
 }
 
-// The user's vertices as they were placed on a proxy (`target`), with its H and normals; `folded` where no placement
-// without folds was found.
+// The user's vertices as they were projected onto a proxy (`target`), with its H and normals; `folded` where no
+// placement without folds was found.
 Solution placed_solution(const Problem& problem, const SolvedProxy& proxy, const TargetSurface& target,
-                         const Placed& placed) {
+                         const Projected& projected) {
     Solution result = proxy.solution;
     result.polished = false;
-    result.points = placed.placement.points;
+    result.points = projected.placement.points;
     result.boundary_normals = one_sided_normals(proxy.mesh.patch, proxy.mesh.points);
-    result.mean_curvature = carried_over(placed.placement, target, proxy.solution.mean_curvature, problem);
+    result.mean_curvature = carried_over(projected.placement, target, proxy.solution.mean_curvature, problem);
     result.crosses = !crossing_triangles(proxy.mesh.patch.triangles, proxy.mesh.points).empty();
-    refuse_folds(problem, placed, result);
+    refuse_folds(problem, projected, result);
     return result;
 }
 
 }  // namespace
 
-std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
-                                          const Progress& progress) {
+std::optional<Solution> solve_on_proxy_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
+                                            const Progress& progress) {
     const auto guess = left_by(attempts);
     if (!begins_coarse(traits, guess)) return FineOwnMesh(problem, progress).run(guess, Polish::wanted);
-    return solve_on_coarse_own_mesh(problem, guess, Polish::wanted, start_of(problem, traits, attempts, progress),
-                                    progress);
+    return solve_on_coarse_proxy(problem, guess, Polish::wanted, start_of(problem, traits, attempts, progress),
+                                 progress);
 }
 
 std::optional<Solution> solve_low_passed(const Problem& problem, const Traits& traits, Attempts& attempts,
                                          const Progress& progress) {
     const Problem& smooth = traits.low_passed();
-    auto solution = place_on_own_mesh(smooth, traits, attempts, progress);
+    auto solution = project_onto_proxy_mesh(smooth, traits, attempts, progress);
     if (!solution) return std::nullopt;
     solution->points = beside(problem.patch, problem.fixed_points - smooth.fixed_points, solution->points);
     solution->provenance = Provenance::low_passed;
@@ -129,13 +130,13 @@ bool OwnSurface::is_start(const Problem& problem) const {
     return solved || problem.patch.loop_count() > most_loops_of_tubes;
 }
 
-std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& placed,
+std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& projected,
                                  const Progress& progress) {
-    Solution own = iterate(for_few_steps(problem), work, placed.points, progress);
+    Solution own = iterate(for_few_steps(problem), work, projected.points, progress);
     if (own.termination != Termination::converged) return std::nullopt;
     own.boundary_normals = one_sided_normals(problem.patch, own.points);
     own.from_surface = true;
-    own.crosses = placed.crosses;
+    own.crosses = projected.crosses;
     if (flaw_of(problem, own) != Flaw::absent) return std::nullopt;
     return own;
 }
@@ -144,7 +145,7 @@ std::optional<Solution> polished(const Problem& problem, Workspace& work, const 
 // the equation's solution by them would be folded, too.
 Solution OnOwnMesh::on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Polish polish) {
     const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
-    const Placed best = placed(proxy, target, own);
+    const Projected best = projected(proxy, target, own);
     Solution solution = placed_solution(problem_, proxy, target, best);
     const bool may_polish = polish == Polish::wanted && solution.termination == Termination::converged;
     if (!may_polish || best.folded_by_springs > problem_.tolerated_folds) return solution;

@@ -1,4 +1,4 @@
-#include "boundary/hard_ways.h"
+#include "boundary/hard_paths.h"
 
 #include <set>
 
@@ -8,8 +8,8 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_hard = 0.75;  // of the way through a patch: less is no edge of it
-constexpr double hard_cost = 1e-3;   // as much of a hard edge's length counts: the way leaves these where it must
+constexpr double least_hard = 0.75;  // of the path through a patch: less is no edge of it
+constexpr double hard_cost = 1e-3;   // as much of a hard edge's length counts: the path leaves these where it must
 
 // From one vertex to all within reach.
 struct Tree {
@@ -34,13 +34,13 @@ public:
             total += 2.0 * length;
             if (is_hard) hard_length += length;
         }
-        // Longer than that no soft part of a way may be.
+        // Longer than that no soft part of a path may be.
         const double most = (1.0 / least_hard - 1.0) * hard_length;
         farthest_ = (1.0 + hard_cost) * most + hard_cost * total;
     }
 
-    // The edges of the ways from each end to the place where all of them meet; none where they are soft.
-    [[nodiscard]] std::set<int> way(const Indices& ends) const {
+    // The edges of the paths from each end to the place where all of them meet; none where they are soft.
+    [[nodiscard]] std::set<int> path(const Indices& ends) const {
         std::vector<Tree> trees;
         trees.reserve(ends.size());
         const bool is_pair = ends.size() == 2;
@@ -82,7 +82,7 @@ private:
         return found;
     }
 
-    // The vertex that all trees reach with the least sum of ways.
+    // The vertex that all trees reach with the least sum of paths.
     [[nodiscard]] int nearest(const std::vector<Tree>& trees) const {
         int best = none;
         double least = std::numeric_limits<double>::infinity();
@@ -105,11 +105,11 @@ private:
 
 }  // namespace
 
-VertexPairs hard_ways(const View<Points>& points, const VertexPairs& edges, const VertexPairs& hard,
-                      const std::vector<Indices>& ends) {
+VertexPairs hard_paths(const View<Points>& points, const VertexPairs& edges, const VertexPairs& hard,
+                       const std::vector<Indices>& ends) {
     const Graph graph(points, edges, hard);
     std::set<int> found;
-    for (const Indices& each : ends) found.merge(graph.way(each));
+    for (const Indices& each : ends) found.merge(graph.path(each));
     VertexPairs result;
     for (const int edge : found) result.push_back(edges[edge]);
     return result;

@@ -1,12 +1,12 @@
-"""What is odd about an outline, and what the overlay draws."""
+"""What is odd about a boundary, and what the overlay draws."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from addon.arrays.outline import (
+from addon.arrays.boundary import (
+    boundary_notes,
     face_normals,
-    outline_notes,
     precision_note,
     turned_over,
 )
@@ -25,7 +25,7 @@ def test_faces_outside_wound_the_other_way() -> None:
     selected = grid(6, 0.67).in_patch
     quads = [loop if chosen else loop[::-1] for loop, chosen in zip(quads, selected, strict=True)]
     mesh = polygon_mesh(grid_points(6), quads, selected)
-    assert outline_notes(mesh) == (
+    assert boundary_notes(mesh) == (
         "The faces on both sides of 16 boundary edges are wound against each other: recalculate normals",
     )
     rim = np.isclose(np.abs(mesh.positions).max(axis=1), 2.0 / 3.0)

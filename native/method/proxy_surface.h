@@ -1,5 +1,5 @@
-// The robust strategy: the surface on a mesh of the engine's own, the user's vertices placed on it, the equation then
-// solved on the user's mesh where that carries it.
+// The robust strategy: the surface on a mesh of the engine's own, the user's vertices projected onto it, the equation
+// then solved on the user's mesh where that carries it.
 #pragma once
 
 #include "accept/accept.h"
@@ -13,13 +13,13 @@
 
 namespace fairing {
 
-struct CoarseStart;  // method/coarse_own_mesh
+struct CoarseStart;  // method/coarse_proxy
 
 // What the steps of a plan have come to so far.
 struct Attempts {
     std::vector<Solution> found;  // none of them accepted
-    std::vector<WayTaken> log;
-    std::shared_ptr<const CoarseStart> start = {};  // of a large patch on the engine's own mesh, once it is known
+    std::vector<StrategyTried> log;
+    std::shared_ptr<const CoarseStart> start = {};  // of a large patch on the proxy mesh, once it is known
 
     // The latest surface on the user's own connectivity, or none.
     [[nodiscard]] const Solution* own_connectivity() const {
@@ -30,12 +30,12 @@ struct Attempts {
     }
 };
 
-// Where the discrete equation holds on the user's own mesh near the placed vertices, that is the solution. Elsewhere it
-// is the placed vertices with the H of the engine's mesh. It ends as `folded` where no placement without folds is
-// found, or where the placed mesh crosses itself and the surface does not. What `attempts` have left helps to place the
-// vertices. Nothing where no mesh of the engine's own carries the equation.
-std::optional<Solution> solve_on_own_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
-                                          const Progress& progress);
+// Where the discrete equation holds on the user's own mesh near the projected vertices, that is the solution. Elsewhere
+// it is the projected vertices with the H of the engine's mesh. It ends as `folded` where no placement without folds is
+// found, or where the projected mesh crosses itself and the surface does not. What `attempts` have left helps to place
+// the vertices. Nothing where no mesh of the engine's own carries the equation.
+std::optional<Solution> solve_on_proxy_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
+                                            const Progress& progress);
 
 // The surface between the low-passed loops, solved there, where none meets the loops as they are. These stay; the rows
 // of vertices next to them follow where they lie beside that surface. Nothing where no surface is found.
@@ -51,9 +51,9 @@ struct OwnSurface {
     [[nodiscard]] bool is_start(const Problem& problem) const;
 };
 
-// Solves the discrete equation on the problem's mesh from `placed`, whose vertices lie on a solved surface. Nothing
+// Solves the discrete equation on the problem's mesh from `projected`, whose vertices lie on a solved surface. Nothing
 // where it does not converge or is not accepted. `work` belongs to the problem.
-std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& placed,
+std::optional<Solution> polished(const Problem& problem, Workspace& work, const Solution& projected,
                                  const Progress& progress);
 
 // Whether the equation is solved on the user's mesh, too, where that carries it.
@@ -77,9 +77,10 @@ protected:
     // A coarse proxy that is known, over a boundary next to this one.
     [[nodiscard]] virtual std::optional<CoarseProxy> known_proxy() const { return std::nullopt; }
     // The user's vertices; `own`: the guess, of the source.
-    virtual Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) = 0;
+    virtual Projected projected(const SolvedProxy& proxy, const TargetSurface& target,
+                                const std::optional<Points>& own) = 0;
     // The equation's solution on the user's mesh.
-    virtual std::optional<Solution> on_users_mesh(const Solution& placed) = 0;
+    virtual std::optional<Solution> on_users_mesh(const Solution& projected) = 0;
 
     const Problem& problem_;
     const Progress& progress_;

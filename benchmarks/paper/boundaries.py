@@ -111,5 +111,5 @@ def ordered_loop(border: IntArray) -> IntArray:
     while (after := following.pop(loop[-1])) != loop[0]:
         loop.append(after)
     if following:
-        raise ValueError(f"the outline falls in pieces: {len(following)} edges are left over")
+        raise ValueError(f"the boundary falls in pieces: {len(following)} edges are left over")
     return np.array(loop)

@@ -35,7 +35,7 @@ class Ball:
         return self.triangles[~self.above]
 
     @property
-    def outline(self) -> IntArray:
+    def boundary(self) -> IntArray:
         return np.intersect1d(self.inside, self.outside)
 
 
@@ -56,8 +56,8 @@ def degrees_between(one: FloatArray, other: FloatArray) -> FloatArray:
 
 
 def rim_error(case: Ball, vertices: FloatArray) -> float:
-    """Mean angle of the patch's triangles along the outline to the sphere's normals there, degrees."""
-    rim = case.inside[np.isin(case.inside, case.outline).sum(axis=1) >= 2]
+    """Mean angle of the patch's triangles along the boundary to the sphere's normals there, degrees."""
+    rim = case.inside[np.isin(case.inside, case.boundary).sum(axis=1) >= 2]
     normals = face_normals(vertices, rim)
     middles = case.exact[rim].mean(axis=1)
     return float(degrees_between(normals, middles).mean())
@@ -69,16 +69,16 @@ def test_normals_of_noisy_surroundings(noise: float) -> None:
     angles, errors = [], []
     for seed in range(4):
         case = ball(noise, seed)
-        found = fairing.surrounding_normals(case.noisy, case.outside, case.outline)
-        angles.append(degrees_between(found.normals, case.exact[case.outline]))
+        found = fairing.surrounding_normals(case.noisy, case.outside, case.boundary)
+        angles.append(degrees_between(found.normals, case.exact[case.boundary]))
         errors.append(np.degrees(found.errors))
     assert np.median(np.concatenate(angles)) < 35 * noise
     assert 0.4 < np.median(np.concatenate(angles) / np.concatenate(errors)) < 1.6
 
 
 def options_of(case: Ball) -> dict[str, Any]:
-    found = fairing.surrounding_normals(case.noisy, case.outside, case.outline)
-    return {"fixed": case.outline, "fixed_normals": found.normals, "outside": case.outside}
+    found = fairing.surrounding_normals(case.noisy, case.outside, case.boundary)
+    return {"fixed": case.boundary, "fixed_normals": found.normals, "outside": case.outside}
 
 
 def test_a_fitted_rim_is_smooth() -> None:
@@ -99,7 +99,7 @@ def test_a_fitted_rim_is_smooth() -> None:
 def test_mending_without_an_outside_is_refused() -> None:
     case = ball(0.1)
     with pytest.raises(ValueError, match="outline: 'mended' needs the triangles outside"):
-        fairing.fair(case.noisy, case.inside, fixed=case.outline, outline="mended")
+        fairing.fair(case.noisy, case.inside, fixed=case.boundary, outline="mended")
     with pytest.raises(ValueError, match="outline: 'smoothed' is not accepted"):
         fairing.fair(case.noisy, case.inside, outline="smoothed")
 
@@ -133,7 +133,7 @@ def test_a_fitted_boundary_that_folds_the_patch_is_given_up() -> None:
 @pytest.mark.parametrize("noise", [0.0, 0.144])
 def test_noise_everywhere_makes_no_vertex_bad(noise: float) -> None:
     case = ball(noise)
-    assert len(fairing.bad_outline(case.noisy, case.outside, case.outline)) == 0
+    assert len(fairing.bad_outline(case.noisy, case.outside, case.boundary)) == 0
 
 
 def test_the_join_of_a_sphere_is_invisible_and_a_wrong_normal_shows() -> None:
@@ -184,7 +184,7 @@ def test_a_waist_between_two_fans_is_no_border() -> None:
 
 # Open borders that become fair: noisy windows in cylinders and spheres.
 def fair(window: Window, start: np.ndarray, **options: object) -> fairing.FairResult:  # type: ignore[type-arg]
-    return fairing.fair(start, window.triangles, fixed=window.outline, fixed_normals=window.normals, **options)  # type: ignore[arg-type]
+    return fairing.fair(start, window.triangles, fixed=window.boundary, fixed_normals=window.normals, **options)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("kind", ["cylinder", "sphere"])
@@ -200,7 +200,7 @@ def test_a_noisy_window_comes_back(kind: Kind, around: int) -> None:
     assert window.off_border(result.vertices) < 0.55 * window.off_border(start)
     assert "OPEN_BORDER_IN_SELECTION" not in {reported.code for reported in result.warnings}
     assert np.isin(window.border, result.fixed).sum() == 0
-    assert np.array_equal(result.vertices[window.outline], start[window.outline])
+    assert np.array_equal(result.vertices[window.boundary], start[window.boundary])
 
 
 def test_the_fair_curve_does_not_drift_within_the_surface() -> None:
@@ -208,7 +208,7 @@ def test_the_fair_curve_does_not_drift_within_the_surface() -> None:
     window = windows.window("sphere", 24, 11)
     start = window.noisy(0.25, 11)
     lifted = start * (1.0 + 0.03 * np.cos(5 * np.arange(len(start))))[:, None]
-    lifted[window.outline] = window.vertices[window.outline]
+    lifted[window.boundary] = window.vertices[window.boundary]
     places = [fair(window, points, open_border="faired").vertices[window.border] for points in (start, lifted)]
     assert np.linalg.norm(places[0] - places[1], axis=1).max() < 0.01 * window.border_edge
 
@@ -217,7 +217,7 @@ def test_a_border_between_held_ends_meets_them() -> None:
     """Two thirds of the window are in the selection; the rest of its border is fixed."""
     window = windows.window("sphere", 48, 5)
     kept = window.border[:16]
-    fixed = np.concatenate([window.outline, kept])
+    fixed = np.concatenate([window.boundary, kept])
     start = window.noisy(0.25, 6)
     start[kept] = window.vertices[kept]
     result = fairing.fair(

@@ -55,15 +55,15 @@ def edges_of(mesh: MeshArrays, faces: Mask) -> Mask:
     return edges
 
 
-def outline_edges(mesh: MeshArrays) -> Mask:
+def boundary_edges(mesh: MeshArrays) -> Mask:
     """Return the (e,) mask of the edges between the patch and faces outside it."""
     between: Mask = edges_of(mesh, mesh.in_patch) & edges_of(mesh, ~mesh.in_patch)
     return between
 
 
-def outline_notes(mesh: MeshArrays) -> tuple[str, ...]:
+def boundary_notes(mesh: MeshArrays) -> tuple[str, ...]:
     """Return one sentence for each thing that may surprise about the boundary of the patch."""
-    found = (_winding_note(two_sided_edges(mesh, outline_edges(mesh))), _fin_note(mesh))
+    found = (_winding_note(two_sided_edges(mesh, boundary_edges(mesh))), _fin_note(mesh))
     return tuple(note for note in found if note)
 
 
@@ -91,8 +91,8 @@ def precision_note(mesh: MeshArrays) -> str:
 
 def turned_over(mesh: MeshArrays) -> Mask:
     """Return the (n,) mask of boundary vertices whose faces outside are wound against the patch."""
-    outline = outline_edges(mesh)
-    sides = two_sided_edges(mesh, outline)
+    boundary = boundary_edges(mesh)
+    sides = two_sided_edges(mesh, boundary)
     wrong = np.zeros(len(mesh.positions), dtype=bool)
     right = wrong.copy()
     wrong[mesh.edges[sides.edges[sides.alike]]] = True

@@ -1,4 +1,4 @@
-#include "method/coarse_own_mesh.h"
+#include "method/coarse_proxy.h"
 
 #include "base/limits.h"
 #include "method/levels.h"
@@ -40,20 +40,21 @@ private:
     [[nodiscard]] std::optional<CoarseProxy> known_proxy() const override { return start_.proxy; }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
-    Placed placed(const SolvedProxy& proxy, const TargetSurface& target, const std::optional<Points>& own) override {
+    Projected projected(const SolvedProxy& proxy, const TargetSurface& target,
+                        const std::optional<Points>& own) override {
         const bool is_set_up = levels_.work(0).tangential != nullptr;
         for (std::size_t k = levels_.coarsest() + 1; k-- > 0 && !is_set_up;) levels_.set_up_tangential(k, progress_);
         std::vector<Start> starts;
         if (own) starts.push_back(start_from(by_surface(source(), *own, proxy.mesh.patch, target), target));
         starts.push_back(start_from(by_history(source(), proxy.history, proxy.mesh, target), target));
         Start& start = least_folded(starts, target);
-        Placed best = without_folds(spread(std::move(start.settled), target), target);
+        Projected best = without_folds(spread(std::move(start.relaxed), target), target);
         if (!best.folded.empty()) keep_better(unfolded(std::move(start.raw), target), best);
         return best;
     }
 
     // What the springs fold is what they folded at first.
-    static void keep_better(Placed other, Placed& best) {
+    static void keep_better(Projected other, Projected& best) {
         if (other.folded.size() >= best.folded.size()) return;
         other.folded_by_springs = best.folded_by_springs;
         best = std::move(other);
@@ -62,19 +63,19 @@ private:
     // The coarsest level's vertices.
     struct Start {
         Placement raw;
-        Placement settled;  // by springs
+        Placement relaxed;  // by springs
     };
 
     Start start_from(Placement raw, const TargetSurface& target) {
-        Placement settled = raw;
-        slide(levels_.coarsest(), target, settled);
-        return {std::move(raw), std::move(settled)};
+        Placement relaxed = raw;
+        slide(levels_.coarsest(), target, relaxed);
+        return {std::move(raw), std::move(relaxed)};
     }
 
     // A start on the wrong sheet leaves many folds.
     Start& least_folded(std::vector<Start>& starts, const TargetSurface& target) {
         const auto folds = [&](const Start& start) {
-            return folds_of_placement(source(), target, start.settled).size();
+            return folds_of_placement(source(), target, start.relaxed).size();
         };
         if (starts.size() == 1) return starts.front();
         return folds(starts[0]) <= folds(starts[1]) ? starts[0] : starts[1];
@@ -88,11 +89,11 @@ private:
         return placement;
     }
 
-    Placed without_folds(Placement placement, const TargetSurface& target) {
-        return place_settled(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
+    Projected without_folds(Placement placement, const TargetSurface& target) {
+        return project_relaxed(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
     }
 
-    Placed unfolded(Placement placement, const TargetSurface& target) {
+    Projected unfolded(Placement placement, const TargetSurface& target) {
         for (std::size_t k = levels_.coarsest(); k-- > 0;) {
             untangle(levels_.problem(k + 1), target, placement);
             placement = on_finer_level(k, placement, target);
@@ -137,14 +138,14 @@ private:
         return {std::move(where), std::move(points)};
     }
 
-    std::optional<Solution> on_users_mesh(const Solution& placed) override {
+    std::optional<Solution> on_users_mesh(const Solution& projected) override {
         Workspace& work = levels_.work(0);
-        work.normal = make_normal_operator(problem_, placed.points.leftCols(problem_.patch.free_count));
+        work.normal = make_normal_operator(problem_, projected.points.leftCols(problem_.patch.free_count));
         if (std::holds_alternative<RowWeights>(*problem_.weights)) {
             work.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
         }
-        return polished(problem_, work, placed, progress_.range(0.6, 1.0));
+        return polished(problem_, work, projected, progress_.range(0.6, 1.0));
     }
 
     const CoarseStart& start_;
@@ -161,8 +162,8 @@ CoarseStart::CoarseStart(const Problem& problem, const Traits& traits, const Pro
     proxy.emplace(solve_coarse_proxy(coarsest, membrane, problem.patch.free_count, progress));
 }
 
-std::optional<Solution> solve_on_coarse_own_mesh(const Problem& problem, const std::optional<OwnSurface>& guess,
-                                                 Polish polish, const CoarseStart& start, const Progress& progress) {
+std::optional<Solution> solve_on_coarse_proxy(const Problem& problem, const std::optional<OwnSurface>& guess,
+                                              Polish polish, const CoarseStart& start, const Progress& progress) {
     if (start.is_in_vain()) return std::nullopt;
     CoarseOwnMesh mesh(problem, start, progress);
     auto solution = mesh.run(guess, polish);
