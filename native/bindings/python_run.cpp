@@ -21,6 +21,12 @@ public:
         left_.notify_all();
     }
 
+    // Whether another thread ends the interpreter.
+    bool is_over_for(const PythonRun& run) {
+        const std::scoped_lock lock(mutex_);
+        return ends_in_ && *ends_in_ != run.thread_;
+    }
+
     // Without the GIL. Later runs of other threads are refused.
     void end() {
         // A callback takes less, unless it waits for this very thread, and so for ever. It is left to CPython.
@@ -53,14 +59,6 @@ namespace {
 Runs*& all_runs() {
     static Runs* runs = new Runs;
     return runs;
-}
-
-bool is_finalizing() {
-#if PY_VERSION_HEX >= 0x030D0000
-    return Py_IsFinalizing() != 0;
-#else
-    return _Py_IsFinalizing() != 0;
-#endif
 }
 
 // Until the process ends, as CPython itself does from 3.14 on.
@@ -100,10 +98,12 @@ PythonRun::PythonRun(py::object callback) : callback_(std::move(callback)), runs
 
 PythonRun::~PythonRun() { runs_.leave(*this); }
 
-void PythonRun::release_gil() { state_ = PyEval_SaveThread(); }
-
+// A daemon thread that came back would print its exception to a stream that the end is about to close: that aborts.
 void PythonRun::take_gil() noexcept {
-    if (is_finalizing()) sleep_for_ever();
+    if (runs_.is_over_for(*this)) {
+        runs_.leave(*this);
+        sleep_for_ever();
+    }
     or_for_ever([this] { PyEval_RestoreThread(state_); });
 }
 
@@ -116,7 +116,7 @@ bool PythonRun::with_gil(const std::function<bool()>& python) {
     } catch (...) {
         failure_ = std::current_exception();
     }
-    release_gil();
+    state_ = PyEval_SaveThread();
     in_callback_ = false;
     return result;
 }

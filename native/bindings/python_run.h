@@ -45,14 +45,13 @@ private:
     friend class Runs;
 
     struct Released {
-        explicit Released(PythonRun& released_run) : run(released_run) { run.release_gil(); }
+        explicit Released(PythonRun& released_run) : run(released_run) { run.state_ = PyEval_SaveThread(); }
         ~Released() { run.take_gil(); }
         Released(const Released&) = delete;
         Released& operator=(const Released&) = delete;
         PythonRun& run;
     };
 
-    void release_gil();
     void take_gil() noexcept;
     // False where it throws.
     bool with_gil(const std::function<bool()>& python);

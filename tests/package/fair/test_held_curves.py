@@ -144,7 +144,7 @@ def test_a_fitted_boundary_does_not_follow_creases_outside() -> None:
         fairing.fair(box.noisy(0.1), outline="mended", **middle)
     lid = creased.lid(6)
     upper = within(lid, lid.vertices[lid.triangles].mean(axis=1)[:, 2] > -0.45)
-    given, fitted = (fairing.fair(lid.noisy(0.04), boundary=how, **upper) for how in ("given", "mended"))
+    given, fitted = (fairing.fair(lid.noisy(0.04), outline=how, **upper) for how in ("given", "mended"))
     assert given.converged
     assert fitted.converged
     assert len(fitted.moved) > 0
