@@ -23,11 +23,12 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
     SolverOptions film;
     film.equation = Equation::soap_film;
     Stopwatch watch;
+    const VertexPairs outer = taken();
     const NewSurface first =
-        fill_loops({points, thin.loops, thin.normals, taken()}, false, film, within(progress.range(0.0, 0.2)));
+        fill_loops({points, thin.loops, thin.normals, outer}, false, film, within(progress.range(0.0, 0.2)));
     const double first_seconds = watch.lap();
     HolePatch patch{joined(points, first.vertices), thin.with_all(first.triangles), loops_[0].vertices, std::nullopt,
-                    taken()};
+                    outer};
     const HeldInside held{numbers(through.creases), {}};
     Points slopes = normals();
     for (const int v : held.creases) {

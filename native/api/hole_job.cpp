@@ -5,7 +5,6 @@
 #include "api/remesh.h"
 #include "base/errors.h"
 #include "base/stopwatch.h"
-#include "fill/loop_check.h"
 #include "fill/proportion.h"
 #include "fill/short_edges.h"
 #include "fill/small_hole.h"
@@ -315,10 +314,11 @@ std::optional<SolvedHole> HoleJob::surface(bool may_differ, const Progress& prog
     most.check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), boundary);
     if (const auto made = from_fan(progress.range(0.0, 0.1))) return coarser(*made, progress.range(0.9, 1.0));
     Stopwatch watch;
-    const NewSurface first = first_over(loops_, split_, taken(), first_equation(options_), progress.range(0.1, 0.2));
+    const VertexPairs outer = taken();
+    const NewSurface first = first_over(loops_, split_, outer, first_equation(options_), progress.range(0.1, 0.2));
     if (may_differ && !first.converged) return std::nullopt;
     const double first_seconds = watch.lap();
-    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals(), taken()};
+    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals(), outer};
     if (solver.equation == Equation::soap_film) patch.normals = std::nullopt;
     WantedLengths wanted{options_.spacing, 0, options_.spread};
     const double count = expected_remesh_count(patch.input({}), wanted);

@@ -48,7 +48,7 @@ struct Means {
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
     double rows_bend = 0.0;                           // likewise, of that arc
-    double way_bend = 0.0;                            // likewise, of an arc over half of that distance
+    double cut_bend = 0.0;                            // likewise, of an arc over half of that distance
     double length = 0.0;
     double least = fading_bend;  // degrees of a wall
 };
@@ -86,7 +86,7 @@ bool is_wall(const Means& part) {
     const double dip = part.film.y();
     const bool bends_away = std::min(film, angle_of(part.patch)) > part.least;
     const bool bends_back = std::max(film, angle_of(part.patch)) < -part.least;
-    const bool is_unexplained = std::min(part.bend * dip, part.way_bend * dip) < explained * dip * dip;
+    const bool is_unexplained = std::min(part.bend * dip, part.cut_bend * dip) < explained * dip * dip;
     return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
 
@@ -256,19 +256,19 @@ private:
 
     // The surroundings cut across the edge, from its middle: where triangles end, and which of these ends are rows'
     // (faces in a plane are one row). `near`: how many there are up to the first beyond `reach` or at a hard edge.
-    struct Way {
+    struct Cut {
         std::vector<Vector3> ends;
         std::vector<std::size_t> rows;
         std::size_t near = 0;
     };
 
-    [[nodiscard]] Way way_beyond(const Meeting& edge, double reach) const {
+    [[nodiscard]] Cut cut_beyond(const Meeting& edge, double reach) const {
         constexpr int most_faces = 40;  // two rows of quads have four, fans beside an undivided row many
         const Triangles& all = mesh_.outside;
         const Vector3 from = middle(edge);
         const Vector3 t = direction(between(edge));
         const auto height = [&](int v) { return t.dot(mesh_.points.col(v) - from); };
-        Way onward;
+        Cut cut;
         for (int side = edge.outside, k = 0; k < most_faces; ++k) {
             const int corner = side % 3;
             const int tip = all((corner + 2) % 3, side / 3);
@@ -282,24 +282,23 @@ private:
             const double a = height(side_tail(all, exit));
             const double b = height(side_head(all, exit));
             const Vector3 tail = mesh_.points.col(side_tail(all, exit));
-            onward.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
-            if (bend > flat) onward.rows.push_back(onward.ends.size() - 1);
-            if (onward.near == 0 && (bend > hard_bend || onward.ends.back().norm() > reach))
-                onward.near = onward.ends.size();
-            if (onward.near > 0 && onward.rows.size() > 1) break;
+            cut.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
+            if (bend > flat) cut.rows.push_back(cut.ends.size() - 1);
+            if (cut.near == 0 && (bend > hard_bend || cut.ends.back().norm() > reach)) cut.near = cut.ends.size();
+            if (cut.near > 0 && cut.rows.size() > 1) break;
             side = other;
         }
-        if (onward.near == 0) onward.near = onward.ends.size();
-        return onward;
+        if (cut.near == 0) cut.near = cut.ends.size();
+        return cut;
     }
 
     // The arcs through the edge's middle and these ends, seen along the edge.
     void add_rows(const Meeting& edge, double reach, Means& means) const {
-        const Way onward = way_beyond(edge, 0.5 * reach);
+        const Cut cut = cut_beyond(edge, 0.5 * reach);
         const Vector3 normal = normal_at(edge);
         const Vector3 onwards = normal.cross(along(edge));
         const auto plane = [&](std::size_t k) {
-            return Eigen::Vector2d(onwards.dot(onward.ends[k]), -normal.dot(onward.ends[k]));
+            return Eigen::Vector2d(onwards.dot(cut.ends[k]), -normal.dot(cut.ends[k]));
         };
         const auto curvature = [&](std::size_t near, std::size_t far) {
             const Eigen::Vector2d last = -plane(near);
@@ -309,10 +308,10 @@ private:
             return std::isfinite(found) ? found : 0.0;
         };
         const double length = between(edge).norm();
-        if (onward.near > 1) means.way_bend += length * reach * curvature(onward.near / 2 - 1, onward.near - 1);
-        if (onward.rows.size() < 2) return;
-        const double bend = curvature(onward.rows[0], onward.rows[1]);
-        const Eigen::Vector2d last = -plane(onward.rows[0]);
+        if (cut.near > 1) means.cut_bend += length * reach * curvature(cut.near / 2 - 1, cut.near - 1);
+        if (cut.rows.size() < 2) return;
+        const double bend = curvature(cut.rows[0], cut.rows[1]);
+        const Eigen::Vector2d last = -plane(cut.rows[0]);
         const double rest = std::asin(std::clamp(0.5 * bend * last.norm(), -1.0, 1.0));
         means.rows += length * (Eigen::Rotation2Dd(rest) * last.normalized());
         means.rows_bend += length * bend * reach;

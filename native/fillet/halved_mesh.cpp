@@ -6,7 +6,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double steepest = 1.5;  // values change by at most that times the distance, at widths that change by one
+constexpr double steepest = 1.5;  // values change by at most that times a length, as widths change by one along it
 
 }  // namespace
 

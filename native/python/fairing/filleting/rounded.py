@@ -56,7 +56,6 @@ class Made:
     triangles: IntArray
     vertices: FloatArray
     """(n + l + k, 3)"""
-    line_count: int
     patch: Patch
     old: IntArray
     """(l + k,) under each of the line's points and of the new ones, the old triangle,"""
@@ -102,7 +101,7 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
     )  # fmt: skip
     fair = Patch(vertices, new.triangles, patch.fixed, patch.normals)
     return Made(
-        cut, inside, new.triangles, vertices, len(placed) - count, fair, old, weights, seam_points, values
+        cut, inside, new.triangles, vertices, fair, old, weights, seam_points, values
     )  # fmt: skip
 
 
