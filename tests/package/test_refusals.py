@@ -141,6 +141,7 @@ def test_wrong_arguments_of_every_kind_are_named(option: str, value: Any) -> Non
         ({"triangles": CAP.triangles + 1}, r"INDEX_RANGE.*subtract 1 from those of an OBJ file"),
         ({"triangles": bad_inputs.with_entry(CAP.triangles, 7, 1, COUNT + 5)}, f"row 7 names vertex {COUNT + 5}, outs"),
         ({"fixed": None}, "fixed_normals"),
+        ({"boundary": CAP.fixed}, "fixed: given twice"),
         ({"equation": "biharmonic"}, "'harmonic', 'constant', 'minimal_energy', 'soap_film'"),
         ({"inner_fairness": "smooth"}, "'uniform', 'conformal', 'inverse_distance', 'shape_preserving'"),
     ],

@@ -1,11 +1,12 @@
 """Intrinsic fairing of triangle meshes: Δ_B H = 0 with G1 boundary data (Schneider & Kobbelt 2001)."""
 
+from pathlib import Path as _Path
+
 from fairing import borders as borders
 from fairing import looks as looks
 from fairing import maps as maps
 from fairing import results as results
 from fairing._core import __version__
-from fairing._foreign import refuse_foreign as _refuse_foreign
 from fairing.filleting.edges import edges_through, fair_edges
 from fairing.filleting.fillet import fillet, fillet_width
 from fairing.filling.fill import fill
@@ -25,7 +26,7 @@ from fairing.measure import (
 )
 from fairing.meshing.denoise import denoise
 from fairing.meshing.remesh import remesh
-from fairing.objects import fair_faces, fill_holes, fillet_edges
+from fairing.objects.calls import fair_faces, fill_holes, fillet_edges
 from fairing.options.groups import Boundary, Curves, Layout, Options, PaperOptions, Skin, Solving, Surface
 from fairing.results import Cancelled, Diagnostic, FairResult, FillResult, MeshError, RemeshResult, SolverError
 from fairing.solving.fair import Solver, fair
@@ -80,4 +81,9 @@ __all__ = [
 ]
 
 if __name__ == "fairing":  # not the copy in Blender's extension
-    _refuse_foreign(__path__[0])
+    # On PyPI a tool for machine learning, last released in 2019, has a package of the same name: one folder for both.
+    for _other in _Path(__path__[0]).parent.glob("fairing-*.dist-info"):
+        raise ImportError(
+            f"two packages share the folder {__path__[0]}: intrinsic-fairing, and {_other.stem}, which has nothing to "
+            "do with it. Run 'pip uninstall fairing', then 'pip install --force-reinstall --no-deps intrinsic-fairing'"
+        )

@@ -8,9 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing.meshing.patch import Progress
 from fairing.options import arguments
-from fairing.results import FloatArray, IntArray
+from fairing.results import FloatArray, IntArray, Progress
 
 __all__ = [
     "LIMITS",

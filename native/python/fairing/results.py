@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal
 
@@ -12,6 +13,7 @@ from fairing import _core
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
+Progress = Callable[[float, str], "bool | None"]
 CODES: tuple[str, ...] = _core.CODES  # all that a `Diagnostic` may have
 FOLDS = ("FOLDED", "FLIPPED_TRIANGLES", "SELF_INTERSECTION")  # codes of warnings about the surface itself
 

@@ -1,4 +1,4 @@
-"""Many files: one after the other, or several at once; what is printed, and the exit status."""
+"""The command line: what it accepts, one file after the other or several at once, and the exit status."""
 
 from __future__ import annotations
 
@@ -7,15 +7,102 @@ import logging
 import multiprocessing
 import signal
 import sys
-from argparse import Namespace
+from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-from fairing.command import cluster
-from fairing.command.arguments import parsed, target_of
-from fairing.command.verdict import GOOD, LOOK, UNUSABLE
-from fairing.command.work import Report, done_with
+from fairing._core import __version__
+from fairing.command.work import GOOD, LOOK, SUFFIX, UNUSABLE, Report, done_with
+
+_AFTER = """
+exit status: 0, all results are good; 1, some should be looked at; 3, some can't be used and were not written, or a file
+can't be read; 2, the arguments are wrong. OBJ and OFF need nothing else; others: pip install 'intrinsic-fairing[io]'.
+Many files: give several, and --jobs.
+"""
+
+
+def parsed(words: Sequence[str] | None) -> Namespace:
+    """The arguments, checked against each other; ends the program where they are wrong."""
+    parser = ArgumentParser("fairing", description="Fair surfaces for meshes in files.", epilog=_AFTER)
+    parser.add_argument("--version", action="version", version=__version__)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    _fill(commands.add_parser("fill", help="fill holes, or bridge boundary loops", epilog=_AFTER))
+    _fair(commands.add_parser("fair", help="replace selected faces by the fairest surface", epilog=_AFTER))
+    _fillet(commands.add_parser("fillet", help="round hard edges", epilog=_AFTER))
+    _common(commands.add_parser("measure", help="list holes, hard edges and crossings", epilog=_AFTER), writes=False)
+    given = parser.parse_args(words)
+    if getattr(given, "output", None) is not None and len(given.files) > 1:
+        parser.error("--output is for one file: use --into with several")
+    if given.jobs < 1:
+        parser.error("--jobs: 1 or more is needed")
+    return given
+
+
+def target_of(source: Path, given: Namespace) -> Path | None:
+    """Where the result for a file goes; None for `measure`."""
+    if given.command == "measure":
+        return None
+    name = f"{source.stem}{SUFFIX[given.command]}{given.format or source.suffix}"
+    return given.output or Path(given.into or source.parent, name)
+
+
+def _common(parser: ArgumentParser, writes: bool = True) -> None:
+    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a mesh")
+    if writes:
+        where = parser.add_mutually_exclusive_group()
+        where.add_argument("-o", "--output", type=Path, metavar="FILE", help="where the result of a single file goes")
+        where.add_argument("--into", metavar="FOLDER", help="where results go; else beside their files")
+        parser.add_argument("--format", metavar=".EXT", help="the results' format; else that of their files")
+        parser.add_argument("--accept-all", action="store_true", help="write results that can't be used, too")
+        parser.add_argument("--threads", type=int, metavar="N", help="for one mesh; with --jobs: 1")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="files at once")
+    parser.add_argument("--json", metavar="FILE", help="a report on each file; - for the standard output")
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress bar, only what is not good")
+    parser.add_argument("-v", "--verbose", action="store_true", help="the engine's log")
+
+
+def _surface(parser: ArgumentParser) -> None:
+    parser.add_argument("--continuity", choices=("G1", "G2"), help="meet the tangent planes, or the curvature, too")
+    parser.add_argument("--equation", metavar="NAME", help="soap_film, least_variation, …: help(fairing.fair)")
+
+
+def _fill(parser: ArgumentParser) -> None:
+    _common(parser)
+    _surface(parser)
+    parser.add_argument("--longest", type=int, metavar="EDGES", help="leave holes with more edges open")
+    parser.add_argument("--longest-length", type=float, metavar="LENGTH", help="leave longer holes open")
+    parser.add_argument("--bridge", action="store_true", default=None, help="one surface joins all boundary loops")
+    parser.add_argument("--spacing", type=float, metavar="LENGTH", help="length of new edges")
+    parser.add_argument("--faces", choices=("triangles", "quads"), help="what new faces are; quads run in rows")
+    parser.add_argument("--edges", choices=("run_on", "ignored"), help="what hard edges at a hole do")
+
+
+def _fair(parser: ArgumentParser) -> None:
+    _common(parser)
+    _surface(parser)
+    which = parser.add_mutually_exclusive_group(required=True)
+    which.add_argument("--select", metavar="NAME", help="data at faces that is not zero where they are selected")
+    which.add_argument("--faces", metavar="FILE", help="a text file with the numbers of the faces, from 0")
+    which.add_argument(
+        "--sphere", nargs=4, type=float, metavar=("X", "Y", "Z", "R"), help="faces with their middle in it"
+    )
+    parser.add_argument("--side", choices=("automatic", "outside", "inside"), help="whose slope counts at the boundary")
+    parser.add_argument("--detail", type=float, metavar="0…1", help="how much of the old detail is put back")
+    parser.add_argument("--feather", type=float, metavar="SHARE", help="width of a band that fades the change out")
+
+
+def _fillet(parser: ArgumentParser) -> None:
+    _common(parser)
+    parser.add_argument("--continuity", choices=("G1", "G2"), help="meet the tangent planes, or the curvature, too")
+    parser.add_argument(
+        "--width", type=float, required=True, metavar="LENGTH", help="how far it reaches on either side"
+    )
+    parser.add_argument("--width-2", type=float, metavar="LENGTH", help="the same on the other side")
+    parser.add_argument("--profile", type=float, metavar="-1…1", help="flat to sharp")
+    parser.add_argument("--spacing", type=float, metavar="LENGTH", help="length of new edges")
+    parser.add_argument("--faces", choices=("triangles", "quads"), help="what new faces are; quads run along the edges")
+
 
 _STATUS = {GOOD: 0, LOOK: 1, UNUSABLE: 3}
 _WIDTH = 30  # of the bar
@@ -33,9 +120,6 @@ def main(words: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
-    except OSError as error:  # of a cluster that does not answer
-        print(error, file=sys.stderr)
-        return 2
     finally:  # what is done is done, interrupted or not
         _write_json(reports, given)
     return max(_STATUS[report["verdict"]] for report in reports)
@@ -43,7 +127,7 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def _done(given: Namespace) -> Iterator[Report]:
     """The reports, as files are done."""
-    if given.dask or given.jobs > 1:
+    if given.jobs > 1:
         yield from _several_at_once(given)
     else:
         for number, source in enumerate(given.files):
@@ -53,25 +137,18 @@ def _done(given: Namespace) -> Iterator[Report]:
 
 
 def _several_at_once(given: Namespace) -> Iterator[Report]:
-    """The same in processes that go from file to file, here or on a cluster."""
+    """The same in processes that go from file to file."""
     if getattr(given, "threads", 1) is None:
         given.threads = 1
     each = Namespace(**{**vars(given), "files": ()})  # goes along with every file: without the list of all
-    jobs = [(source, target_of(source, given)) for source in given.files]
-    found = cluster.reports(jobs, each) if given.dask else _in_processes(jobs, each)
-    for number, report in enumerate(found):
-        bar = _Bar(number, len(jobs), f"{number + 1} of {len(jobs)}", _shows(given))
-        bar(1.0, "")
-        bar.end()
-        yield report
-
-
-def _in_processes(jobs: list[cluster.Job], given: Namespace) -> Iterator[Report]:
     # Spawned: a forked engine would miss its threads.
     with ProcessPoolExecutor(given.jobs, multiprocessing.get_context("spawn"), _leave_interrupts) as pool:
-        tasks = [pool.submit(done_with, source, target, given, None) for source, target in jobs]
+        tasks = [pool.submit(done_with, source, target_of(source, given), each, None) for source in given.files]
         try:
-            for task in as_completed(tasks):
+            for number, task in enumerate(as_completed(tasks)):
+                bar = _Bar(number, len(tasks), f"{number + 1} of {len(tasks)}", _shows(given))
+                bar(1.0, "")
+                bar.end()
                 yield task.result()
         finally:  # of an interrupt: files that are being worked on get done, no other begins
             pool.shutdown(cancel_futures=True)

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing.command.corners import by_points, by_vertices
-from fairing.objects.parts import PLACE, Data, Parts, Polygons
+from fairing.objects.parts import PLACE, Data, Parts, Polygons, by_points, by_vertices
 
 _STATE = {"o": "object", "g": "group", "usemtl": "material", "s": "smoothing"}
 _CORNER = {"vt": ("uv", 2), "vn": ("normals", 3)}

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from fairing.command.corners import by_vertices
-from fairing.objects.parts import Data, Parts, Polygons
+from fairing.objects.parts import Data, Parts, Polygons, by_vertices
 
 _WORD = re.compile(r"(?:ST|[CN4])*OFF")
 _KINDS = (("N", "normals", (3,)), ("C", "colors", (4, 3)), ("ST", "uv", (2,)))  # in this order behind the place

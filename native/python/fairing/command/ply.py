@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fairing.command.corners import by_points, by_vertices
-from fairing.objects.parts import PLACE, Data, Parts, Polygons
+from fairing.objects.parts import PLACE, Data, Parts, Polygons, by_points, by_vertices
 
 _GROUPS = {"points": ("x", "y", "z"), "normals": ("nx", "ny", "nz")}
 _COLOURS = ("red", "green", "blue", "alpha")

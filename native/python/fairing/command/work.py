@@ -1,4 +1,4 @@
-"""What is done with one file."""
+"""What is done with one file, and whether the result may be used without looking at it."""
 
 from __future__ import annotations
 
@@ -6,24 +6,22 @@ import shutil
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Callable
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fairing import looks
 from fairing.borders import hole_loops, outer_borders
 from fairing.command import files
-from fairing.command.verdict import GOOD, UNUSABLE, judged, judged_holes
 from fairing.measure import hard_edges, self_intersections
-from fairing.objects import fair_faces, fillet_edges
-from fairing.objects.calls import Made, fill_accepted, once
+from fairing.objects.calls import Made, fair_faces, fill_accepted, fillet_edges, once
 from fairing.objects.parts import Parts
-from fairing.results import Cancelled, FloatArray, Hole, IntArray, MeshError, SolverError
+from fairing.results import FOLDS, Cancelled, FillResult, FloatArray, Hole, IntArray, MeshError, Progress, SolverError
 
+GOOD, LOOK, UNUSABLE = "good", "look", "unusable"
 Report = dict[str, Any]
-Progress = Callable[[float, str], "bool | None"]
 _NOTHING = {"NO_BOUNDARY", "NOT_A_HOLE"}  # codes of a mesh without holes
 SUFFIX = {"fill": "_filled", "fair": "_fair", "fillet": "_fillet"}
 _OPTIONS = {
@@ -33,11 +31,10 @@ _OPTIONS = {
 }
 
 
-def done_with(file: Path | str, to: Path | str | None, given: Namespace, progress: Progress | None) -> Report:
+def done_with(source: Path, target: Path | None, given: Namespace, progress: Progress | None) -> Report:
     """Read the file, work, write; never raises but for a bug: what is wrong with a file is in its report."""
     begin = time.perf_counter()
-    report: Report = {"file": str(file)}
-    source, target = Path(file), None if to is None else Path(to)
+    report: Report = {"file": str(source)}
     try:
         with redirect_stdout(sys.stderr):  # libraries that read files print what they like
             parts, write = files.read(source)
@@ -99,13 +96,13 @@ def _judged(made: Made[Any]) -> tuple[Made[Any], Report]:
 _WORK = {"fill": _fill, "fair": _fair, "fillet": _fillet}
 
 
-def _hole(parts: Parts, hole: Hole, judged: tuple[str, str]) -> Report:
+def _hole(parts: Parts, hole: Hole, verdict: tuple[str, str]) -> Report:
     around = np.concatenate(hole.loops)
     return {
         "edges": len(around),
         "at": parts.points[around].mean(axis=0).round(6).tolist(),
-        "verdict": judged[0],
-        "reason": judged[1],
+        "verdict": verdict[0],
+        "reason": verdict[1],
     }
 
 
@@ -155,3 +152,33 @@ def measured(parts: Parts) -> Report:
 
 def _length(points: FloatArray, loop: IntArray) -> float:
     return float(np.linalg.norm(points[loop] - points[np.roll(loop, -1)], axis=1).sum())
+
+
+def judged(result: Any) -> tuple[str, str]:
+    """GOOD, LOOK or UNUSABLE, and why; of what `fair`, `fill` or `fillet` give back."""
+    broken = [each for each in result.warnings if each.code in FOLDS and "others" not in each.figures]
+    share = np.count_nonzero(result.join > looks.LIMITS["visible_kink"]) / max(len(result.join), 1)
+    kinked = share > looks.LIMITS["kink_share"]
+    name = looks.fault(result, folded=bool(broken), crossing=False, kinked=kinked)
+    if name in looks.UNUSABLE:
+        return UNUSABLE, broken[0].message if broken else f"no surface was found: {result.termination}"
+    return (LOOK if name else GOOD), name.replace("_", " ")
+
+
+def judged_holes(result: FillResult) -> tuple[str, str, list[tuple[str, str]]]:
+    """The same of all holes together, and of each."""
+    each = [_of_hole(hole) for hole in result.holes]
+    bad, odd = ([reason for grade, reason in each if grade == wanted] for wanted in (UNUSABLE, LOOK))
+    odd += [warning.message for warning in result.warnings if "others" in warning.figures]
+    notes = [reason for grade, reason in each if grade == GOOD and reason]
+    reasons = [f"{len(bad)} of {len(each)} holes can't be filled: {bad[0]}"] if bad else []
+    grade = UNUSABLE if bad and len(bad) + len(notes) == len(each) else LOOK if bad or odd else GOOD
+    return grade, "; ".join(reasons + odd[:1] + notes[:1]), each
+
+
+def _of_hole(hole: Hole) -> tuple[str, str]:
+    if hole.surface is not None:
+        return judged(hole.surface)
+    because = hole.left_because
+    assert because is not None
+    return (GOOD if because.code in ("NOT_A_HOLE", "DEGENERATE_FACE") else UNUSABLE), because.message

@@ -11,11 +11,10 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.filleting.rounded import Given, Made, Wishes, in_rows, result_of, solved
 from fairing.measure import edges_with_uses, hard_edges, nearest
-from fairing.meshing.patch import Progress, Watch, options_of, refuse_large
-from fairing.meshing.quads import FACES, quads_of
+from fairing.meshing.remesh import FACES, Watch, options_of, quads_of, refuse_large
 from fairing.options import arguments
 from fairing.options.groups import Options
-from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, MeshError
+from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, MeshError, Progress
 
 
 def check_finite(points: FloatArray, faces: IntArray) -> None:

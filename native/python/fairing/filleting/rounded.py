@@ -11,9 +11,8 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.maps import interpolate
 from fairing.measure import boundary_loops, nearest
-from fairing.meshing.patch import Patch, Progress, Spacing, Watch
-from fairing.meshing.quads import halves_of
-from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, read_only, report_fields
+from fairing.meshing.remesh import Patch, Spacing, Watch, halves_of
+from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, Progress, read_only, report_fields
 
 Mask = npt.NDArray[np.bool_]
 

@@ -12,11 +12,10 @@ from fairing import _core
 from fairing.borders import given_loops
 from fairing.filling import run_on
 from fairing.filling.run_on import Curves
-from fairing.meshing.patch import Progress, options_of, own_mesh_options, spacing_of
-from fairing.meshing.quads import FACES, quads_of
+from fairing.meshing.remesh import FACES, options_of, own_mesh_options, quads_of, spacing_of
 from fairing.options import arguments
 from fairing.options.groups import Options
-from fairing.results import Diagnostic, FillResult, FloatArray, Hole, IntArray, MeshError, read_only
+from fairing.results import Diagnostic, FillResult, FloatArray, Hole, IntArray, MeshError, Progress, read_only
 
 _ORDER = (  # the last one is named
     "equation", "low_passed", "least_variation", "least_bent", "swept_tube", "old_shape", "loft", "first_surface",

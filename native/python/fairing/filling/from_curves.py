@@ -11,10 +11,19 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.measure import edges_with_uses, self_intersections
 from fairing.meshing.denoise import edges_around
-from fairing.meshing.patch import Patch, Progress, Spacing, Watch, refuse_large, spacing_of
+from fairing.meshing.remesh import Patch, Spacing, Watch, refuse_large, spacing_of
 from fairing.options import arguments, checks
 from fairing.options.groups import Boundary, Options
-from fairing.results import Diagnostic, FloatArray, FromCurvesResult, IntArray, MeshError, read_only, report_fields
+from fairing.results import (
+    Diagnostic,
+    FloatArray,
+    FromCurvesResult,
+    IntArray,
+    MeshError,
+    Progress,
+    read_only,
+    report_fields,
+)
 from fairing.solving.fair import solved
 
 _STIFF = 100.0  # mean edges: shorter waves go from soap films that are bent into one surface, whose cells have some 20

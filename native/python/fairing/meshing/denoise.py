@@ -10,9 +10,8 @@ import numpy.typing as npt
 from fairing import _core
 from fairing.filleting import fillet
 from fairing.measure import edges_with_uses
-from fairing.meshing.patch import Progress
 from fairing.options import arguments, checks
-from fairing.results import FloatArray, IntArray
+from fairing.results import FloatArray, IntArray, Progress
 
 EDGES = 12.0  # mean edges around that the shortest wave has that stays: as many as for what counts as detail
 SPREAD = 2  # times that a vertex's mean edge is averaged with its neighbours'

@@ -15,10 +15,9 @@ from fairing import _core
 from fairing.filleting.fillet import fillet
 from fairing.filling.fill import fill
 from fairing.measure import boundary_loops, self_intersections
-from fairing.objects import data
 from fairing.objects.hosts import opened
 from fairing.objects.parts import Parts
-from fairing.objects.seams import filled, rounded
+from fairing.objects.seams import filled, rounded, with_normals
 from fairing.options import arguments
 from fairing.results import Diagnostic, FairResult, FilletResult, FillResult, IntArray, NewMeshResult
 from fairing.solving.fair import fair
@@ -195,7 +194,7 @@ def _made(make: Callable[[Parts], Any], made: Parts, result: Any, moved: IntArra
     log.info("%s: %d vertices, %s, %.2f s", call, len(moved), result.termination, result.seconds["total"])
     for warning, count in once(result.warnings):
         log.warning("%s: %s: %s%s", call, warning.code, warning.message, f" ({count} times)" if count > 1 else "")
-    return Made(make(data.with_normals(made, moved)), result)
+    return Made(make(with_normals(made, moved)), result)
 
 
 def once(found: Iterable[Diagnostic]) -> list[tuple[Diagnostic, int]]:

@@ -155,9 +155,9 @@ OF_BOUNDARY = {
 def given(
     boundary: Boundary | npt.ArrayLike | None, options: Options | None, named: dict[str, Any]
 ) -> tuple[Boundary, Options]:
-    """The boundary and the options of a call; ``named`` are fields of either, which count more.
+    """The boundary and the options of a call; ``named``: fields of the boundary, and of the options in place of these.
 
-    Raises TypeError for a name that there isn't, ValueError where a group is something else.
+    Raises TypeError for a name that there isn't, ValueError where a group is something else, or a field given twice.
     """
     known = boundary if isinstance(boundary, Boundary) else Boundary(boundary)
     chosen = Options() if options is None else options
@@ -167,5 +167,8 @@ def given(
         if not isinstance(group, type(getattr(Options(), name))):
             raise ValueError(f"options: {name} has to be a fairing.{name.capitalize()}, not {group!r}")
     held = {OF_BOUNDARY[name]: value for name, value in named.items() if name in OF_BOUNDARY}
+    for name, field in OF_BOUNDARY.items():
+        if name in named and getattr(known, field) is not None:
+            raise ValueError(f"{name}: given twice, by this name and in `boundary`: one of them is needed")
     others = {name: value for name, value in named.items() if name not in OF_BOUNDARY}
     return by_parts(replace(known, **held), chosen.changed(**others))

@@ -12,10 +12,9 @@ from fairing import _core
 from fairing.options import arguments, checks
 from fairing.options.checks import given
 from fairing.options.groups import Boundary, Options
-from fairing.results import FairResult, FloatArray
+from fairing.results import FairResult, FloatArray, Progress
 from fairing.solving import feather, slopes, surroundings
 
-Progress = Callable[[float, str], "bool | None"]
 Preview = Callable[[FloatArray], object]
 
 

@@ -14,7 +14,7 @@ from fairing import _core
 from fairing.measure import edges_with_uses, hard_edges
 from fairing.options import arguments
 from fairing.options.groups import Skin
-from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
+from fairing.results import Diagnostic, FloatArray, IntArray, MeshError, Progress
 from fairing.solving import surroundings
 from fairing.solving.slopes import boundary_normals
 from fairing.solving.surroundings import Answer, Boundary, Surroundings, marked
@@ -36,7 +36,7 @@ class Fade:
     detail_size: float
     how: float | FloatArray
     threads: int
-    progress: Callable[[float, str], bool | None] | None
+    progress: Progress | None
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def _rounded(answer: Answer, around: Surroundings, band: Band, fade: Fade) -> tu
     return full, base
 
 
-def _ask(progress: Callable[[float, str], bool | None], _fraction: float, _stage: str) -> bool | None:
+def _ask(progress: Progress, _fraction: float, _stage: str) -> bool | None:
     """Whether to go on; nearly all is done."""
     return progress(1.0, "detail")
 
