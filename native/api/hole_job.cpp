@@ -99,7 +99,7 @@ HolePatch meshed(const HolePatch& patch, int old_count, const WantedLengths& wan
 
 void measure_join(FairResult& report, const HolePatch& patch, const Triangles& around) {
     if (around.cols() == 0) return;
-    const JoinedMesh mesh{report.vertices, patch.triangles, around, std::nullopt};
+    const JoinedMesh mesh{report.vertices, patch.triangles, around};
     const VectorX degrees = visible_join(mesh, report.fixed).degrees;
     const std::set<int> outside(around.reshaped().begin(), around.reshaped().end());
     const std::set<int> inside(patch.triangles.reshaped().begin(), patch.triangles.reshaped().end());

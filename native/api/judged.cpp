@@ -174,7 +174,7 @@ public:
     void add_join(Judged& found) const {
         const Points points = part_.of(now_.points);
         const Triangles inside = part_.own(now_.surface);
-        found.join = visible_join({points, inside, part_.own(around_), {}}, part_.own(now_.rim));
+        found.join = visible_join({points, inside, part_.own(around_)}, part_.own(now_.rim));
         found.seams = part_.of_mesh(seam_kinks(points, inside, part_.own(now_.held), found.join.limit));
     }
 

@@ -15,8 +15,9 @@ py::object shown(const VisibleJoin& join) { return py::make_tuple(join.degrees, 
 void bind_parts(py::module_& module) {
     bind(
         module, "visible_join",
-        [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& boundary,
-           const MaybePoints& before) { return visible_join({vertices, inside, outside, before}, boundary); },
+        [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& boundary) {
+            return visible_join({vertices, inside, outside}, boundary);
+        },
         [](const VisibleJoin& join) { return shown(join); });
 }
 

@@ -4,37 +4,13 @@
 
 #include "base/columns.h"
 #include "boundary/low_passed_boundary.h"
+#include "geometry/dihedral_bands.h"
 #include "geometry/triangle.h"
-#include "mesh/edges.h"
 #include "mesh/union_find.h"
 
 namespace fairing {
 
 namespace {
-
-// With one triangle on either side: sides 3 t + k of the two lists.
-struct Meeting {
-    std::array<int, 2> ends;
-    int inside;
-    int outside;
-};
-
-std::vector<Meeting> meetings(const PatchInMesh& mesh, const EdgeTable& outside) {
-    const EdgeTable inside = make_edges(mesh.inside, static_cast<int>(mesh.points.cols()));
-    std::vector<Meeting> found;
-    for (int i = 0, o = 0; i < inside.size() && o < outside.size();) {
-        if (inside.ends[i] < outside.ends[o]) {
-            ++i;
-        } else if (outside.ends[o] < inside.ends[i]) {
-            ++o;
-        } else {
-            if (inside.side_count(i) == 1 && outside.side_count(o) == 1)
-                found.push_back({inside.ends[i], inside.side(i, 0), outside.side(o, 0)});
-            ++i, ++o;
-        }
-    }
-    return found;
-}
 
 Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
     return direction(area_vector(points, triangles.col(side / 3)));
@@ -49,6 +25,8 @@ struct Means {
     double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
     double rows_bend = 0.0;                           // likewise, of that arc
     double cut_bend = 0.0;                            // likewise, of an arc over half of that distance
+    double open = 0.0;                                // length of edges without one: a border ends their only row
+    Vector3 rulings = Vector3::Zero();                // where that goes, times length
     double length = 0.0;
     double least = fading_bend;  // degrees of a wall
 };
@@ -57,6 +35,7 @@ double angle_of(const Eigen::Vector2d& sum) { return std::atan2(sum.y(), sum.x()
 
 constexpr double flat = 1.0;         // degrees: the two triangles of a quad
 constexpr double explained = 0.25;   // of the dip: balls .8 to 1.1, ellipsoids .35 to 2, boxes and cans 0 to .05
+constexpr double parallel = 0.996;   // cosine: 5 degrees, the tilt of a draft; more is a ball's row
 constexpr double rounder = 1.25;     // bend of which there is no ball: it has 1 at most
 constexpr double far_rounder = 3.0;  // times the dip
 // Of a loop: real meshes have single edges like walls everywhere.
@@ -86,7 +65,9 @@ bool is_wall(const Means& part) {
     const double dip = part.film.y();
     const bool bends_away = std::min(film, angle_of(part.patch)) > part.least;
     const bool bends_back = std::max(film, angle_of(part.patch)) < -part.least;
-    const bool is_unexplained = std::min(part.bend * dip, part.cut_bend * dip) < explained * dip * dip;
+    const double cut =
+        part.cut_bend + (part.rulings.norm() < parallel * part.open ? part.bend * part.open / part.length : 0.0);
+    const bool is_unexplained = std::min(part.bend * dip, cut * dip) < explained * dip * dip;
     return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
 
@@ -96,7 +77,7 @@ public:
         : mesh_(mesh),
           rim_(rim),
           outside_(make_edges(mesh.outside, static_cast<int>(mesh.points.cols()))),
-          edges_(meetings(mesh, outside_)),
+          edges_(meetings(make_edges(mesh.inside, static_cast<int>(mesh.points.cols())), outside_)),
           place_(static_cast<std::size_t>(mesh.points.cols()), none),
           parts_(place_.size(), 0) {
         for (std::size_t k = 0; k < rim.vertices.size(); ++k) place_[rim.vertices[k]] = static_cast<int>(k);
@@ -284,7 +265,9 @@ private:
             const Vector3 tail = mesh_.points.col(side_tail(all, exit));
             cut.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
             if (bend > flat) cut.rows.push_back(cut.ends.size() - 1);
-            if (cut.near == 0 && (bend > hard_bend || cut.ends.back().norm() > reach)) cut.near = cut.ends.size();
+            const bool is_hard = std::binary_search(rim_.hard.begin(), rim_.hard.end(), outside_.ends[e]);
+            const bool is_far = cut.rows.size() > 1 && cut.ends.back().norm() > reach;
+            if (cut.near == 0 && (is_hard || is_far)) cut.near = cut.ends.size();
             if (cut.near > 0 && cut.rows.size() > 1) break;
             side = other;
         }
@@ -308,7 +291,12 @@ private:
             return std::isfinite(found) ? found : 0.0;
         };
         const double length = between(edge).norm();
-        if (cut.near > 1) means.cut_bend += length * reach * curvature(cut.near / 2 - 1, cut.near - 1);
+        if (cut.near > 1) {
+            means.cut_bend += length * reach * curvature(cut.near / 2 - 1, cut.near - 1);
+        } else {
+            means.open += length;
+            if (cut.near == 1) means.rulings += length * direction(cut.ends[0]);
+        }
         if (cut.rows.size() < 2) return;
         const double bend = curvature(cut.rows[0], cut.rows[1]);
         const Eigen::Vector2d last = -plane(cut.rows[0]);
@@ -349,8 +337,9 @@ private:
 
 VertexPairs boundary_edges(const PatchInMesh& mesh) {
     VertexPairs result;
-    const EdgeTable outside = make_edges(mesh.outside, static_cast<int>(mesh.points.cols()));
-    for (const Meeting& edge : meetings(mesh, outside)) result.push_back(edge.ends);
+    const auto count = static_cast<int>(mesh.points.cols());
+    for (const Meeting& edge : meetings(make_edges(mesh.inside, count), make_edges(mesh.outside, count)))
+        result.push_back(edge.ends);
     return result;
 }
 

@@ -56,6 +56,22 @@ double dihedral_angle(const Vector3& first, const Vector3& second, const Vector3
     return first.dot(opposite - a) > 0.0 ? -angle : angle;
 }
 
+std::vector<Meeting> meetings(const EdgeTable& inside, const EdgeTable& outside) {
+    std::vector<Meeting> found;
+    for (int i = 0, o = 0; i < inside.size() && o < outside.size();) {
+        if (inside.ends[i] < outside.ends[o]) {
+            ++i;
+        } else if (outside.ends[o] < inside.ends[i]) {
+            ++o;
+        } else {
+            if (inside.side_count(i) == 1 && outside.side_count(o) == 1)
+                found.push_back({inside.ends[i], inside.side(i, 0), outside.side(o, 0)});
+            ++i, ++o;
+        }
+    }
+    return found;
+}
+
 DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
     : points_(points),
       triangles_(triangles),

@@ -20,6 +20,15 @@ struct AngleRange {
 // normals. `first` and `second` are the unit normals, `opposite` the third corner of the second triangle.
 double dihedral_angle(const Vector3& first, const Vector3& second, const Vector3& a, const Vector3& opposite);
 
+// An edge with one triangle on either side: sides 3 t + k of two lists.
+struct Meeting {
+    std::array<int, 2> ends;
+    int inside;
+    int outside;
+};
+
+std::vector<Meeting> meetings(const EdgeTable& inside, const EdgeTable& outside);
+
 class DihedralBands {
 public:
     struct WeightedAngle {

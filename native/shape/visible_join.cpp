@@ -1,7 +1,5 @@
 #include "shape/visible_join.h"
 
-#include <map>
-
 #include <Eigen/Geometry>
 
 #include "base/columns.h"
@@ -17,36 +15,15 @@ namespace fairing {
 
 namespace {
 
-// An edge with one triangle on each side of the boundary: sides (3 t + k) of the two lists.
-struct BoundaryEdge {
-    std::array<int, 2> ends;
-    int inside;
-    int outside;
-};
-
-std::vector<BoundaryEdge> shared_edges(const EdgeTable& inside, const EdgeTable& outside) {
-    std::map<std::array<int, 2>, int> border;
-    for (int e = 0; e < outside.size(); ++e) {
-        if (outside.side_count(e) == 1) border[outside.ends[e]] = outside.side(e, 0);
-    }
-    std::vector<BoundaryEdge> shared;
-    for (int e = 0; e < inside.size(); ++e) {
-        const auto found = border.find(inside.ends[e]);
-        if (inside.side_count(e) == 1 && found != border.end()) {
-            shared.push_back({inside.ends[e], inside.side(e, 0), found->second});
-        }
-    }
-    return shared;
-}
-
 Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
     return direction(area_vector(points, triangles.col(side / 3)));
 }
 
-double angle_at(const Points& points, const JoinedMesh& mesh, const BoundaryEdge& edge) {
+double angle_at(const JoinedMesh& mesh, const Meeting& edge) {
     const int opposite = mesh.outside((edge.outside % 3 + 2) % 3, edge.outside / 3);
-    return dihedral_angle(normal_of(points, mesh.inside, edge.inside), normal_of(points, mesh.outside, edge.outside),
-                          points.col(edge.ends[0]), points.col(opposite));
+    return dihedral_angle(normal_of(mesh.vertices, mesh.inside, edge.inside),
+                          normal_of(mesh.vertices, mesh.outside, edge.outside), mesh.vertices.col(edge.ends[0]),
+                          mesh.vertices.col(opposite));
 }
 
 // Between two of the sorted values, where it falls there.
@@ -106,21 +83,17 @@ double mirrored_angle(const Triangles& triangles, const Points& points, int side
 }  // namespace
 
 VisibleJoin visible_join(const JoinedMesh& given, const Indices& boundary) {
-    const JoinedMesh mesh{given.vertices, without_collapsed(given.inside), without_collapsed(given.outside),
-                          given.before};
+    const JoinedMesh mesh{given.vertices, without_collapsed(given.inside), without_collapsed(given.outside)};
     const DihedralBands inside(mesh.vertices, mesh.inside);
     const DihedralBands outside(mesh.vertices, mesh.outside);
     DihedralBands::Walk walk_inside = inside.walk();
     DihedralBands::Walk walk_outside = outside.walk();
     EdgeMeans means(mesh.vertices.cols());
-    const std::vector<BoundaryEdge> edges = shared_edges(inside.edges(), outside.edges());
-    for (const BoundaryEdge& edge : edges) {
+    for (const Meeting& edge : meetings(inside.edges(), outside.edges())) {
         const auto [a, b] = edge.ends;
         AngleRange usual = inside.usual(a, b, walk_inside);
         usual.include(outside.usual(a, b, walk_outside));
-        if (mesh.before) usual.include(angle_at(*mesh.before, mesh, edge));
-        means.add(edge.ends, usual.excess(angle_at(mesh.vertices, mesh, edge)),
-                  (mesh.vertices.col(a) - mesh.vertices.col(b)).norm());
+        means.add(edge.ends, usual.excess(angle_at(mesh, edge)), (mesh.vertices.col(a) - mesh.vertices.col(b)).norm());
     }
     VisibleJoin join;
     join.degrees.resize(static_cast<Eigen::Index>(boundary.size()));

@@ -5,12 +5,11 @@
 
 namespace fairing {
 
-// A mesh in two parts that meet in an boundary; `before`: positions of all its vertices before the patch was faired.
+// A mesh in two parts that meet in a boundary.
 struct JoinedMesh {
     Points vertices;
     Triangles inside;
     Triangles outside;
-    std::optional<Points> before;
 };
 
 // How much a join shows, and where the eye finds a kink.
@@ -21,9 +20,8 @@ struct VisibleJoin {
 };
 
 // Degrees: by how much the signed dihedral angles of the boundary edges at a vertex exceed what is usual across their
-// direction within three rings inside and outside, and what the same edge had before. The mean over these edges,
-// weighted by length; 0 where no boundary edge ends. Triangles that name a vertex twice are left out. `boundary`: each
-// vertex once.
+// direction within three rings inside and outside. The mean over these edges, weighted by length; 0 where no
+// boundary edge ends. Triangles that name a vertex twice are left out. `boundary`: each vertex once.
 VisibleJoin visible_join(const JoinedMesh& mesh, const Indices& boundary);
 
 // The degrees from the patch's side alone, at its fixed vertices (local order): the surroundings are taken for the

@@ -65,7 +65,7 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "triangulated": (POINTS, FACES.ravel(), np.full(len(FACES), 3, np.int32)),
     "turned_triangles": (FACES, COUNT),
     "vertex_normals": (POINTS, FACES, "fitted"),
-    "visible_join": (POINTS, TOP, RIM, LINE, None),
+    "visible_join": (POINTS, TOP, RIM, LINE),
 }
 # They need more than a cap, and are bound in the same way.
 ELSEWHERE = {

@@ -162,21 +162,17 @@ def visible_join(
     inside: npt.ArrayLike,
     outside: npt.ArrayLike,
     outline: npt.ArrayLike,
-    *,
-    before: npt.ArrayLike | None = None,
 ) -> VisibleJoin:
     """How visible the join of the two lists of triangles is at the vertices of ``outline`` (k,), each named once.
 
     ``degrees``: by how much the signed dihedral angles of the outline's edges exceed what is usual across their
-    direction within three rings on either side (the middle half of the angles, by length and direction), and what the
-    same edge had in ``before`` (n, 3), the positions before fairing; the mean over the outline's edges at the vertex. 0
-    on a sphere or tube however coarse, and on a crease that goes on on either side. ``limit``: of nine tenths of the
-    edges outside the range of bends, as far as it lies between 5 and ``LIMITS["visible_kink"]`` = 12, or half of it
-    where that is more, up to 30. 12 without triangles outside.
+    direction within three rings on either side (the middle half of the angles, by length and direction); the mean over
+    the outline's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that goes on on either
+    side. ``limit``: of nine tenths of the edges outside the range of bends, as far as it lies between 5 and
+    ``LIMITS["visible_kink"]`` = 12, or half of it where that is more, up to 30. 12 without triangles outside.
     """
     points = arguments.floats("vertices", vertices)
     sides = (arguments.vertices_of(*side, len(points), 3) for side in (("inside", inside), ("outside", outside)))
     within, beyond = (arguments.finite_triangles(points, side) for side in sides)
     where = arguments.vertices_of("outline", outline, len(points))
-    earlier = None if before is None else arguments.floats("before", before, points.shape[0])
-    return VisibleJoin(*_core.visible_join(points, within, beyond, where, earlier))
+    return VisibleJoin(*_core.visible_join(points, within, beyond, where))

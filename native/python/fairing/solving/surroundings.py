@@ -130,7 +130,7 @@ def _worth(answer: Answer, around: Surroundings) -> tuple[bool, int, float]:
     """
     if not answer["converged"]:
         return False, -_folds(answer), 0.0
-    degrees, _, seen = _core.visible_join(answer["vertices"], around.inside, around.outside, around.rim, None)
+    degrees, _, seen = _core.visible_join(answer["vertices"], around.inside, around.outside, around.rim)
     return True, -_folds(answer), -float(np.max(degrees[seen], initial=0.0))
 
 
@@ -150,7 +150,7 @@ def with_join(answer: Answer, around: Surroundings) -> Answer:
     """The join measured on the triangles outside, at the vertices that have some."""
     if len(around.rim):
         fixed = answer["fixed"]
-        degrees, _, _ = _core.visible_join(answer["vertices"], around.inside, around.outside, fixed, None)
+        degrees, _, _ = _core.visible_join(answer["vertices"], around.inside, around.outside, fixed)
         answer["join"] = np.where(np.isin(fixed, around.rim), degrees, answer["join"])
         answer["join"].flags.writeable = False
     return answer
