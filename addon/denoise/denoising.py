@@ -9,10 +9,11 @@ import numpy as np
 import fairing
 
 from ..arrays.around import MovedKey
-from ..arrays.region import MeshArrays, free_vertices, to_local
+from ..arrays.region import MeshArrays, free_vertices, make_patch, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress
-from ..mirror.reflected import whole_of
+from ..mirror.reflected import Whole, whole_of
+from ..mirror.symmetry import mirrored
 from ..options.other_options import DenoiseOptions
 from ..verdict.verdict import GOOD, LOOK, Verdict
 from ..words.words import said
@@ -26,6 +27,7 @@ class Denoised:
     positions: Floats  # (k, 3)
     largest: float  # distance that one of them moves, in world space
     verdict: Verdict
+    warnings: tuple[str, ...]
     keys: tuple[MovedKey, ...] = ()
 
 
@@ -36,9 +38,7 @@ def denoise_arrays(
 
     Raises what `fairing.denoise` does, with mesh indices, and ValueError where the matrix has no inverse.
     """
-    whole = whole_of(mesh)
-    if whole is None:
-        return _denoised(mesh, matrix, options, progress)
+    whole = whole_of(mesh) or Whole.of(mesh)
     found = _denoised(whole.mesh, matrix, options, progress)
     vertices, positions = whole.moved(found.vertices, found.positions)
     return replace(found, vertices=vertices, positions=positions)
@@ -59,6 +59,10 @@ def _denoised(mesh: MeshArrays, matrix: Floats, options: DenoiseOptions, progres
         edges=sharp, progress=progress,
     )  # fmt: skip
     moved = np.flatnonzero(free & (smooth != world.positions).any(axis=1))
-    way = np.linalg.norm(smooth[moved] - world.positions[moved], axis=1)
+    places, warnings = to_local(smooth, matrix), tuple[str, ...]()
+    if mesh.mirror_x:
+        patch = make_patch(mesh)
+        places[patch.vertices], warnings = mirrored(mesh, patch, places[patch.vertices])
+    distances = np.linalg.norm((places[moved] - mesh.positions[moved]) @ matrix[:3, :3].T, axis=1)
     verdict = Verdict(GOOD) if len(moved) else Verdict(LOOK, said("unmoved"))
-    return Denoised(moved, to_local(smooth[moved], matrix), float(way.max(initial=0.0)), verdict)
+    return Denoised(moved, places[moved], float(distances.max(initial=0.0)), verdict, warnings)

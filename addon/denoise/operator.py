@@ -1,6 +1,7 @@
 """The operator that takes the roughness from selected faces: at once where that is quick, else in the background."""
 
 from dataclasses import dataclass
+from itertools import chain
 
 import bpy
 
@@ -33,7 +34,8 @@ class Asked(AskedInEditMode):
         count = sum(len(outcome.vertices) for outcome in outcomes)
         verdict = worst(outcome.verdict for outcome in outcomes)
         store_word(context.window_manager.fairing_report, self.names, count, verdict)
-        return done(say, (), said("moved_by", n=count, largest=max(outcome.largest for outcome in outcomes)))
+        warnings = chain.from_iterable(outcome.warnings for outcome in outcomes)
+        return done(say, warnings, said("moved_by", n=count, largest=max(outcome.largest for outcome in outcomes)))
 
 
 class MESH_OT_fair_denoise(DenoiseProperties, InEditMode, bpy.types.Operator):

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from ..arrays.around import MovedKey, is_bent
 from ..arrays.region import MeshArrays
 from ..arrays.types import Floats
 from ..mirror.reflected import whole_of
 from ..options.options import FairOptions
 from ..remesh.remeshing import remesh_arrays
 from ..verdict.outcome import Fairing, outcome
-from ..verdict.verdict import UNUSABLE
+from ..verdict.verdict import GRADES, UNUSABLE
 from ..words.words import said
-from .engine import Progress
+from .engine import REFUSALS, Progress, sub_range
 from .held_curves import released
 from .solve import Kept, solve
 
@@ -53,3 +54,35 @@ def _on_old_mesh(
     mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
 ) -> Fairing:
     return outcome(mesh, matrix, options, solve(mesh, matrix, options, progress, kept), progress)
+
+
+def fair_all_keys(
+    mesh: MeshArrays, matrix: Floats, options: FairOptions, progress: Progress | None, kept: Kept | None
+) -> Fairing:
+    """Fair the patch as `fair_arrays` does, and that of every key that bends it; the others follow the Basis.
+
+    A key without a usable surface follows, too, which a warning says. The verdict is the worst. Raises what
+    `fair_arrays` does for the Basis.
+    """
+    bent = {name: positions for name, positions in mesh.keys.items() if is_bent(mesh, positions)}
+    share = 1.0 / (1 + len(bent))
+    found = fair_arrays(mesh, matrix, options, sub_range(progress, 0.0, share), kept)
+    for k, (name, positions) in enumerate(bent.items(), 1):
+        part = sub_range(progress, k * share, (k + 1) * share)
+        try:
+            own = fair_arrays(replace(mesh, positions=positions, keys={}), matrix, options, part)
+        except REFUSALS as cause:
+            found = replace(found, warnings=(*found.warnings, said("key_follows", name=name, reason=str(cause))))
+            continue
+        found = _with_key(found, name, own, options)
+    return found
+
+
+def _with_key(found: Fairing, name: str, own: Fairing, options: FairOptions) -> Fairing:
+    verdict = own.verdict
+    if verdict.grade == UNUSABLE and not options.allow_folds:
+        text = said("key_follows", name=name, reason=verdict.reason)
+        return replace(found, warnings=(*found.warnings, text))
+    if GRADES.index(verdict.grade) > GRADES.index(found.verdict.grade):
+        found = replace(found, verdict=replace(verdict, reason=said("of_key", name=name, reason=verdict.reason)))
+    return replace(found, keys=(*found.keys, MovedKey(name, own.vertices, own.positions)))

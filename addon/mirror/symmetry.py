@@ -51,7 +51,27 @@ def mirror_map(mesh: MeshArrays, patch: Patch) -> Ints | None:
     return image
 
 
-def with_band(image: Ints, points: Floats, moving: Ints) -> Ints | None:
+def mirrored(
+    mesh: MeshArrays, patch: Patch, fair: Floats, band: tuple[Ints, Ints] | None = None
+) -> tuple[Floats, tuple[str, ...]]:
+    """Make the positions (q, 3) of the patch and what is around it symmetric where the mesh asks for that.
+
+    band: the mesh vertices (q,), and which of them move (k,), if some around the patch do. A patch without boundary
+    stays as it is: nothing tells where its plane is.
+    """
+    if not mesh.mirror_x or not len(patch.boundary):
+        return fair, ()
+    image = mirror_map(mesh, patch)
+    if image is not None and band is not None:
+        image = _with_band(image, mesh.positions[band[0]], band[1])
+    if image is None:
+        return fair, (said("patch_not_symmetric"),)
+    whole = fair.copy()
+    whole[: len(image)] = symmetrised(fair[: len(image)], image)
+    return whole, ()
+
+
+def _with_band(image: Ints, points: Floats, moving: Ints) -> Ints | None:
     """Return (q,): the patch's images (p,) followed by those of the vertices around it, of which some move too.
 
     points: (q, 3) before, in the mesh's own coordinates; they decide outside the patch. None where what moves isn't

@@ -17,7 +17,7 @@ import numpy as np
 from ..arrays.region import MeshArrays, free_vertices, to_local
 from ..arrays.types import Floats, Ints, Mask
 from ..fair.engine import REFUSALS, Problem, Progress, sub_range
-from ..fair.fair_keys import fair_all_keys
+from ..fair.fair_arrays import fair_all_keys
 from ..fair.memory import memory
 from ..fair.solve import Kept
 from ..host.context import edited_objects

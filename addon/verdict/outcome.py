@@ -14,10 +14,9 @@ from ..arrays.region import MeshArrays, Patch, nothing, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Problem, Progress, go_on, islands
 from ..fair.solve import Solved
-from ..mirror.symmetry import mirror_map, symmetrised, with_band
+from ..mirror.symmetry import mirrored
 from ..options.options import FairOptions
 from ..selection.selection import left_out, tunnel_hint
-from ..words.words import said
 from . import quality
 from .evidence import Evidence
 from .lost import Lost, kept_key, moved_border
@@ -132,7 +131,9 @@ def _positions(
     """Return where the vertices `moving` of the problem go (k, 3), in the mesh's own coordinates, and warnings."""
     problem = solved.problem
     local = to_local(solved.result.vertices, matrix)
-    fair, warnings = _mirrored(mesh, problem, local, moving)
+    fair, warnings = mirrored(
+        mesh, problem.patch, local, None if problem.weights is None else (problem.vertices, moving)
+    )
     fair = fair[moving]
     if factor == 1.0:
         return fair, warnings
@@ -145,20 +146,6 @@ def _is_clear(patch: Patch, result: fairing.FairResult) -> bool:
     """Return whether the engine, which looks at each piece, has found that no triangle passes through another."""
     found = any(diagnostic.code == "SELF_INTERSECTION" for diagnostic in result.warnings)
     return not found and islands(patch) <= 1
-
-
-def _mirrored(mesh: MeshArrays, problem: Problem, fair: Floats, moving: Ints) -> tuple[Floats, tuple[str, ...]]:
-    """Make the local positions (q, 3) symmetric where the mesh asks for that; only those `moving` count."""
-    if not mesh.mirror_x:
-        return fair, ()
-    image = mirror_map(mesh, problem.patch)
-    if image is not None and problem.weights is not None:
-        image = with_band(image, mesh.positions[problem.vertices], moving)
-    if image is None:
-        return fair, (said("patch_not_symmetric"),)
-    whole = fair.copy()
-    whole[: len(image)] = symmetrised(fair[: len(image)], image)
-    return whole, ()
 
 
 def _largest_curvatures(patch: Patch, result: fairing.FairResult) -> tuple[float, float]:
