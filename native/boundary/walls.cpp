@@ -24,9 +24,9 @@ struct Means {
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
     double rows_bend = 0.0;                           // likewise, of that arc
-    double cut_bend = 0.0;                            // likewise, of an arc over half of that distance
-    double open = 0.0;                                // length of edges without one: a border ends their only row
-    Vector3 rulings = Vector3::Zero();                // where that goes, times length
+    double cut_bend = 0.0;                            // likewise, of an arc over half of that distance, times
+    double cut_weight = 0.0;                          // the arc's squared length: short ones are noisy
+    Vector3 rulings = Vector3::Zero();                // of edges without one: where their only row goes
     double length = 0.0;
     double least = fading_bend;  // degrees of a wall
 };
@@ -65,9 +65,9 @@ bool is_wall(const Means& part) {
     const double dip = part.film.y();
     const bool bends_away = std::min(film, angle_of(part.patch)) > part.least;
     const bool bends_back = std::max(film, angle_of(part.patch)) < -part.least;
-    const double cut =
-        part.cut_bend + (part.rulings.norm() < parallel * part.open ? part.bend * part.open / part.length : 0.0);
-    const bool is_unexplained = std::min(part.bend * dip, cut * dip) < explained * dip * dip;
+    const double row = part.rulings.norm() < parallel * part.length ? part.bend : 0.0;
+    const double cut = part.cut_weight > 0.0 ? part.cut_bend * part.length / part.cut_weight : row;
+    const bool is_unexplained = cut * dip < explained * dip * dip;
     return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
 
@@ -265,9 +265,8 @@ private:
             const Vector3 tail = mesh_.points.col(side_tail(all, exit));
             cut.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
             if (bend > flat) cut.rows.push_back(cut.ends.size() - 1);
-            const bool is_hard = std::binary_search(rim_.hard.begin(), rim_.hard.end(), outside_.ends[e]);
             const bool is_far = cut.rows.size() > 1 && cut.ends.back().norm() > reach;
-            if (cut.near == 0 && (is_hard || is_far)) cut.near = cut.ends.size();
+            if (cut.near == 0 && (bend > hard_bend || is_far)) cut.near = cut.ends.size();
             if (cut.near > 0 && cut.rows.size() > 1) break;
             side = other;
         }
@@ -292,10 +291,11 @@ private:
         };
         const double length = between(edge).norm();
         if (cut.near > 1) {
-            means.cut_bend += length * reach * curvature(cut.near / 2 - 1, cut.near - 1);
-        } else {
-            means.open += length;
-            if (cut.near == 1) means.rulings += length * direction(cut.ends[0]);
+            const double weight = length * cut.ends[cut.near - 1].squaredNorm();
+            means.cut_bend += weight * reach * curvature(cut.near / 2 - 1, cut.near - 1);
+            means.cut_weight += weight;
+        } else if (cut.near == 1) {
+            means.rulings += length * direction(cut.ends[0]);
         }
         if (cut.rows.size() < 2) return;
         const double bend = curvature(cut.rows[0], cut.rows[1]);
