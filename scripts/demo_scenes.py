@@ -43,7 +43,7 @@ def _flood(mesh: bpy.types.Mesh, seed: int, within: Mask) -> Mask:
 
 
 def _distances(mesh: bpy.types.Mesh, faces: Mask) -> Floats:
-    """Return (n,): the length of the shortest way along edges from each vertex to the faces."""
+    """Return (n,): the length of the shortest path along edges from each vertex to the faces."""
     points = positions(mesh)
     links: dict[int, list[tuple[int, float]]] = defaultdict(list)
     for edge in mesh.edges:

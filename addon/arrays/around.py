@@ -28,7 +28,7 @@ def outside_triangles(mesh: MeshArrays, patch: Patch) -> Ints:
 def wide_outside(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> Ints:
     """Return those within a patch's size of it, which say what its surroundings are without their detail.
 
-    feather: width of a band around the patch, a share of its size; that much is added. What may go a part of the way
+    feather: width of a band around the patch, a share of its size; that much is added. What may follow in part
     counts as part of the patch.
     """
     outside = _usable(mesh)
@@ -45,7 +45,7 @@ def wide_outside(mesh: MeshArrays, patch: Patch, feather: float = 0.0) -> Ints:
 
 
 def joined_by_weight(mesh: MeshArrays, patch: Patch) -> Mask:
-    """Return the (n,) mask of the vertices to which edges lead from the patch over vertices that may go some way."""
+    """Return the (n,) mask of the vertices to which edges lead from the patch over vertices that may move in part."""
     reached = np.zeros(len(mesh.positions), dtype=bool)
     if mesh.parts is None:
         return reached

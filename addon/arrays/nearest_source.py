@@ -10,14 +10,14 @@ from .types import Floats, Ints
 
 
 def nearest_sources(count: int, links: Ints, lengths: Floats, sources: Ints) -> Ints:
-    """Return (count,): the node before each one on the shortest way from a source; itself at sources, −1 out of reach.
+    """Return (count,): the node before each one on the shortest path from a source; itself at sources, −1 out of reach.
 
     links: (l, 2) pairs of nodes, each as long as lengths (l,) says.
     """
-    beside: list[list[tuple[int, float]]] = [[] for _ in range(count)]
+    adjacent: list[list[tuple[int, float]]] = [[] for _ in range(count)]
     for (a, b), length in zip(links.tolist(), lengths.tolist(), strict=True):
-        beside[a].append((b, length))
-        beside[b].append((a, length))
+        adjacent[a].append((b, length))
+        adjacent[b].append((a, length))
     away = [np.inf] * count
     before = [-1] * count
     queue = [(0.0, source) for source in sources.tolist()]
@@ -27,7 +27,7 @@ def nearest_sources(count: int, links: Ints, lengths: Floats, sources: Ints) -> 
         distance, node = heapq.heappop(queue)
         if distance > away[node]:
             continue
-        for other, length in beside[node]:
+        for other, length in adjacent[node]:
             if distance + length < away[other]:
                 away[other], before[other] = distance + length, node
                 heapq.heappush(queue, (away[other], other))

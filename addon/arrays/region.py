@@ -76,7 +76,7 @@ class MeshArrays:
     def transformed(self, matrix: Floats) -> MeshArrays:
         """Return the mesh under a 4×4 affine map, wound so that outside stays outside.
 
-        Raises ValueError where the map flattens the mesh: there is no way back then.
+        Raises ValueError where the map flattens the mesh: it has no inverse then.
         """
         linear = matrix[:3, :3]
         if not np.isfinite(matrix).all() or np.linalg.cond(linear) > 1e7:

@@ -11,7 +11,7 @@ import numpy as np
 
 from .types import Ints, Mask
 
-INSIDE, OUTLINE = 6, 4  # edges per vertex of a regular triangulation
+INSIDE, BOUNDARY = 6, 4  # edges per vertex of a regular triangulation
 FIXED_DIAGONAL = 50  # cost of a diagonal between fixed vertices: it may cut off a triangle
 
 
@@ -31,7 +31,7 @@ def split_quads(quads: Ints, edges: Ints, free: Mask) -> Ints:
     edges: (e, 2) all edges of the patch, without diagonals; free: (n,) mask of the vertices, which
     are numbers below n. The same connectivity gives the same diagonals, whatever the positions.
     """
-    excess = np.bincount(edges.ravel(), minlength=len(free)) - np.where(free, INSIDE, OUTLINE)
+    excess = np.bincount(edges.ravel(), minlength=len(free)) - np.where(free, INSIDE, BOUNDARY)
     turned = np.zeros(len(quads), dtype=bool)  # False: diagonal from corner 0 to 2
     np.add.at(excess, quads[:, ::2], 1)
     while True:

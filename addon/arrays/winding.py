@@ -34,26 +34,26 @@ def _against_most(mesh: MeshArrays) -> Mask:
     within = mesh.in_patch[sides.faces].all(axis=1)
     if not sides.alike[within].any():
         return against
-    beside: dict[int, list[tuple[int, bool]]] = defaultdict(list)
+    adjacent: dict[int, list[tuple[int, bool]]] = defaultdict(list)
     for (a, b), alike in zip(sides.faces[within].tolist(), sides.alike[within].tolist(), strict=True):
-        beside[a].append((b, alike))
-        beside[b].append((a, alike))
+        adjacent[a].append((b, alike))
+        adjacent[b].append((a, alike))
     turns: dict[int, bool] = {}
-    for start in beside:
+    for start in adjacent:
         if start not in turns:
-            part = _spread(start, beside)
+            part = _spread(start, adjacent)
             most = 2 * sum(part.values()) > len(part)
             turns.update({face: turned != most for face, turned in part.items()})
     against[[face for face, turned in turns.items() if turned]] = True
     return against
 
 
-def _spread(start: int, beside: dict[int, list[tuple[int, bool]]]) -> dict[int, bool]:
-    """Return which faces connected with `start` are wound against it; on a Möbius strip the first way there counts."""
+def _spread(start: int, adjacent: dict[int, list[tuple[int, bool]]]) -> dict[int, bool]:
+    """Return which faces connected with `start` are wound against it; on a Möbius strip the first path there counts."""
     against, queue = {start: False}, deque([start])
     while queue:
         face = queue.popleft()
-        for other, alike in beside[face]:
+        for other, alike in adjacent[face]:
             if other not in against:
                 against[other] = against[face] != alike
                 queue.append(other)

@@ -49,8 +49,8 @@ def _denoised(mesh: MeshArrays, matrix: Floats, options: DenoiseOptions, progres
         world = mesh.transformed(matrix)
     free = free_vertices(mesh)
     finite = np.isfinite(world.positions).all(axis=1)
-    beside = free[world.triangles].any(axis=1)
-    triangles = world.triangles[finite[world.triangles].all(axis=1) | beside]
+    touching = free[world.triangles].any(axis=1)
+    triangles = world.triangles[finite[world.triangles].all(axis=1) | touching]
     known = np.zeros(len(free), dtype=bool)
     known[triangles] = True
     sharp = None if mesh.sharp is None else mesh.edges[mesh.sharp & known[mesh.edges].all(axis=1)]

@@ -98,7 +98,7 @@ class MESH_OT_fair_brush(FairsOutside, bpy.types.Operator):
         self._at = there
 
     def dab(self, context: bpy.types.Context, x: float, y: float) -> None:
-        """Paint at a place on the surface; beside it nothing happens."""
+        """Paint at a place on the surface; off it nothing happens."""
         obj = active_object(context)
         place = place_at(context, (x, y), obj)
         if place is None:

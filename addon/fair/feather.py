@@ -37,7 +37,7 @@ def band_weights(mesh: MeshArrays, patch: Patch, vertices: Ints, outside: Ints, 
 
     outside: (o, 3) triangles around the patch, in numbers of `vertices`; feather: a share of the patch's size, 0 where
     `mesh.parts` alone says how wide the band is. Where there are both, they are multiplied.
-    None where all of the patch goes all the way and nothing around it. Pinned vertices and those of hidden faces have
+    None where all of the patch moves in full and nothing around it. Pinned vertices and those of hidden faces have
     0: these stay. The engine holds open borders itself. Raises ValueError where nothing would move.
     """
     parts = np.ones(len(vertices)) if mesh.parts is None else mesh.parts[vertices]

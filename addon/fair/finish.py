@@ -25,7 +25,7 @@ from .engine import Progress
 @dataclass
 class Asked(AskedInEditMode):
     notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
-    way: str = ""  # tried after a run that was not good, and written only where the verdict improves
+    remedy: str = ""  # tried after a run that was not good, and written only where the verdict improves
     again: bool = False  # on faces of the last run, which are selected where the result is written
     moves = True
 
@@ -42,8 +42,8 @@ class Asked(AskedInEditMode):
         named = [(task.object_name, outcome) for task, outcome in zip(self.tasks, outcomes, strict=True)]
         report = make_report(named, self.options, time.perf_counter() - self.begin, self.notes)
         report = labels.with_idle(report, self.options)
-        if self.way and not last_run.is_improved_by(report):
-            return _keep(context, self.way, report, say)
+        if self.remedy and not last_run.is_improved_by(report):
+            return _keep(context, self.remedy, report, say)
         store(context.window_manager.fairing_report, report)
         last_run.remember(self.tasks, outcomes, self.options, report)
         if not report.written:
@@ -62,10 +62,10 @@ class Asked(AskedInEditMode):
         return done(say, report.warnings, summary(report))
 
 
-def _keep(context: bpy.types.Context, way: str, report: Report, say: Say) -> set[str]:
+def _keep(context: bpy.types.Context, remedy: str, report: Report, say: Say) -> set[str]:
     """Leave what the last run has left, offer this change no more, and report how it would have come out."""
     shown = context.window_manager.fairing_report
-    shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != way)
+    shown.remedies = ",".join(name for name in shown.remedies.split(",") if name != remedy)
     outcome = ": ".join(filter(None, (GRADE_NAMES[report.verdict.grade], report.verdict.reason)))
     say({"INFO"}, translated(said("no_better", outcome=outcome)))
     redraw_sidebars(context)

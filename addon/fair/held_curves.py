@@ -100,7 +100,7 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
     hard = none(mesh)
     try:
         found = fairing.edges_through(mesh.positions[used], numbered[:inside], numbered[inside:], neighbours=ends)
-    except fairing.MeshError:  # the patch has no outline: its solve says why, with the mesh's own numbers
+    except fairing.MeshError:  # the patch has no boundary loop: its solve says why, with the mesh's own numbers
         return hard
     if len(found.edges):
         wanted = {tuple(pair) for pair in np.concatenate([found.edges, found.onward]).tolist()}

@@ -19,7 +19,7 @@ class MESH_OT_fair_region(FairProperties, InEditMode, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
 
     def _read(self, context: bpy.types.Context) -> Asked | None:
-        (way, faces), options = last_run.way_to_try(), FairOptions.of(self)
+        (remedy, faces), options = last_run.remedy_to_try(), FairOptions.of(self)
         tasks, rest = self.read_faces(context, options, faces)
         notes = tuple(said("left_no_free", name=task.object_name) for task in rest)
-        return Asked(tasks, options, notes=notes, way=way, again=faces is not None) if tasks else None
+        return Asked(tasks, options, notes=notes, remedy=remedy, again=faces is not None) if tasks else None

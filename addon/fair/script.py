@@ -34,7 +34,7 @@ def fair_mesh(
     by others, which come last in the mesh.
     Returns the `fairing` result for the patch: its vertices are those of the visible `faces`, in
     ascending order, in the space of `matrix`.
-    Warns of properties that have no effect beside the others.
+    Warns of properties that have no effect given the others.
     Raises fairing.MeshError (elements: vertices of `mesh`), ValueError, TypeError for a property that does not exist
     and for a value of another kind, IndexError, fairing.SolverError and MemoryError; NotUsable where the result folds,
     crosses itself or is none, unless allow_folds=True. The mesh is untouched then.

@@ -33,7 +33,7 @@ class Loose:
 
 def drawn_edges(loose: Loose, boundary: Ints) -> Ints:
     """Return the (w, 2) edges without a face that hang on the vertices of a boundary, directly or by others."""
-    ends = loose.at_faces.copy()  # where they end: at faces, but for the outline's own
+    ends = loose.at_faces.copy()  # where they end: at faces, but for the boundary's own
     ends[boundary] = False
     reached = np.zeros(len(ends), dtype=bool)
     reached[boundary] = True
@@ -151,5 +151,5 @@ def renumbered(result: fairing.FillResult, old: Ints, new: Ints) -> fairing.Fill
 def _warning(warning: fairing.Diagnostic, number: Ints) -> fairing.Diagnostic:
     if warning.kind != "vertex":
         return warning
-    known = warning.elements[warning.elements < len(number)]  # not those of a mesh that was made on the way
+    known = warning.elements[warning.elements < len(number)]  # not those of a mesh that was made meanwhile
     return replace(warning, elements=number[known].astype(np.int32))

@@ -38,7 +38,7 @@ def fill(
             left.append(left_by(error, np.unique(np.concatenate(group))))
     if errors and not pieces:
         raise errors[0]
-    return Filled(pieces, tuple(left)).settled(options)
+    return Filled(pieces, tuple(left)).usable(options)
 
 
 def fill_borders(borders: Borders, matrix: Floats, options: FillOptions, progress: Progress | None = None) -> Filled:

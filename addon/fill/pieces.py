@@ -125,7 +125,7 @@ class Filled:
     def _boundary(self, piece: Piece) -> Ints:
         return np.unique(piece.boundary if self.whole is None else self.whole.own(piece.boundary))
 
-    def settled(self, options: FillOptions) -> Filled:
+    def usable(self, options: FillOptions) -> Filled:
         """Return what is to be written: surfaces that are not usable are left out where others are."""
         usable = [piece for piece in self.pieces if piece.verdict.grade != UNUSABLE]
         if options.allow_folds or not usable or len(usable) == len(self.pieces):

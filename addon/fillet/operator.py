@@ -37,7 +37,7 @@ from .rounding import NO_SEAM, Rounded, round_arrays, seams_of
 from .typed import Typed
 
 PROFILE_STEP = 0.1  # of the wheel
-PRECISE = 0.1  # of the mouse's way while Shift is held
+PRECISE = 0.1  # of the mouse's distance while Shift is held
 PATIENCE = 2.0  # seconds for a preview: a search that takes longer gives way to the next one
 SLOW = said("takes_longer")
 

@@ -71,8 +71,8 @@ def _pieces_of_edges(
     """Return the (c, 2) sides of triangles, but within the fillet, that are pieces of an edge, and (c, 2) its ends."""
     count = len(mesh.positions)
     corners, weights = mesh.triangles[result.origin[0]], result.origin[1]
-    rows, beside = np.arange(len(corners)), weights.argmin(axis=1)
-    ends = np.column_stack([corners[rows, (beside + 1) % 3], corners[rows, (beside + 2) % 3]])
+    rows, opposite = np.arange(len(corners)), weights.argmin(axis=1)
+    ends = np.column_stack([corners[rows, (opposite + 1) % 3], corners[rows, (opposite + 2) % 3]])
     ends[(weights <= _ON_SIDE).sum(axis=1) != 1] = -1
     ends = np.concatenate([np.column_stack([np.arange(count)] * 2), np.sort(ends, axis=1)])
     sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
@@ -180,20 +180,20 @@ class _CornerPlaces:
 
 def _sides(twin: dict[Edge, int], parting: set[frozenset[int]]) -> dict[int, int]:
     """Return a number for each triangle: equal where no seam and no wall parts them."""
-    beside: dict[int, list[int]] = {}
+    adjacent: dict[int, list[int]] = {}
     for (a, b), t in twin.items():
         other = twin.get((b, a))
-        beside.setdefault(t, [])
+        adjacent.setdefault(t, [])
         if other is not None and frozenset((a, b)) not in parting:
-            beside[t].append(other)
+            adjacent[t].append(other)
     side: dict[int, int] = {}
-    for first in beside:
+    for first in adjacent:
         waiting = [] if first in side else [first]
         while waiting:
             t = waiting.pop()
             if t not in side:
                 side[t] = first
-                waiting += beside[t]
+                waiting += adjacent[t]
     return side
 
 

@@ -62,7 +62,7 @@ def _width(text: str) -> float:
 
 
 def _room(context: bpy.types.Context) -> float:
-    """Return the pixels for words beside an icon in the panel that is being drawn."""
+    """Return the pixels for words next to an icon in the panel that is being drawn."""
     scale = _scale(context)
     region = getattr(context, "region", None)
     whole = region.width if region is not None and region.type == "UI" else USUAL * scale

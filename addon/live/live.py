@@ -64,7 +64,7 @@ class Live:
     def follow(self, obj: bpy.types.Object) -> bool:
         """Make the region fair again where something has changed around it; return whether it was written.
 
-        Where there is no answer so soon the first surface stands in, and the region waits for `settle`.
+        Where there is no answer so soon the first surface stands in, and the region waits for `complete`.
         """
         session = self._current(obj)
         if session is None:
@@ -80,7 +80,7 @@ class Live:
         self._write(obj, session, answer)
         return True
 
-    def settle(self, obj: bpy.types.Object) -> bool:
+    def complete(self, obj: bpy.types.Object) -> bool:
         session = self._current(obj)
         if session is None or not session.lost or session.given_up:
             return False
@@ -224,8 +224,8 @@ def follow(obj: bpy.types.Object) -> bool:
     return _told(live.follow, obj)
 
 
-def settle(obj: bpy.types.Object) -> bool:
-    return _told(live.settle, obj)
+def complete(obj: bpy.types.Object) -> bool:
+    return _told(live.complete, obj)
 
 
 def _told(act: Callable[[bpy.types.Object], bool], obj: bpy.types.Object) -> bool:
@@ -250,10 +250,10 @@ def _follow_all(changed: Iterable[bpy.types.Object]) -> None:
         if follow(obj):
             live.changed_at = time.monotonic()
         if live.waits(obj):
-            call_later(_settle_later, PAUSE)
+            call_later(_complete_later, PAUSE)
 
 
-def _settle_later() -> float | None:
+def _complete_later() -> float | None:
     """Search, look whether a search has ended, or return the seconds to wait until the changes may have ended."""
     if not is_free():
         return TICK
@@ -263,14 +263,14 @@ def _settle_later() -> float | None:
     wait = live.changed_at + PAUSE - time.monotonic()
     if wait > 0.0:
         return wait
-    return TICK if settle_all() else None
+    return TICK if complete_all() else None
 
 
-def settle_all() -> bool:
+def complete_all() -> bool:
     """Search for the surfaces of all lost regions that are being edited; return whether a search goes on."""
     said, edited = live.message, list(edited_objects())
     live.rest({obj.data.name for obj in edited})
-    going_on = [settle(obj) for obj in edited]
+    going_on = [complete(obj) for obj in edited]
     if live.message != said or not any(going_on):
         redraw_views(bpy.context)
     return any(going_on)
@@ -285,7 +285,7 @@ def _on_step(*_arguments: object) -> None:
 def rest() -> None:
     """Leave the meshes alone until the next look, and look at all of them then."""
     live.rested = True
-    call_later(_settle_later, TICK)
+    call_later(_complete_later, TICK)
 
 
 def switched(context: bpy.types.Context) -> None:
@@ -293,8 +293,8 @@ def switched(context: bpy.types.Context) -> None:
     if context.window_manager.fairing_live.on:
         start()
         _follow_all(edited_objects())
-        if is_free() and settle_all():
-            call_later(_settle_later, TICK)
+        if is_free() and complete_all():
+            call_later(_complete_later, TICK)
     else:
         stop()
     redraw_sidebars(context)
@@ -316,7 +316,7 @@ def stop() -> None:
         unlisten(bpy.app.handlers.undo_post, _on_step)
         unlisten(bpy.app.handlers.depsgraph_update_post, _on_change)
     live.on = live.rested = False
-    call_off(_settle_later)
+    call_off(_complete_later)
     live.forget()
 
 

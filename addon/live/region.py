@@ -184,7 +184,7 @@ class LiveRegion:
         return moved
 
 
-LEISURE = 3.0  # seconds of the processor for each of the two ways to an answer: other work is no reason to give up
+LEISURE = 3.0  # seconds of the processor for each of the two searches for an answer: other work is no reason to give up
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The shape keys of an object beside its Basis: what they show, read and written one by one."""
+"""The shape keys of an object other than its Basis: what they show, read and written one by one."""
 
 from __future__ import annotations
 

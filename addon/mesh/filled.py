@@ -91,7 +91,7 @@ def _read(target: Target, pieces: list[Piece]) -> tuple[list[_Rim], list[FaceDat
 
 
 class _Rim:
-    """The boundary of one surface, in a mesh that it is on its way into."""
+    """The boundary of one surface, in a mesh that it will be part of."""
 
     def __init__(self, bm: Any, piece: Piece, vertices: list[Any]) -> None:
         self._piece = piece

@@ -177,10 +177,10 @@ def _rim(faces: Faces) -> list[Any]:
 
 def _move(bm: Any, vertex: Any, place: Any) -> None:
     """Move a vertex in all shape keys."""
-    way = place - vertex.co
+    displacement = place - vertex.co
     vertex.co = place
     for layer in bm.verts.layers.shape.values():
-        vertex[layer] += way
+        vertex[layer] += displacement
 
 
 def _cut(bm: Any, plane: _Plane, made: Made) -> Faces:
@@ -227,8 +227,8 @@ def _crossing(plane: _Plane, faces: Faces) -> list[tuple[Any, Any, float]]:
 
 def _between(a: Any, b: Any, share: float, normals: dict[Any, Any]) -> Any:
     """Return a place on the cubic curve between two vertices that is tangent to the surface at both."""
-    way = b.co - a.co
-    out, into = (way - way.dot(normals[end]) * normals[end] for end in (a, b))
+    chord = b.co - a.co
+    out, into = (chord - chord.dot(normals[end]) * normals[end] for end in (a, b))
     t, u = share, 1.0 - share
     return (1.0 + 2.0 * t) * u * u * a.co + t * t * (1.0 + 2.0 * u) * b.co + t * u * (u * out - t * into)
 

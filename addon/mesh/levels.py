@@ -1,4 +1,4 @@
-"""Modifiers: levels of a Multiresolution, and Blender's own way back from one; planes of Mirror modifiers."""
+"""Modifiers: levels of a Multiresolution, and Blender's own return from one; planes of Mirror modifiers."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def _reshape(obj: bpy.types.Object, source: bpy.types.Object, modifier: str) -> 
 
 @contextmanager
 def _selected(*objects: bpy.types.Object) -> Iterator[None]:
-    """Select exactly these for a while: operators in `temp_override` can crash Blender beside a thread of Python."""
+    """Select exactly these for a while: operators in `temp_override` can crash Blender while a thread runs Python."""
     before = [obj for obj in bpy.context.view_layer.objects if obj.select_get()]
     for obj in before:
         obj.select_set(False)

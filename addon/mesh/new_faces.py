@@ -111,7 +111,7 @@ def refuse_doubles(bm: Any, data: FaceData) -> None:
 
 
 def kinds(target: Target, faces: Sequence[Any], corners: Sequence[Any] = ()) -> Ints:
-    """Return (n,): equal numbers for faces that are equal in all that has no mean, and so are corners beside them.
+    """Return (n,): equal numbers for faces that are equal in all that has no mean, and so are their corners.
 
     Faces have their indices.
     """
@@ -124,7 +124,7 @@ def kinds(target: Target, faces: Sequence[Any], corners: Sequence[Any] = ()) -> 
     ]
     of_corners = [layer for layer in copied_layers(bm.loops.layers) if layer.name != ROW + "CORNER"]
     if of_corners and corners:
-        beside = [tuple(corner[layer] for layer in of_corners) for corner in corners]
-        keys = [key + more for key, more in zip(keys, beside, strict=True)]
+        values = [tuple(corner[layer] for layer in of_corners) for corner in corners]
+        keys = [key + more for key, more in zip(keys, values, strict=True)]
     numbers: dict[Any, int] = {}
     return np.array([numbers.setdefault(key, len(numbers)) for key in keys], dtype=np.int64)

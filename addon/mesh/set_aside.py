@@ -1,6 +1,6 @@
 """Attributes of the types that bmesh's Python has no access to, as arrays while a bmesh is worked on.
 
-New elements don't get their values there, and new vertices or corners beside a 4 × 4 matrix end Blender 4.2 to 5.0:
+New elements don't get their values there, and new vertices or corners with a 4 × 4 matrix end Blender 4.2 to 5.0:
 its default is written to memory that is not aligned. So all of these are taken out first, whatever their type. Each
 element of the bmesh gets the number of its row instead, as an integer, which Blender copies from example to copy.
 """

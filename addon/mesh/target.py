@@ -20,7 +20,7 @@ from .weights import bone_groups
 
 @dataclass(frozen=True)
 class Target:
-    """The bmesh, and what belongs to it beside its layers."""
+    """The bmesh, and what belongs to it apart from its layers."""
 
     bm: Any
     shapes: Shapes

@@ -70,7 +70,7 @@ class FilletOptions(Chosen):
         SURFACE,
         "Width",
         "How far the fillet reaches along the surface, in world space, on the larger side of each seam; 0: a fifth of "
-        "the shortest side beside it",
+        "the shortest adjacent side",
         0.0,
         slider=(0.0, 10.0),
     )
@@ -80,7 +80,7 @@ class FilletOptions(Chosen):
     clamp: bool = option(
         SURFACE,
         "Clamp",
-        "No wider than there is room beside each edge, and a message says where. Otherwise such a width is refused",
+        "No wider than each edge has room for, and a message says where. Otherwise such a width is refused",
         True,
     )
     profile: float = option(

@@ -1,4 +1,4 @@
-"""The add-on's presets, each a run of its own beside the sidebar's button. One's own are Blender's: see PRESET."""
+"""The add-on's presets, each a run of its own next to the sidebar's button. One's own are Blender's: see PRESET."""
 
 from typing import Any
 

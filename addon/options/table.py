@@ -33,7 +33,7 @@ _KINDS: dict[type, tuple[str, tuple[type, ...]]] = {
 
 
 def always(_options: Any) -> bool:
-    """Say that an option counts beside any others."""
+    """Say that an option counts whatever the others are."""
     return True
 
 
@@ -94,7 +94,7 @@ class Chosen:
     """What was chosen of the options that a subclass has as its fields.
 
     Raises ValueError for a value that is not accepted, TypeError for one of another kind. What can't affect anything
-    beside the others takes its default, one after the other in the order of the fields; `idle` names it.
+    given the others takes its default, one after the other in the order of the fields; `idle` names it.
     """
 
     def __post_init__(self) -> None:
@@ -109,7 +109,7 @@ class Chosen:
 
     @property
     def idle(self) -> tuple[str, ...]:
-        """The names of options that were set, but that nothing looks at beside the others."""
+        """The names of options that were set, but that nothing looks at, given the others."""
         names: tuple[str, ...] = getattr(self, "_idle")  # noqa: B009 - no field: what differs in it alone is the same
         return names
 

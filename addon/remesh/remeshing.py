@@ -132,8 +132,8 @@ def _sheet(before: Floats, part: NewPart, points: Floats) -> Sheet:
     moved = before.copy()
     moved[part.stay] = points[:stay]
     numbers = np.concatenate([part.stay, count + np.arange(len(points) - stay)])
-    beside = np.concatenate([np.arange(count), part.vertices.heaviest])
-    return Sheet(np.concatenate([moved, points[stay:]]), numbers, beside)
+    nearest = np.concatenate([np.arange(count), part.vertices.heaviest])
+    return Sheet(np.concatenate([moved, points[stay:]]), numbers, nearest)
 
 
 def _solved(problem: Problem, kept: Ints, options: FairOptions, progress: Progress | None) -> fairing.RemeshResult:

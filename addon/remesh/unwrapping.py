@@ -140,9 +140,9 @@ def _nearest_edges(surface: Surface, sides: Ints) -> Ints:
     middles = surface.points[surface.triangles].mean(axis=1)
     lengths = np.linalg.norm(middles[sides[:, 0]] - middles[sides[:, 1]], axis=1)
     corners, tails = _at_boundary(surface)
-    beside = np.zeros(len(surface.triangles), dtype=np.int64)
-    beside[corners // 3] = tails
-    return beside[owners(nearest_sources(len(middles), sides, lengths, np.unique(corners // 3)))]
+    tail_of = np.zeros(len(surface.triangles), dtype=np.int64)
+    tail_of[corners // 3] = tails
+    return tail_of[owners(nearest_sources(len(middles), sides, lengths, np.unique(corners // 3)))]
 
 
 def _at_boundary(surface: Surface) -> tuple[Ints, Ints]:

@@ -14,19 +14,12 @@ from bpy.props import EnumProperty
 from ..host.polling import require, require_edit_mode
 from ..options.options import FairOptions
 from ..selection.selection import left_out_faces
-from ..verdict.verdict import (
-    ADD_LEFT_OUT,
-    ALL_KEYS,
-    AS_SELECTED,
-    EVEN_SPREAD,
-    HOLD_BORDER,
-    WRITE,
-)
+from ..verdict.verdict import ADD_LEFT_OUT, ALL_KEYS, AS_SELECTED, EVEN_SPREAD, HOLD_BORDER, WRITE
 from ..words.words import said
 from . import job, last_run
 
 # Each button, what helps most first: what it changes in the options, its name and its tooltip.
-_WAYS: dict[str, tuple[dict[str, Any], str, str]] = {
+_REMEDIES: dict[str, tuple[dict[str, Any], str, str]] = {
     ALL_KEYS: ({"all_keys": True}, "All Keys", "Fair every shape key as well, each from its own surroundings"),
     ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
     AS_SELECTED: (
@@ -44,14 +37,13 @@ _WAYS: dict[str, tuple[dict[str, Any], str, str]] = {
     ),
     WRITE: ({"allow_folds": True}, "Apply Anyway", "Write the result as it is, folds and all"),
 }  # fmt: skip
-_ITEMS = tuple((way, name, text) for way, (_, name, text) in _WAYS.items())
-WAY_NAMES = {way: name for way, name, _ in _ITEMS}
+_ITEMS = tuple((remedy, name, text) for remedy, (_, name, text) in _REMEDIES.items())
+REMEDY_NAMES = {remedy: name for remedy, name, _ in _ITEMS}
 
 
 def best_first(remedies: str) -> list[str]:
-    """Return the ways that a report names, what helps most first."""
-    known = list(_WAYS)
-    return sorted(filter(None, remedies.split(",")), key=lambda way: known.index(way) if way in known else -1)
+    """Return the remedies that a report names, what helps most first."""
+    return [remedy for remedy in _REMEDIES if remedy in remedies.split(",")]
 
 
 class MESH_OT_fair_again(bpy.types.Operator):
@@ -61,11 +53,13 @@ class MESH_OT_fair_again(bpy.types.Operator):
     bl_label = "Fair Again"
     # No UNDO of its own: the run that it starts has one, and the redo panel.
 
-    way: EnumProperty(name="Change", description="What is changed in the options", items=_ITEMS, default=ADD_LEFT_OUT)
+    remedy: EnumProperty(
+        name="Change", description="What is changed in the options", items=_ITEMS, default=ADD_LEFT_OUT
+    )
 
     @classmethod
     def description(cls, _context: bpy.types.Context, properties: Any) -> str:
-        return _WAYS[properties.way][2]
+        return _REMEDIES[properties.remedy][2]
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -73,19 +67,19 @@ class MESH_OT_fair_again(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Run on what the last run had, with one change; what is no better than before isn't written."""
-        options = replace(last_run.options(), **{"allow_folds": False, **_WAYS[self.way][0]})
+        options = replace(last_run.options(), **{"allow_folds": False, **_REMEDIES[self.remedy][0]})
         status = {"CANCELLED"}
         try:
             faces = last_run.faces(context)
-            if self.way == ADD_LEFT_OUT:
+            if self.remedy == ADD_LEFT_OUT:
                 read = {task.object_name: task.mesh for task in job.read(context, FairOptions(), faces)}
                 faces = {name: np.flatnonzero(left_out_faces(mesh) | mesh.in_patch) for name, mesh in read.items()}
-            last_run.try_way("" if self.way == WRITE else self.way, faces)
+            last_run.try_remedy("" if self.remedy == WRITE else self.remedy, faces)
             how = "EXEC_DEFAULT" if bpy.app.background or context.window is None else "INVOKE_DEFAULT"
             status = bpy.ops.mesh.fair_region(how, True, **asdict(options))
         except (last_run.Changed, job.Refused, RuntimeError) as error:  # RuntimeError: what the run has reported
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
         finally:
-            last_run.way_to_try()  # a run that did not begin has not taken it
+            last_run.remedy_to_try()  # a run that did not begin has not taken it
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

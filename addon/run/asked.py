@@ -45,7 +45,7 @@ class Asked:
         """Return the work as a thread does it, from the start where it is large."""
         return self.work
 
-    def settle(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
+    def complete(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
         """Write and report the answer, or why it is not written; return an operator's status."""
         try:
             return self.finish(context, answer(), say)

@@ -142,7 +142,7 @@ class Watched:
         return go_on(context)
 
     def _at_once(self, context: bpy.types.Context) -> set[str]:
-        return self._asked.settle(context, lambda: at_once(context, self._asked.work), self.report)
+        return self._asked.complete(context, lambda: at_once(context, self._asked.work), self.report)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Watch the thread; Esc leaves the mesh as it is, and so does what calls `stop_all`."""
@@ -182,7 +182,7 @@ class Watched:
         """Have the answer of a run within so many seconds, or watch it."""
         self._run = run
         if run.wait(seconds):
-            return self._asked.settle(context, run.result, self.report)
+            return self._asked.complete(context, run.result, self.report)
         self._start_watching(context)
         return {"RUNNING_MODAL"}
 
@@ -193,7 +193,7 @@ class Watched:
         if not self._asked.is_as_read(context):
             self.report({"ERROR"}, translated(said("dropped")))
             return {"CANCELLED"}
-        return self._asked.settle(context, self._run.result, self.report)
+        return self._asked.complete(context, self._run.result, self.report)
 
     def _start_watching(self, context: bpy.types.Context) -> None:
         self._signs = Signs(context, self._asked.preview)

@@ -38,7 +38,7 @@ class _Last:
         self.refused: tuple[Region, ...] = ()  # that a refusal is about
         self.options = FairOptions()
         self.standing: tuple[int, float] = (0, 0.0)
-        self.next: tuple[str, dict[str, Ints] | None] = ("", None)  # the way that it is to try, on which faces
+        self.next: tuple[str, dict[str, Ints] | None] = ("", None)  # the remedy that it is to try, on which faces
 
 
 _last = _Last()
@@ -75,13 +75,13 @@ def forget() -> None:
     _last.next = ("", None)
 
 
-def try_way(way: str, faces: dict[str, Ints]) -> None:
+def try_remedy(remedy: str, faces: dict[str, Ints]) -> None:
     """Have the next run take these faces, and written only where it comes out better than the last; "": in any case."""
-    _last.next = (way, faces)
+    _last.next = (remedy, faces)
 
 
-def way_to_try() -> tuple[str, dict[str, Ints] | None]:
-    """Return what try_way has set, once."""
+def remedy_to_try() -> tuple[str, dict[str, Ints] | None]:
+    """Return what try_remedy has set, once."""
     found, _last.next = _last.next, ("", None)
     return found
 

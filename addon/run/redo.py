@@ -45,7 +45,7 @@ class Following:
         self.change, self.step = change, operator.name
         self.operator, self.window = operator.as_pointer(), window.as_pointer()
         self.unwanted = False  # a button has asked for the end
-        self.settled = False  # the answer is written
+        self.completed = False  # the answer is written
         self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
         self.timer: bpy.types.Timer | None = None  # of the looks
 
@@ -83,13 +83,13 @@ class Following:
         is_same = len(kept) > 0 and kept[-1].as_pointer() == self.operator
         return is_same and context.area is not None and bool(bpy.ops.ed.undo_redo.poll())
 
-    def settle(self, context: bpy.types.Context, say: Say) -> set[str]:
+    def complete(self, context: bpy.types.Context, say: Say) -> set[str]:
         """Write and report the answer, where the meshes are as they were read; return an operator's status."""
         assert self.run is not None
         if not self.change.is_as_read(context):
             return {"CANCELLED"}
-        status = self.change.settle(context, self.run.result, say)
-        self.settled = "FINISHED" in status
+        status = self.change.complete(context, self.run.result, say)
+        self.completed = "FINISHED" in status
         return status
 
 
@@ -113,7 +113,7 @@ class Redone(Watched):
         Where that is not usable, Blender goes back to the result before it.
         """
         if _Repeat.now is not None:
-            return _Repeat.now.settle(context, self.report)
+            return _Repeat.now.complete(context, self.report)
         if has_events(context) and self.is_repeated(context):
             return self._begin_with(context, partial(self._change, time.perf_counter() + PROMPT))
         return super().execute(context)
@@ -130,7 +130,7 @@ class Redone(Watched):
         asked = self._asked
         if asked.size < background.LARGE:
             try:
-                return asked.settle(context, lambda: asked.work(lambda *_: time.perf_counter() < end), self.report)
+                return asked.complete(context, lambda: asked.work(lambda *_: time.perf_counter() < end), self.report)
             except fairing.Cancelled:
                 pass  # it takes longer
         kept = context.window_manager.operators
@@ -170,7 +170,7 @@ def watch() -> None:
 
 
 def _watch() -> float | None:
-    """Begin to take looks, beside none of our threads: see `MESH_OT_fair_follow`."""
+    """Begin to take looks, while none of our threads runs: see `MESH_OT_fair_follow`."""
     following = _following()
     if following is None:
         return None
@@ -202,7 +202,7 @@ class MESH_OT_fair_follow(bpy.types.Operator):
 
     # No timer of bpy.app: undo would take a field of the panel away while it is being edited. A field that is edited
     # lets no event through to here. And operators have a context that is Blender's own: in one of `temp_override`,
-    # Blender crashes beside a thread of Python.
+    # Blender crashes while a thread runs Python.
 
     bl_idname = "mesh.fair_follow"
     bl_label = "Wait for the Answer"
@@ -249,12 +249,12 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
             finally:
                 _Repeat.now = None
         elif current and change.swap(context):  # something else was selected meanwhile
-            following.settle(context, lambda _kinds, _text: None)
-            if following.settled:
+            following.complete(context, lambda _kinds, _text: None)
+            if following.completed:
                 bpy.ops.ed.undo_push(message=following.step)
             else:
                 change.swap(context)
-    if not following.settled and not report.written and change.is_as_shown(context):
+    if not following.completed and not report.written and change.is_as_shown(context):
         report.reason, report.written = kept(said("not_taken", reason=message(report.reason))), True
         report.free_vertices = report.free_vertices or max(1, round(change.size))
     redraw_sidebars(context)

@@ -30,8 +30,8 @@ def pieces(mesh: MeshArrays, faces: Mask, walls: Mask | None = None) -> Ints:
 
     Pieces hang together across edges, those in the (e,) mask `walls` aside.
     """
-    ways = edges_of(mesh, faces) if walls is None else edges_of(mesh, faces) & ~walls
-    pairs = two_sided_edges(mesh, ways).faces
+    crossed = edges_of(mesh, faces) if walls is None else edges_of(mesh, faces) & ~walls
+    pairs = two_sided_edges(mesh, crossed).faces
     first, second = pairs[faces[pairs].all(axis=1)].T
     label = np.arange(len(faces))
     while True:
@@ -91,7 +91,7 @@ def left_out(mesh: MeshArrays) -> LeftOut:
 
 def left_out_faces(mesh: MeshArrays) -> Mask:
     """Return the (f,) mask of small holes in the selection: visible faces with selected ones all around."""
-    rest = _beside_patch(mesh, LEFT_OUT + 1)
+    rest = _next_to_patch(mesh, LEFT_OUT + 1)
     label = pieces(mesh, rest)
     sizes = np.bincount(label[rest], minlength=len(rest))
     is_open = np.zeros(len(rest), dtype=bool)
@@ -100,7 +100,7 @@ def left_out_faces(mesh: MeshArrays) -> Mask:
     return small
 
 
-def _beside_patch(mesh: MeshArrays, steps: int) -> Mask:
+def _next_to_patch(mesh: MeshArrays, steps: int) -> Mask:
     """Return the (f,) mask of the visible faces beyond the patch that some steps across edges reach.
 
     A piece of fewer faces than steps is whole there, and a larger one has as many as steps at least.
@@ -110,12 +110,12 @@ def _beside_patch(mesh: MeshArrays, steps: int) -> Mask:
     for _ in range(steps):
         reached[mesh.corner_faces[edges_of(mesh, reached)[mesh.corner_edges]]] = True
         reached &= rest | mesh.in_patch
-    beside: Mask = reached & rest
-    return beside
+    found: Mask = reached & rest
+    return found
 
 
 def _open_faces(mesh: MeshArrays) -> Mask:
-    """Return the (f,) mask of the faces at the border of the mesh or beside hidden ones."""
+    """Return the (f,) mask of the faces at the border of the mesh or next to hidden ones."""
     uses = np.bincount(mesh.corner_edges, minlength=len(mesh.edges))
     found = np.zeros(len(mesh.in_patch), dtype=bool)
     found[mesh.corner_faces[uses[mesh.corner_edges] == 1]] = True

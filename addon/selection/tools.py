@@ -78,7 +78,7 @@ _WHAT = (
     (
         "BAD",
         "Select Bad Boundary",
-        "Select the vertices of the boundary whose surroundings are folded, noisy or needles: "
+        "Select the vertices of the boundary whose surroundings are folded, noisy or slivers: "
         "the surface would follow them",
     ),
     ("LEFT_OUT", "Add Left-Out Faces", "Select the single faces that a lasso missed"),

@@ -1,6 +1,6 @@
 """Tools of the toolbar: draw around faces and let go, drag on an edge, click a face set.
 
-In edit mode each is a macro: Blender's own way to select, then ours. One step of undo takes both back.
+In edit mode each is a macro: Blender's own selection, then ours. One step of undo takes both back.
 """
 
 from __future__ import annotations

@@ -30,8 +30,8 @@ def moved_border(problem: Problem, after: Floats) -> Ints:
     if not len(border):
         return nothing()
     own = problem.own_points
-    way = np.linalg.norm(after[border] - own[border], axis=1)
-    return patch.vertices[border] if way.mean() > MOST_MOVED * np.ptp(own, axis=0).max() else nothing()
+    distances = np.linalg.norm(after[border] - own[border], axis=1)
+    return patch.vertices[border] if distances.mean() > MOST_MOVED * np.ptp(own, axis=0).max() else nothing()
 
 
 def kept_key(problem: Problem, after: Floats, offsets: Floats | None) -> Ints:

@@ -7,7 +7,7 @@ from typing import Any
 import bpy
 
 from ..host.text import SidebarPanel, draw_text, pair
-from ..run.again import WAY_NAMES, MESH_OT_fair_again, best_first
+from ..run.again import REMEDY_NAMES, MESH_OT_fair_again, best_first
 from ..selection.tools import draw_select
 from ..selection.watch import watch
 from ..translations import translated
@@ -15,7 +15,7 @@ from .properties import message
 from .report import GRADE_NAMES
 
 _GRADE_ICONS = {"GOOD": "CHECKMARK", "LOOK": "ERROR", "UNUSABLE": "CANCEL"}
-_LONGEST = 20  # letters of a value that has room beside its name
+_LONGEST = 20  # letters of a value that has room after its name
 _ICONS = {"MET": "CHECKMARK", "MISSED": "ERROR", "TOLD": "BLANK1"}
 
 
@@ -45,7 +45,7 @@ class VIEW3D_PT_fairing_report(SidebarPanel, bpy.types.Panel):
             return
         if not report.written:
             draw_text(self.layout, translated("Nothing was changed"), "BLANK1")
-        _draw_way(self.layout, best_first(report.remedies)[:1])
+        _draw_remedies(self.layout, best_first(report.remedies)[:1])
 
 
 class VIEW3D_PT_fairing_details(SidebarPanel, bpy.types.Panel):
@@ -62,15 +62,15 @@ class VIEW3D_PT_fairing_details(SidebarPanel, bpy.types.Panel):
         if report.verdict != "GOOD":
             column = self.layout.column(align=True)
             draw_select(column, "SPOTS", icon="VIEWZOOM")
-            _draw_way(column, best_first(report.remedies)[1:])
+            _draw_remedies(column, best_first(report.remedies)[1:])
         for note in _notes(context, report)[0 if report.reason else 1 :]:
             draw_text(self.layout, message(note), "INFO")
         _draw_figures(self.layout.column(align=True), report)
 
 
-def _draw_way(layout: Any, ways: list[str]) -> None:
-    for way in ways:
-        layout.operator(MESH_OT_fair_again.bl_idname, text=WAY_NAMES[way]).way = way
+def _draw_remedies(layout: Any, remedies: list[str]) -> None:
+    for remedy in remedies:
+        layout.operator(MESH_OT_fair_again.bl_idname, text=REMEDY_NAMES[remedy]).remedy = remedy
 
 
 def _notes(context: bpy.types.Context, report: Any) -> list[str]:

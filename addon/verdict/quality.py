@@ -73,7 +73,7 @@ class Sheet:
 
     points: Floats  # (n + k, 3) in world space, the mesh's own first
     numbers: Ints  # (p,) of the patch's vertices
-    beside: Ints  # (n + k,) mesh vertices: themselves, or old ones next to new ones
+    nearest: Ints  # (n + k,) mesh vertices: themselves, or old ones next to new ones
 
 
 def places(mesh: MeshArrays, matrix: Floats) -> Floats:
@@ -123,10 +123,10 @@ def measured(
         after=_quality(patch, found.now),
         join=join_at(patch.vertices[rim], found.join),
         pierced=np.unique(patch.vertices[patch.triangles[found.pierced]]),
-        rounded=sheet.beside[found.rounded[~own[found.rounded]]],
-        running_on=sheet.beside[found.rounded[own[found.rounded]]],
-        marked=sheet.beside[found.blunt],
-        seams=sheet.beside[found.seams],
+        rounded=sheet.nearest[found.rounded[~own[found.rounded]]],
+        running_on=sheet.nearest[found.rounded[own[found.rounded]]],
+        marked=sheet.nearest[found.blunt],
+        seams=sheet.nearest[found.seams],
     )
 
 

@@ -198,7 +198,7 @@ def _residual_text(result: Result) -> str:
 
 
 def distortion_text(distortion: float) -> str:
-    """Return it in per cent, as far as that says something: needles in the old mesh make it as large as one likes."""
+    """Return it in per cent, as far as that says something: slivers in the old mesh make it as large as one likes."""
     return f"{distortion:.1%}" if distortion <= MOST_DISTORTED else f"> {MOST_DISTORTED:.0%}"
 
 

@@ -68,7 +68,7 @@ def because_of(verdict: Verdict, causes: tuple[str, ...]) -> Verdict:
 
 
 def _calms(evidence: Evidence) -> bool:
-    """Return whether a smooth surface lies beside a jagged boundary, with fewer folds and crossings than there were.
+    """Return whether a smooth surface lies next to a jagged boundary, with fewer folds and crossings than there were.
 
     Those that are left hang on the boundary, which has to stay.
     """

@@ -29,7 +29,7 @@ class Finding:
     kind: str  # "vertex" or "triangle": what the engine named
     named: Ints  # mesh vertices in the order in which they were named; edges are pairs, triangles give their corners
     faces: Ints  # mesh faces of the triangles that were named, ascending; empty for vertices
-    gone: int = 0  # elements of a mesh that was made on the way, which have no place in this one
+    gone: int = 0  # elements of a mesh that was made meanwhile, which have no place in this one
 
     @property
     def vertices(self) -> Ints:

@@ -64,17 +64,17 @@ BASES: dict[str, Callable[[int], Patch]] = {
 
 def graded_rows(scope: Scope) -> Iterator[Row]:
     """Edge ratio 40, aspect 12; every λ. The last row is the median of all."""
-    errors, settled = [], True
+    errors, converged = [], True
     for name, base in BASES.items():
         for n_free in scope.sizes(1000, 5000):
             patch = graded.regraded(base(60), n_free)
             for weights in WEIGHTS:
                 made = row(scope, f"graded {name}", patch, 1e-3, weights)
                 errors.append(made.measured)
-                settled &= made.settled
+                converged &= made.converged
                 yield made
     middle = float(np.median(errors))
-    yield Row("graded, median", 0, "all", 5e-5, middle, "", settled, np.nan)
+    yield Row("graded, median", 0, "all", 5e-5, middle, "", converged, np.nan)
 
 
 JITTERED: dict[str, list[tuple[int, float]]] = {
@@ -100,9 +100,9 @@ def jittered_rows(scope: Scope) -> Iterator[Row]:
 def _order(family: str, rows: list[Row]) -> Row:
     first, last = rows[0], rows[-1]
     order = measures.observed_order((first.size, last.size), (first.measured, last.measured))
-    settled = all(made.settled for made in rows)
+    converged = all(made.converged for made in rows)
     note = f"observed order {order:.2f}"
-    return Row(f"jittered {family}, 1.7 ÷ order in h", 0, "uniform", 1.0, 1.7 / order, "", settled, np.nan, note)
+    return Row(f"jittered {family}, 1.7 ÷ order in h", 0, "uniform", 1.0, 1.7 / order, "", converged, np.nan, note)
 
 
 def strong_rows(scope: Scope) -> Iterator[Row]:

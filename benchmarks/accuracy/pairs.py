@@ -97,14 +97,14 @@ def _solved(scope: Scope, mesh: Made, weights: str) -> Solved:
 def _compared(name: str, weights: str, solved: list[Solved]) -> Iterator[Row]:
     size = max(len(made.mesh.vertices) - len(made.mesh.fixed) for made in solved)
     state = " / ".join(made.outcome.state for made in solved)
-    settled = all(made.outcome.converged for made in solved)
+    converged = all(made.outcome.converged for made in solved)
     cpu = sum(made.outcome.cpu for made in solved)
     refused = any(made.outcome.refused for made in solved)
     away = np.nan if refused else max(_distance(*pair) for pair in combinations(solved, 2))
     bent = np.nan if refused else max(_difference(*pair) for pair in combinations(solved, 2))
-    yield Row(f"three meshes, {name}: distance", size, weights, 2e-3, away, state, settled, cpu)
+    yield Row(f"three meshes, {name}: distance", size, weights, 2e-3, away, state, converged, cpu)
     note = "" if refused else f"H on the boundary in {_ranges(solved)}"
-    yield Row(f"three meshes, {name}: boundary H", size, weights, 0.02, bent, state, settled, np.nan, note)
+    yield Row(f"three meshes, {name}: boundary H", size, weights, 0.02, bent, state, converged, np.nan, note)
 
 
 def _distance(one: Solved, other: Solved) -> float:

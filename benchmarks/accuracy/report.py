@@ -16,7 +16,7 @@ WEIGHTS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 class Row:
     """One line. `measured` is compared with `goal` (smaller is better); nan where there was nothing to measure.
 
-    settled: whether the solve converged, without which no goal is met; size: free vertices.
+    converged: whether the solve converged, without which no goal is met; size: free vertices.
     """
 
     case: str
@@ -25,13 +25,13 @@ class Row:
     goal: float
     measured: float
     state: str
-    settled: bool
+    converged: bool
     cpu: float
     note: str = ""
 
     @property
     def met(self) -> bool:
-        return self.settled and self.measured <= self.goal
+        return self.converged and self.measured <= self.goal
 
     def line(self) -> str:
         """The Markdown of the row."""

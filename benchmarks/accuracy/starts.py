@@ -53,5 +53,5 @@ def _compared(scope: Scope, name: str, patch: Patch | blend.Blend, diameter: flo
     away = [np.abs(outcome.vertices - results[0].vertices).max() / diameter for outcome in results]
     note = ", ".join(f"{kind} {value:.1e}" for kind, value in zip(STARTS, away, strict=True) if value > 1e-6)
     state = " / ".join(sorted({outcome.state for outcome in results}))
-    settled = all(outcome.converged for outcome in results)
-    return Row(case, size, weights, 1e-6, float(max(away)), state, settled, sum(o.cpu for o in results), note)
+    converged = all(outcome.converged for outcome in results)
+    return Row(case, size, weights, 1e-6, float(max(away)), state, converged, sum(o.cpu for o in results), note)

@@ -120,13 +120,13 @@ def in_background() -> None:
     bpy.ops.ed.undo_push(message="fair")
 
 
-def clocked(way: Callable[[], None], calls: int) -> tuple[float, float]:
+def clocked(call: Callable[[], None], calls: int) -> tuple[float, float]:
     """The least seconds by the wall and of the processor (all threads)."""
     spent = []
     for _ in range(calls):
         forget()
         begin = time.perf_counter(), time.process_time()
-        way()
+        call()
         spent.append((time.perf_counter() - begin[0], time.process_time() - begin[1]))
         bpy.ops.ed.undo()
     wall, processor = np.array(spent).min(axis=0).tolist()
@@ -135,7 +135,7 @@ def clocked(way: Callable[[], None], calls: int) -> tuple[float, float]:
 
 def line(name: str, calls: int) -> str:
     """One row of the table, for what is in edit mode."""
-    figures = [figure for way in (at_once, in_background) for figure in clocked(way, calls)]
+    figures = [figure for call in (at_once, in_background) for figure in clocked(call, calls)]
     report: Any = meshes.report()
     cells = [name, str(report.free_vertices), *(f"{figure:.3g}" for figure in figures), report.verdict]
     return "| " + " | ".join(cells) + " |"
@@ -145,7 +145,7 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
     parser.add_argument("zip", type=Path, help="the extension, as scripts/package builds it")
-    parser.add_argument("--calls", type=int, default=5, help="of each way")
+    parser.add_argument("--calls", type=int, default=5, help="of each kind")
     parser.add_argument("--free", type=int, nargs="+", default=[800, 10_000, 100_000], help="free vertices, about")
     parser.add_argument("--head", type=int, nargs="*", default=[33_000, 100_000], help="likewise, on the head")
     arguments = parser.parse_args()

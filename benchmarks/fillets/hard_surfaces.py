@@ -82,8 +82,8 @@ def turned(rng: Any) -> Solid:
         else:
             profile.append((max(0.35, radius * rng.choice([0.6, 0.65, 1.5])), z + rng.uniform(-0.05, 0.1)))
     parts, turn = int(rng.integers(1, 4)), 2 * np.pi * np.arange(count) / count
-    ways = np.concatenate([[0.0], np.arange(1, parts * steps + 1) / parts])
-    radii, heights = (np.interp(ways, np.arange(steps + 1), column) for column in zip(*profile, strict=True))
+    stations = np.concatenate([[0.0], np.arange(1, parts * steps + 1) / parts])
+    radii, heights = (np.interp(stations, np.arange(steps + 1), column) for column in zip(*profile, strict=True))
     around = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(count)])
     return _lofted([r * around + [0, 0, z] for r, z in zip(radii, heights, strict=True)])
 

@@ -71,7 +71,7 @@ def timed(name: str, size: int, calls: int) -> Timed:
     pairs = [(_clocked(made), _clocked(clean)) for _ in range(calls)]
     result = pairs[0][0][0]
     cpu, cpu_clean = (statistics.median(pair[k][1] for pair in pairs) for k in (0, 1))
-    state = ", ".join(way for way, _ in result.way)
+    state = ", ".join(name for name, _ in result.way)
     ended = state if result.converged else f"{state}: {result.termination}"
     return Timed(free, cpu, cpu_clean, ended, result.converged)
 

@@ -235,10 +235,10 @@ def displaced(scene: Scene, heights: Floats) -> Scene:
 
 
 def grain(scene: Scene, rng: Any, size: float, height: float) -> Scene:
-    """The mesh with pores and wrinkles: a sum of waves about as long as `size`, one way and another."""
-    ways = rng.normal(size=(40, 3))
-    ways *= 2 * np.pi / size / np.linalg.norm(ways, axis=1)[:, None] * rng.uniform(0.6, 1.4, (40, 1))
-    waves = np.cos(scene.vertices @ ways.T + rng.uniform(0, 2 * np.pi, 40)).sum(axis=1)
+    """The mesh with pores and wrinkles: a sum of waves about as long as `size`, in all directions."""
+    directions = rng.normal(size=(40, 3))
+    directions *= 2 * np.pi / size / np.linalg.norm(directions, axis=1)[:, None] * rng.uniform(0.6, 1.4, (40, 1))
+    waves = np.cos(scene.vertices @ directions.T + rng.uniform(0, 2 * np.pi, 40)).sum(axis=1)
     return displaced(scene, height * waves / np.sqrt(20.0))
 
 

@@ -52,7 +52,7 @@ def views(points: Floats, areas: Floats) -> list[View]:
     side = np.cross(front, along) + 0.45 * front
     width = SEEN * float(np.linalg.norm(points - centre, axis=1).max())
     target = (float(centre[0]), float(centre[1]), float(centre[2]))
-    return [View(target, tuple(way), width, tuple(along)) for way in (front + 0.25 * side, side)]
+    return [View(target, tuple(view), width, tuple(along)) for view in (front + 0.25 * side, side)]
 
 
 def tiles(vertices: Floats, triangles: Ints, chosen: NDArray[np.bool_], view: View) -> list[Floats]:
@@ -68,7 +68,7 @@ def tiles(vertices: Floats, triangles: Ints, chosen: NDArray[np.bool_], view: Vi
     normals = np.einsum("pk,pkd->pd", weights, corner_normals(vertices, triangles)[which]) @ view.axes.T
     normals /= np.linalg.norm(normals, axis=1)[:, None].clip(1e-12)
     back = normals[:, 2] < 0
-    light = 0.18 + sum(share * (normals @ np.array(way)).clip(0) for way, share in LIGHTS)
+    light = 0.18 + sum(share * (normals @ np.array(direction)).clip(0) for direction, share in LIGHTS)
     shine = (normals @ (np.array([-0.25, 0.3, 0.92]))).clip(0) ** 60 * 0.35
     colours = np.where(chosen[which][:, None], CHOSEN, PLAIN) * light[:, None] + shine[:, None]
     shaded[seen.covered] = np.where(back[:, None], BEHIND, colours)

@@ -1,4 +1,4 @@
-"""The add-on's way from a mesh to new positions: normals along the boundary, the answer, and halves with a mirror."""
+"""The add-on's path from a mesh to new positions: normals along the boundary, the answer, and halves with a mirror."""
 
 from dataclasses import replace
 from typing import Any

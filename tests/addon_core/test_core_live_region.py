@@ -168,14 +168,14 @@ def test_a_lone_pin_pulls_as_by_the_operator_and_stays_where_it_is_put() -> None
         np.testing.assert_allclose(answer, expected[np.isin(make_patch(mesh).vertices, region.free)], atol=1e-6)
 
 
-# The ways to a live region's surface: which are tried, in which order, and what ends them.
+# The strategies for a live region's surface: which are tried, in which order, and what ends them.
 NOWHERE: Any = None
 
 
 def region(solvable: str, tried: list[str], failing: type[Exception] | None = None) -> Any:
-    """A region whose one way to a surface is named; the others give none, or fail."""
+    """A region with one strategy that gives a surface; the others give none, or fail."""
 
-    def way(name: str) -> Any:
+    def strategy(name: str) -> Any:
         def ask(*_arguments: Any) -> Any:
             tried.append(name)
             if name == solvable:
@@ -186,7 +186,7 @@ def region(solvable: str, tried: list[str], failing: type[Exception] | None = No
 
         return ask
 
-    return SimpleNamespace(**{name: way(name) for name in ("answer", "afresh", "stand_in")})
+    return SimpleNamespace(**{name: strategy(name) for name in ("answer", "afresh", "stand_in")})
 
 
 def test_a_search_that_was_stopped_tries_no_other_way() -> None:

@@ -92,10 +92,10 @@ def outside(mesh: Any, domain: str) -> Any:
     return found
 
 
-def subject(way: str, size: int = 24) -> Any:
+def subject(act: str, size: int = 24) -> Any:
     """Add a sphere of so many edges around, open above CUT where it is to be filled."""
     obj = meshes.sphere(size)
-    if way == "fill":
+    if act == "fill":
         meshes.remove(obj, lambda centre: centre.z > CUT)
     return obj
 
@@ -112,23 +112,23 @@ def dress(mesh: Any, domain: str, kind: str) -> None:
 
 
 def apply(
-    obj: Any, way: str, mode: str, before: Callable[[], Any] = int, after: Callable[[], Any] = int, **properties: Any
+    obj: Any, act: str, mode: str, before: Callable[[], Any] = int, after: Callable[[], Any] = int, **properties: Any
 ) -> None:
     """Fill, fair or mesh anew what is above CUT; before and after: called in edit mode."""
     high = meshes.faces_where(obj, lambda centre: centre.z > CUT)
-    if way == "remesh":
+    if act == "remesh":
         properties = {"remesh": True, "spacing": 0.8, **properties}
-    if mode == "object" and way == "fill":
+    if mode == "object" and act == "fill":
         extension.module("fill.script").fill_mesh(obj.data, **properties)
     elif mode == "object":
         extension.module("fair.script").fair_mesh(obj.data, np.flatnonzero(high).tolist(), **properties)
     else:
         meshes.enter(obj, high)
-        if way == "fill":
+        if act == "fill":
             bpy.context.tool_settings.mesh_select_mode = (False, True, False)
             bpy.ops.mesh.select_non_manifold()
         before()
-        operator = bpy.ops.mesh.fair_fill if way == "fill" else bpy.ops.mesh.fair_region
+        operator = bpy.ops.mesh.fair_fill if act == "fill" else bpy.ops.mesh.fair_region
         assert operator("EXEC_DEFAULT", True, **properties) == {"FINISHED"}
         after()
         meshes.leave()
@@ -184,21 +184,21 @@ def _same(one: Any, other: Any) -> bool:
     return np.array_equal(one, other) if one.dtype.kind == "S" else one.tobytes() == other.tobytes()
 
 
-def complaints(way: str, mode: str) -> list[str]:
+def complaints(act: str, mode: str) -> list[str]:
     """Return what is wrong, one line for each type and domain."""
     found = []
     for kind in kinds():
         bpy.ops.wm.read_homefile(use_empty=True)
         bpy.context.tool_settings.mesh_select_mode = (False, False, True)
-        obj = subject(way)
+        obj = subject(act)
         for domain in DOMAINS:
             dress(obj.data, domain, kind)
         kept = {domain: kept_values(obj.data, domain) for domain in DOMAINS}
         before = {domain: read(obj.data.attributes[domain]) for domain in DOMAINS}
         count = len(obj.data.vertices)
         print(kind, flush=True)
-        apply(obj, way, mode)
-        if way == "fair":
+        apply(obj, act, mode)
+        if act == "fair":
             changed = [domain for domain in DOMAINS if not _same(read(obj.data.attributes[domain]), before[domain])]
             found += [f"{kind} {domain}: changed" for domain in changed]
             continue

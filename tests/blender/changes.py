@@ -150,7 +150,7 @@ class Panel:
         for gate in self.gates:
             gate.set()
 
-    def settle(self) -> None:
+    def complete(self) -> None:
         """Let the answers come, and the timer look until none is awaited."""
         self.open()
         end = time.perf_counter() + STUCK

@@ -13,28 +13,28 @@ from attribute_table import CUT, apply, field, outside, places, read, subject, w
 
 TABLE = """
 import attribute_table
-found = attribute_table.complaints({way!r}, {mode!r})
+found = attribute_table.complaints({act!r}, {mode!r})
 assert not found, found
 print("done")
 """
 
 
-WAYS, MODES = ("fill", "fair", "remesh"), ("edit", "object")
+ACTS, MODES = ("fill", "fair", "remesh"), ("edit", "object")
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("way", WAYS)
-def test_every_type_on_every_domain(way: str, mode: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("act", ACTS)
+def test_every_type_on_every_domain(act: str, mode: str, tmp_path: Path) -> None:
     """In a process of its own: what is not set aside may end Blender."""
-    ended = own_process.run(TABLE.format(way=way, mode=mode), tmp_path, timeout=600.0)
+    ended = own_process.run(TABLE.format(act=act, mode=mode), tmp_path, timeout=600.0)
     assert ended.stdout.rstrip().endswith("done")
 
 
-def ball(way: str, size: int = 48) -> bpy.types.Object:
+def ball(act: str, size: int = 48) -> bpy.types.Object:
     """Add a smooth sphere, open above CUT for a fill, blown up there for all else."""
-    obj = subject(way, size)
+    obj = subject(act, size)
     obj.data.polygons.foreach_set("use_smooth", np.ones(len(obj.data.polygons), dtype=bool))
-    if way != "fill":
+    if act != "fill":
         points = meshes.positions(obj)
         free = meshes.free_vertices(obj, high(obj))
         points[free] *= 1.15
@@ -55,18 +55,18 @@ def degrees_off_the_ball(obj: bpy.types.Object, domain: str) -> Any:
 
 
 @pytest.mark.parametrize("domain", ["POINT", "FACE", "CORNER"])
-@pytest.mark.parametrize(("way", "mode"), [(way, mode) for way in WAYS for mode in MODES])
-def test_free_normals_are_the_new_surfaces_own(way: str, mode: str, domain: str) -> None:
-    obj = ball(way)
+@pytest.mark.parametrize(("act", "mode"), [(act, mode) for act in ACTS for mode in MODES])
+def test_free_normals_are_the_new_surfaces_own(act: str, mode: str, domain: str) -> None:
+    obj = ball(act)
     outward = np.array([0.6, 0.0, 0.8]) + 0.0 * places(obj.data, domain)
     obj.data.attributes.new("custom_normal", "FLOAT_VECTOR", domain)
     write(obj.data.attributes["custom_normal"], outward)
-    stays = outside(obj.data, domain) if way != "fill" else np.ones(len(outward), dtype=bool)
+    stays = outside(obj.data, domain) if act != "fill" else np.ones(len(outward), dtype=bool)
     kept = read(obj.data.attributes["custom_normal"])[stays]
-    apply(obj, way, mode)
+    apply(obj, act, mode)
     values = read(obj.data.attributes["custom_normal"])
     # Fairing keeps the numbers of elements; else those outside come first.
-    still = stays if way == "fair" else np.arange(len(values)) < len(kept)
+    still = stays if act == "fair" else np.arange(len(values)) < len(kept)
     assert values[still].tobytes() == kept.tobytes()
     np.testing.assert_allclose(np.linalg.norm(values[~still], axis=1), 1.0, atol=1e-5)
     off = degrees_off_the_ball(obj, domain)[~still]
@@ -155,12 +155,12 @@ def test_a_new_mesh_keeps_edges_without_faces(mode: str, every: int) -> None:
     np.testing.assert_allclose(on_ball, 1.0, atol=0.01)
 
 
-def dressed(way: str, turns: bool) -> bpy.types.Object:
+def dressed(act: str, turns: bool) -> bpy.types.Object:
     """Add a sphere with weights, a shape key on a shape key and UVs, with turns on points and corners or without.
 
     No matrices: where they are not set aside Blender ends, and all other tests with it.
     """
-    obj = ball(way, 24)
+    obj = ball(act, 24)
     obj.vertex_groups.new(name="Half").add([v.index for v in obj.data.vertices if v.co.x > 0.0], 0.5, "REPLACE")
     obj.data.uv_layers.new(name="UV").uv.foreach_set(
         "vector", places(obj.data, "CORNER")[:, :2].astype(np.float32).ravel()
@@ -178,15 +178,15 @@ def dressed(way: str, turns: bool) -> bpy.types.Object:
 
 
 @pytest.mark.parametrize("key", [0, 1])
-@pytest.mark.parametrize(("way", "mode"), [(way, mode) for way in ("fill", "remesh") for mode in MODES])
-def test_all_else_is_as_without_what_is_set_aside(way: str, mode: str, key: int) -> None:
+@pytest.mark.parametrize(("act", "mode"), [(act, mode) for act in ("fill", "remesh") for mode in MODES])
+def test_all_else_is_as_without_what_is_set_aside(act: str, mode: str, key: int) -> None:
     """Turns are taken out and put back, in edit mode by loading the mesh anew: nothing else may tell."""
     found = []
     for turns in (False, True):
         bpy.ops.wm.read_homefile(use_empty=True)
-        obj = dressed(way, turns)
+        obj = dressed(act, turns)
         obj.active_shape_key_index = key if mode == "edit" else 0
-        apply(obj, way, mode)
+        apply(obj, act, mode)
         meshes.edit(obj)  # leaving moves keys that are relative to what was edited
         meshes.leave()
         found.append(meshes.contents(obj))
@@ -196,11 +196,11 @@ def test_all_else_is_as_without_what_is_set_aside(way: str, mode: str, key: int)
     assert [name for name in plain if plain[name] != put_back[name]] == []
 
 
-@pytest.mark.parametrize("way", ["fill", "remesh"])
-def test_one_step_of_undo_takes_a_reloaded_mesh_back(way: str) -> None:
-    obj = dressed(way, turns=True)
+@pytest.mark.parametrize("act", ["fill", "remesh"])
+def test_one_step_of_undo_takes_a_reloaded_mesh_back(act: str) -> None:
+    obj = dressed(act, turns=True)
     bpy.context.preferences.edit.use_global_undo = True
     before = meshes.in_edit_mode_once(obj, high(obj))
-    apply(obj, way, "edit", after=lambda: bpy.ops.ed.undo(), before=lambda: bpy.ops.ed.undo_push())
+    apply(obj, act, "edit", after=lambda: bpy.ops.ed.undo(), before=lambda: bpy.ops.ed.undo_push())
     found = meshes.contents(bpy.data.objects["Sphere"])
     assert [name for name in before if before[name] != found[name] and "select" not in name] == []

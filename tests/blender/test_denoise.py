@@ -65,7 +65,7 @@ def _edges(obj: bpy.types.Object, polygon: Any) -> list[int]:
 
 
 def test_size_is_a_length_in_the_world_and_amount_a_share() -> None:
-    """Twice the object with twice the size is the same; half the amount goes half the way."""
+    """Twice the object with twice the size is the same; half the amount moves half as far."""
     small, large, half = (rough_ball() for _ in range(3))
     large.scale = (2.0, 2.0, 2.0)
     before = meshes.positions(small)

@@ -61,9 +61,9 @@ def test_a_run_ends_with_its_file(go_on: threading.Event, tmp_path: Path) -> Non
     assert meshes.contents(bpy.context.object) == before
 
 
-@pytest.mark.parametrize("way", ["undone", "removed", "replaced"])
+@pytest.mark.parametrize("how", ["undone", "removed", "replaced"])
 @pytest.mark.parametrize("refused", [False, True], ids=["solved", "refused"])
-def test_a_run_whose_mesh_is_gone_writes_nothing(way: str, refused: bool, go_on: threading.Event) -> None:
+def test_a_run_whose_mesh_is_gone_writes_nothing(how: str, refused: bool, go_on: threading.Event) -> None:
     obj, faces = meshes.domed_grid()
     name = obj.name
     bpy.ops.ed.undo_push(message="first")
@@ -76,13 +76,13 @@ def test_a_run_whose_mesh_is_gone_writes_nothing(way: str, refused: bool, go_on:
     if refused:
         operator._run.cancel()
         operator._run = module("run.runner").Run(refusal_about(name))
-    if way == "undone":
+    if how == "undone":
         bpy.ops.ed.undo()
         bpy.ops.ed.undo()
     else:
         bpy.data.objects.remove(bpy.data.objects[name])
         bpy.context.view_layer.update()
-        if way == "replaced":
+        if how == "replaced":
             other = meshes.grid(4)
             other.name = name
             meshes.edit(other)
@@ -159,7 +159,7 @@ def begin_search():
     home.PATIENCE = -1.0  # nothing is found at once
     bpy.context.object.scale.z = 2.0
     bpy.context.view_layer.update()
-    assert home.settle_all()
+    assert home.complete_all()
     return home.live.sessions["Grid"].search
 
 def begun():

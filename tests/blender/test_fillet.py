@@ -161,9 +161,9 @@ def shown(monkeypatch: pytest.MonkeyPatch) -> Any:
     return reported
 
 
-def dragged(operator: Any, way: int) -> None:
+def dragged(operator: Any, pixels: int) -> None:
     operator._follow(event("MOUSEMOVE"), 0.01)
-    assert operator.modal(bpy.context, event("MOUSEMOVE", at=(0, way))) == {"RUNNING_MODAL"}
+    assert operator.modal(bpy.context, event("MOUSEMOVE", at=(0, pixels))) == {"RUNNING_MODAL"}
     searched(operator)
 
 

@@ -224,10 +224,10 @@ def test_a_slow_answer_is_stood_in_for_until_the_end_of_the_drag(live: Any, monk
     shown = now()
     assert live.stands_in()
     assert live.message == ""
-    wait = home._settle_later()
+    wait = home._complete_later()
     assert 0.0 < wait <= home.PAUSE  # the drag may still go on
     live.changed_at -= home.PAUSE
-    assert home._settle_later() is None
+    assert home._complete_later() is None
     assert not live.stands_in()
     assert live.message == ""
     assert 0.0 < np.abs(now() - shown).max() < 0.03  # carried along, it would be .05 off

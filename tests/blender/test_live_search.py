@@ -18,7 +18,7 @@ from test_live import drag, flank, now, switch, table_mountain
 
 
 class Slow:
-    """A region's way to an answer that takes until it is let go, and then gives what the real one would."""
+    """A region's search for an answer, which takes until it is let go, and then gives what the real one would."""
 
     def __init__(self, real: Callable[..., Any]) -> None:
         self.real, self.go, self.begun = real, threading.Event(), 0
@@ -53,18 +53,18 @@ def home(monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
 @pytest.fixture
 def slow(home: Any, monkeypatch: pytest.MonkeyPatch) -> Iterator[Slow]:
     kind = module("live.region").LiveRegion
-    way = Slow(kind.answer)
+    slow = Slow(kind.answer)
     table_mountain()
-    monkeypatch.setattr(kind, "answer", lambda *given: way(*given))
-    yield way
-    way.go.set()
-    assert way.clashes == 0
+    monkeypatch.setattr(kind, "answer", lambda *given: slow(*given))
+    yield slow
+    slow.go.set()
+    assert slow.clashes == 0
 
 
 def tick(home: Any) -> float | None:
     """Let the timer look, as it does in a window, once the changes have ended."""
     home.live.changed_at = 0.0
-    wait: float | None = home._settle_later()
+    wait: float | None = home._complete_later()
     return wait
 
 
@@ -154,16 +154,16 @@ def test_leaving_edit_mode_meanwhile(home: Any, slow: Slow) -> None:
     assert np.abs(now() - carried).max() > 1e-4
 
 
-@pytest.mark.parametrize("way", ["switched off", "forgotten", "another file", "the mesh is gone"])
-def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, way: str) -> None:
+@pytest.mark.parametrize("how", ["switched off", "forgotten", "another file", "the mesh is gone"])
+def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, how: str) -> None:
     carried = lose(home)
     search = home.live.sessions["Grid"].search
-    if way == "switched off":
+    if how == "switched off":
         switch(False)
-    elif way == "forgotten":
+    elif how == "forgotten":
         assert bpy.ops.mesh.fair_live_forget() == {"FINISHED"}
         bpy.context.view_layer.update()
-    elif way == "another file":
+    elif how == "another file":
         slow.hears = True
         bpy.ops.wm.read_homefile(use_empty=True)
     else:
@@ -173,7 +173,7 @@ def test_a_search_that_nobody_waits_for_writes_nothing(home: Any, slow: Slow, wa
     slow.go.set()
     module("run.runner").stop_all()
     assert tick(home) is None
-    if way in ("switched off", "forgotten"):
+    if how in ("switched off", "forgotten"):
         assert np.array_equal(now(), carried)
     assert home.live.message in ("", home.SEARCHING)
 

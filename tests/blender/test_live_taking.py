@@ -65,11 +65,11 @@ def dented_ball() -> bpy.types.Object:
     return obj
 
 
-def step(way: Any) -> Any:
+def step(act: Any) -> Any:
     """Undo or redo, and let Live look; returns where all vertices are then."""
-    way()
+    act()
     bpy.context.view_layer.update()
-    module("live.live")._settle_later()  # the timer's function
+    module("live.live")._complete_later()  # the timer's function
     return now(bpy.context.object.name)
 
 

@@ -51,7 +51,7 @@ def test_live_leaves_a_run_and_its_preview_alone(end: str, live: Any, go_on: thr
     else:
         np.testing.assert_array_equal(now()[wanted.vertices], wanted.positions.astype(np.float32))
     assert live.rested
-    module("live.live")._settle_later()  # the timer's function
+    module("live.live")._complete_later()  # the timer's function
     assert live.updates == count + (end == "the run")
     assert not live.rested
 
@@ -75,11 +75,11 @@ def test_live_leaves_a_change_in_the_redo_panel_alone(live: Any, panel: Panel) -
     bpy.context.view_layer.update()
     assert (panel.now, live.updates) == (shown, count)
     panel.is_open = True
-    panel.settle()
+    panel.complete()
     assert panel.report.written
     assert "kept" not in panel.report.reason
     assert "not taken" not in panel.report.reason.lower()
     assert panel.now != shown
     assert live.updates == count
-    module("live.live")._settle_later()
+    module("live.live")._complete_later()
     assert live.updates == count + 1

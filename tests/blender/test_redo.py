@@ -61,7 +61,7 @@ def expected(panel: Panel, **options: Any) -> bytes:
 
 def check_one_step(panel: Panel, **options: Any) -> None:
     """The answer is that of a run that waits, and one step of undo takes it and what was shown away."""
-    panel.settle()
+    panel.complete()
     found = panel.now
     assert found != panel.first
     assert panel.kind is not KINDS["region"] or panel.report.verdict == "GOOD"
@@ -95,7 +95,7 @@ def test_of_several_changes_the_last_one_counts(panel: Panel) -> None:
 
 def test_a_change_after_an_answer_shows_that_answer(panel: Panel) -> None:
     panel.change(**panel.kind.second)
-    panel.settle()
+    panel.complete()
     second = panel.now
     panel.change(**panel.kind.third)
     assert panel.now == second
@@ -140,7 +140,7 @@ def test_what_changes_the_mesh_meanwhile_keeps_what_is_shown(panel: Panel, what:
     else:
         assert bpy.ops.mesh.fair_cancel() == {"FINISHED"}
     there = panel.now if what in ("move", "cancel", "extrude", "script") else None
-    panel.settle()
+    panel.complete()
     assert panel.report.verdict == "LOOK"
     assert "Another surface was kept" in panel.report.reason
     if there is not None:
@@ -157,7 +157,7 @@ def test_a_selection_meanwhile_stays(panel: Panel) -> None:
     """New faces stay as they were; where vertices move alone, the answer comes as a step of its own."""
     panel.change(**panel.kind.second)
     bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="DESELECT")
-    panel.settle()
+    panel.complete()
     moves = panel.kind in (KINDS["region"], KINDS["denoise"])
     assert bpy.data.objects[panel.name].data.count_selected_items()[0] == 0
     assert (panel.now == panel.first) != moves
@@ -173,7 +173,7 @@ def test_undo_meanwhile_ends_it(panel: Panel) -> None:
     panel.change(**panel.kind.second)
     bpy.ops.ed.undo()
     assert not panel.follows
-    panel.settle()
+    panel.complete()
     assert panel.now == panel.original
     assert not panel.report.written
     bpy.ops.ed.redo()
@@ -185,7 +185,7 @@ def test_undo_before_the_first_look_ends_it(panel: Panel) -> None:
     bpy.ops.ed.undo()
     assert not panel.follows
     bpy.ops.ed.redo()
-    panel.settle()
+    panel.complete()
     assert panel.now == panel.first
 
 
@@ -204,7 +204,7 @@ def test_another_run_ends_it(panel: Panel) -> None:
     bpy.ops.ed.undo()
     assert panel.kind.run(**panel.kind.third) == {"FINISHED"}
     assert not panel.follows
-    panel.settle()
+    panel.complete()
     assert panel.now == expected(panel, **panel.kind.third)
 
 
@@ -218,7 +218,7 @@ def test_what_is_refused_leaves_the_result_before(panel: Panel, at_once: bool, m
     panel.change(**panel.kind.refused)
     at_once = at_once or panel.kind is KINDS["fill"]  # no border is left: nothing is searched for
     assert panel.follows != at_once
-    panel.settle()
+    panel.complete()
     assert panel.report.verdict == "UNUSABLE"
     assert at_once or "The surface before was kept" in panel.report.reason
     assert panel.now == panel.first
@@ -247,7 +247,7 @@ def test_what_blender_can_not_have_leaves_the_result_before(
     panel.change(**panel.kind.second)
     with monkeypatch.context() as spoilt:
         spoilt.setattr(home, name, refuses)
-        panel.settle()
+        panel.complete()
     assert gc.isenabled()
     assert panel.report.reason == "a fault of a test. The surface before was kept"
     assert panel.now == panel.first
@@ -272,7 +272,7 @@ def test_a_run_that_is_a_step_of_a_macro_is_followed_too(region: Panel) -> None:
     assert not region.follows  # it is a script that calls
     region.change(shape="LEAST_VARIATION")
     assert region.follows
-    region.settle()
+    region.complete()
     found = region.positions()
     bpy.ops.ed.undo()
     assert region.now == region.original
@@ -332,7 +332,7 @@ def event(kind: str, value: str) -> Any:
 def test_what_is_refused_after_another_selection_leaves_what_is_shown(region: Panel) -> None:
     region.change(**region.kind.refused)
     bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="SELECT")
-    region.settle()
+    region.complete()
     assert region.report.verdict == "UNUSABLE"
     assert "The surface before was kept" in region.report.reason
     assert region.now == region.first

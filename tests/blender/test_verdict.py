@@ -62,7 +62,7 @@ def test_write_it_all_the_same() -> None:
     with pytest.raises(RuntimeError, match="Not usable"):
         meshes.run(**NONE)
     bpy.ops.mesh.select_all(action="DESELECT")
-    assert bpy.ops.mesh.fair_again(way="WRITE") == {"FINISHED"}
+    assert bpy.ops.mesh.fair_again(remedy="WRITE") == {"FINISHED"}
     assert selected_faces(obj) == np.flatnonzero(faces).tolist()
     assert (meshes.report().verdict, meshes.report().written) == ("UNUSABLE", True)
     meshes.leave()
@@ -96,7 +96,7 @@ def test_a_pin_pulled_aside_offers_to_spread_vertices_evenly() -> None:
     with pytest.raises(RuntimeError, match="folded over, at 1 pinned vertex"):
         meshes.run(pin_group="Pin", inner_fairness="CONFORMAL")
     assert "EVEN_SPREAD" in meshes.report().remedies.split(",")
-    assert bpy.ops.mesh.fair_again(way="EVEN_SPREAD") == {"FINISHED"}
+    assert bpy.ops.mesh.fair_again(remedy="EVEN_SPREAD") == {"FINISHED"}
     assert meshes.report().verdict == "GOOD"
 
 
@@ -117,8 +117,8 @@ def test_another_way_that_is_no_better_is_not_written() -> None:
     chosen = selected_faces(obj)
     assert 0 < len(chosen) < np.count_nonzero(faces)
     before = meshes.contents_in_edit_mode(obj.name)
-    for way, left in (("ALL_KEYS", "EVEN_SPREAD"), ("EVEN_SPREAD", "")):
-        assert bpy.ops.mesh.fair_again(way=way) == {"CANCELLED"}
+    for remedy, left in (("ALL_KEYS", "EVEN_SPREAD"), ("EVEN_SPREAD", "")):
+        assert bpy.ops.mesh.fair_again(remedy=remedy) == {"CANCELLED"}
         assert (report.remedies, report.free_vertices) == (left, free)
         assert meshes.contents_in_edit_mode(obj.name) == before
         assert selected_faces(bpy.data.objects[obj.name]) == chosen
@@ -137,7 +137,7 @@ def test_what_is_refused_again_leaves_the_selection_of_the_user() -> None:
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
     before = meshes.contents_in_edit_mode(obj.name)
     with pytest.raises(RuntimeError, match=f"Vertex {inside} "):
-        bpy.ops.mesh.fair_again(way="WRITE")
+        bpy.ops.mesh.fair_again(remedy="WRITE")
     assert meshes.contents_in_edit_mode(obj.name) == before
     assert tuple(bpy.context.tool_settings.mesh_select_mode) == (True, False, False)
 
@@ -161,7 +161,7 @@ def test_a_changed_mesh_is_not_faired_again() -> None:
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.subdivide()
     with pytest.raises(RuntimeError, match="other faces by now"):
-        bpy.ops.mesh.fair_again(way="ALL_KEYS")
+        bpy.ops.mesh.fair_again(remedy="ALL_KEYS")
 
 
 def test_an_undone_run_is_not_the_last() -> None:

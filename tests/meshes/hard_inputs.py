@@ -13,7 +13,7 @@ from curves import FloatArray
 from meshing import IntArray
 from shapes import Patch
 
-# All ways to ask for a surface: both methods, each kind of inner fairness.
+# All kinds of requests for a surface: both methods, each kind of inner fairness.
 KINDS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
 WAYS = [(method, kind) for method in ("global", "paper") for kind in KINDS]
 

@@ -38,8 +38,8 @@ def arc(degrees: float, width: float) -> tuple[FloatArray, float]:
 def curvature_continuous(degrees: float, width: float, count: int = 4001) -> FloatArray:
     """(count, 2) points of the profile whose curvature is quadratic in its arc length and 0 at both sides."""
     turn = np.pi - np.radians(degrees)
-    way = np.linspace(-1, 1, count)
-    angle = -0.5 * turn * (1.5 * way - 0.5 * way**3)
+    along = np.linspace(-1, 1, count)
+    angle = -0.5 * turn * (1.5 * along - 0.5 * along**3)
     steps = np.column_stack([np.cos(angle), np.sin(angle)])
     profile = np.concatenate([[[0, 0]], np.cumsum(0.5 * (steps[1:] + steps[:-1]), axis=0)])
     profile -= profile[count // 2]

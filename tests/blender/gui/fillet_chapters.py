@@ -50,8 +50,8 @@ def _drag() -> Story:
     yield 0.3
     run_operator("mesh.fair_fillet")
     yield from wait_until(_follows, 5.0)
-    for way in (FAR // 3, 2 * FAR // 3, FAR):
-        move_mouse(x + way, y)
+    for offset in (FAR // 3, 2 * FAR // 3, FAR):
+        move_mouse(x + offset, y)
         yield 0.4
 
 

@@ -50,7 +50,7 @@ def _rests() -> bool:
     return not _runs()
 
 
-def settled() -> bool:
+def completed() -> bool:
     """Whether every region shows its own surface: none stands in."""
     return not _live().stands_in()
 
@@ -95,14 +95,14 @@ def _follow(name: str, by: tuple[int, int], axis: str = "") -> Story:
     screenshot(f"{name}_during")
     press("LEFTMOUSE", *_target(by))
     yield 2.0  # the picture is to show it too
-    yield from wait_until(settled, 10.0)
+    yield from wait_until(completed, 10.0)
     released = scenes.positions()
     assert np.abs(released - start)[free].max() > 0.1, "the region went back on release"
     screenshot(f"{name}_released")
     for redo, expected in ((False, start), (True, released), (False, start), (True, released)):
         press("Z", *middle(), ctrl=True, shift=redo)
         yield 1.0
-        yield from wait_until(settled, 10.0)  # a machine with other work is slow
+        yield from wait_until(completed, 10.0)  # a machine with other work is slow
         np.testing.assert_allclose(scenes.positions(), expected, atol=AGAIN)
     yield from _compare_with_operator(released)
 

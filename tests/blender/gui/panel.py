@@ -156,7 +156,7 @@ def drag(steps: int, by: tuple[int, int], axis: str = "") -> Story:
 def drag_over(places: list[tuple[int, int]], picture: str = "") -> Story:
     """Go over these places, in pixels from the middle of the view, with the button held; a picture just before the end.
 
-    Each way between two places takes eight moves.
+    Each move between two places takes eight moves.
     """
     x, y = middle()
     window = view()[0]

@@ -50,10 +50,10 @@ def a_field_of_the_redo_panel_is_pulled() -> Story:
     assert progress.following, "an answer was written meanwhile"
     window.event_simulate(type="LEFTMOUSE", value="RELEASE", x=x, y=y)
 
-    def settled() -> bool:
+    def completed() -> bool:
         return not progress.following
 
-    yield from wait_until(settled, 60.0)
+    yield from wait_until(completed, 60.0)
     yield 0.5
     assert bpy.context.window_manager.operators[-1].factor == factor
     assert report().verdict == "GOOD", report().reason

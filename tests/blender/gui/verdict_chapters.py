@@ -76,7 +76,7 @@ def not_usable() -> Story:
     yield 3.0  # panels glide to their places
     screenshot("not_usable")
     yield from leave_popup()
-    run_with("fair_again", way="WRITE")
+    run_with("fair_again", remedy="WRITE")
 
     def written() -> bool:
         return bool(report().written)
