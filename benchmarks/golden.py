@@ -33,7 +33,7 @@ def patches() -> Iterator[tuple[str, dict[str, Any], Any, dict[str, Any]]]:
         yield f"{family}, 400", patch, shapes.start_from_nothing(patch), POLISH
     cap = shapes.cap(400, half_angle=60.0)
     start = shapes.start_from_nothing(cap)
-    for inner in ("conformal", "inverse_distance", "shape_preserving"):
+    for inner in ("conformal", "inverse_distance"):
         yield f"cap, {inner}", cap, start, {"inner_fairness": inner, **POLISH}
     for equation in ("soap_film", "minimal_energy"):
         yield f"cap, {equation}", cap, start, {"equation": equation, **POLISH}

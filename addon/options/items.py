@@ -36,11 +36,6 @@ DISTRIBUTIONS: tuple[Item, ...] = (
     ("UNIFORM", "Uniform", "Edges become equally long. Best topology, but textures slide"),
     ("CONFORMAL", "Keep Texture", "Faces keep their angles as far as they can, so that textures keep their look"),
     ("INVERSE_DISTANCE", "Keep Spacing", "Finely meshed areas stay fine, coarse ones stay coarse"),
-    (
-        "SHAPE_PRESERVING",
-        "Keep Proportions",
-        "Each vertex keeps its place among its neighbours. Textures may be distorted more than with Uniform",
-    ),
 )
 SLOPES: tuple[Item, ...] = (
     (

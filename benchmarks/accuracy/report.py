@@ -9,7 +9,7 @@ import numpy as np
 
 from engine import Outcome
 
-WEIGHTS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
+WEIGHTS = ("uniform", "conformal", "inverse_distance")
 
 
 @dataclass(frozen=True)

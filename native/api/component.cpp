@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "mesh/union_find.h"
+
 namespace fairing {
 
 namespace {
@@ -23,24 +25,24 @@ private:
     Indices local_;
 };
 
-// The caller's edges within one patch, in local numbers.
-std::vector<std::array<int, 2>> local_edges(const Patch& patch, const std::vector<std::array<int, 2>>& edges) {
+// The caller's edges within one patch, in local numbers. Throws std::invalid_argument, naming `what`, where a free
+// vertex is tied to no fixed one: its place would be undetermined.
+InnerWeights local_weights(const Patch& patch, const InnerWeights& edges, const char* what) {
     const LocalNumbers find(patch);
-    std::vector<std::array<int, 2>> result;
-    std::vector<char> reached(patch.free_count, 0);
-    for (const auto& [a, b] : edges) {
-        const std::array ends{find(a), find(b)};
-        if (ends[0] == none || ends[1] == none || ends[0] == ends[1]) continue;
-        result.push_back(ends);
-        for (int v : ends) {
-            if (patch.is_free(v)) reached[v] = 1;
-        }
+    InnerWeights result;
+    UnionFind tied(patch.vertex_count());
+    for (int v = patch.free_count; v < patch.vertex_count(); ++v) tied.join(v, patch.free_count);
+    for (const auto& [a, b, weight] : edges) {
+        const int i = find(a);
+        const int j = find(b);
+        if (i == none || j == none || i == j || !(weight > 0.0)) continue;
+        result.push_back({i, j, weight});
+        tied.join(i, j);
     }
-    const auto missing = std::find(reached.begin(), reached.end(), 0);
-    if (missing != reached.end()) {
-        const int v = patch.to_input[static_cast<std::size_t>(missing - reached.begin())];
-        throw std::invalid_argument("neighbours: free vertex " + std::to_string(v) +
-                                    " has no edge to another vertex of its patch");
+    for (int v = 0; v < patch.free_count; ++v) {
+        if (tied.root(v) == tied.root(patch.free_count)) continue;
+        throw std::invalid_argument(std::string(what) + ": no chain of positive weights leads from free vertex " +
+                                    std::to_string(patch.to_input[v]) + " to a fixed one");
     }
     return result;
 }
@@ -103,30 +105,13 @@ std::span<const int> free_vertices(const Patch& patch) { return std::span(patch.
 std::span<const int> fixed_vertices(const Patch& patch) { return std::span(patch.to_input).subspan(patch.free_count); }
 
 Lambda make_lambda(const Patch& patch, const Points& reference, InnerFairness kind, const FairOptions& options) {
-    const bool by_rows = kind == InnerFairness::shape_preserving || kind == InnerFairness::custom;
-    if (by_rows) return make_row_weights(patch, reference, kind, options);
+    if (kind == InnerFairness::custom) return local_weights(patch, options.custom, "inner_fairness");
     if (kind == InnerFairness::conformal) return conformal_weights(patch, reference);
-    if (kind == InnerFairness::uniform && !options.neighbours) return UniformWeights{};
-    InnerWeights weights =
-        options.neighbours ? uniform_weights(local_edges(patch, *options.neighbours)) : uniform_weights(patch);
+    if (kind == InnerFairness::uniform && !options.neighbours) return {};
+    InnerWeights weights = options.neighbours ? local_weights(patch, uniform_weights(*options.neighbours), "neighbours")
+                                              : uniform_weights(patch);
     if (kind == InnerFairness::inverse_distance) weigh_by_distance(weights, reference);
     return weights;
-}
-
-RowWeights make_row_weights(const Patch& patch, const Points& reference, InnerFairness kind,
-                            const FairOptions& options) {
-    if (kind == InnerFairness::custom) {
-        const LocalNumbers find(patch);
-        std::vector<DirectedWeight> local;
-        for (const auto& [i, j, weight] : options.custom) {
-            if (find(i) != none && find(j) != none) local.push_back({find(i), find(j), weight});
-        }
-        return row_weights(patch, local, "inner_fairness");
-    }
-    if (kind == InnerFairness::shape_preserving) return shape_preserving_weights(patch, reference);
-    return with_edges(patch, make_lambda(patch, reference, kind, options), [&](const InnerWeights& edges) {
-        return row_weights(patch, edges, options.neighbours ? "neighbours" : "reference");
-    });
 }
 
 }  // namespace fairing

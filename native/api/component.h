@@ -39,12 +39,8 @@ struct ComponentData {
 std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);
 
-// λ of one patch, from its own edges, from `neighbours`, from the caller's rows or from the reference (3 × local
-// vertices; not read for uniform ones): symmetric unless shape preserving or custom.
+// λ of one patch, from its own edges, from `neighbours`, from the caller's weights or from the reference (3 × local
+// vertices; not read for uniform ones).
 Lambda make_lambda(const Patch& patch, const Points& reference, InnerFairness kind, const FairOptions& options);
-
-// The same as rows, for every kind.
-RowWeights make_row_weights(const Patch& patch, const Points& reference, InnerFairness kind,
-                            const FairOptions& options);
 
 }  // namespace fairing

@@ -127,6 +127,7 @@ ComponentAnswer ComponentSolver::posed(const ComponentData& data, const BaseBoun
     };
     answer.problem.before = Deferred<Points>(before);
     read_reference(data.reference, unit);
+    answer.problem.weights = lambda_;
     answer.warnings.insert(answer.warnings.end(), reference_warnings_.begin(), reference_warnings_.end());
     return answer;
 }
@@ -155,14 +156,13 @@ Equation ComponentSolver::equation_of(const Problem& problem, const ComponentDat
 void ComponentSolver::read_reference(const View<Points>& input, const Normalisation& unit) {
     const bool reads = reads_reference(options_.inner_fairness);
     if (read_ && (!reads || !options_.repeated)) return;
-    const bool wanted = reads || options_.method == Method::paper;
-    Points reference = wanted ? gather(input, patch_.to_input) : Points();
+    Points reference = reads ? gather(input, patch_.to_input) : Points();
     if (read_ && reference == given_reference_) return;
     read_ = false;
-    if (wanted) reference_ = unit.to_unit(reference);
+    if (reads) reference_ = unit.to_unit(reference);
     reference_warnings_.clear();
     usable_ = !reads || is_usable_reference(patch_, reference_, reference_warnings_);
-    if (options_.method == Method::global) lambda_ = make_lambda(patch_, reference_, fairness(), options_);
+    lambda_ = make_lambda(patch_, reference_, fairness(), options_);
     warm_.new_weights();
     if (reads && options_.repeated) given_reference_ = std::move(reference);
     read_ = true;
@@ -189,8 +189,7 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
     const Stopwatch watch;
-    Solution solution =
-        solve_paper({problem, options_.paper, make_row_weights(patch_, reference_, fairness(), options_)}, progress);
+    Solution solution = solve_paper({problem, options_.paper}, progress);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
     solution.strategies = {{"paper", watch.seconds()}};
     solution.flaw = flaw_of(problem, solution);
@@ -208,7 +207,6 @@ std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& ans
 
 Solution ComponentSolver::solve_globally(ComponentAnswer& answer, const ComponentData& data, const Progress& progress) {
     Problem& problem = answer.problem;
-    problem.weights = lambda_;
     problem.tolerated_folds = tolerated_folds();
     const bool joins = problem.fixed_curvatures.size() > 0;
     const std::optional<NearStart> start = given_start(answer, data);

@@ -31,7 +31,7 @@ struct FairOptions {
     InnerFairness inner_fairness = InnerFairness::uniform;
     // Edges (input vertices) that uniform weights use instead of the triangles' own.
     std::optional<std::vector<std::array<int, 2>>> neighbours;
-    std::vector<DirectedWeight> custom;  // λ of input vertices, for InnerFairness::custom
+    InnerWeights custom;  // λ of input vertices, for InnerFairness::custom
     DetailOptions detail;
     double pin_radius = 0.0;  // in units of D; 0: pins act in a point
     int threads = 0;          // 0: one on each core; the result doesn't depend on it

@@ -43,7 +43,7 @@ py::dict to_dict(const FairResult& result) {
 
 namespace {
 
-// Rows (i, j, λ).
+// Rows (i, j, λ) of edges.
 void set_weights(Options& options, const Points& rows) {
     for (const auto row : rows.colwise())
         options.fair.custom.push_back({static_cast<int>(row[0]), static_cast<int>(row[1]), row[2]});

@@ -56,11 +56,10 @@ inline constexpr Words<Equation, 6> equation_words{"equation",
 inline constexpr Words<Otherwise, 2> otherwise_words{
     "otherwise", {{{"least_variation", Otherwise::least_variation}, {"stop", Otherwise::stop}}}};
 // InnerFairness::custom has no word: it comes as rows.
-inline constexpr Words<InnerFairness, 4> fairness_words{"inner_fairness",
+inline constexpr Words<InnerFairness, 3> fairness_words{"inner_fairness",
                                                         {{{"uniform", InnerFairness::uniform},
                                                           {"conformal", InnerFairness::conformal},
-                                                          {"inverse_distance", InnerFairness::inverse_distance},
-                                                          {"shape_preserving", InnerFairness::shape_preserving}}}};
+                                                          {"inverse_distance", InnerFairness::inverse_distance}}}};
 inline constexpr Words<bool, 2> border_words{"open_border", {{{"held", false}, {"faired", true}}}};
 inline constexpr Words<Acceleration, 2> acceleration_words{
     "acceleration", {{{"anderson", Acceleration::anderson}, {"none", Acceleration::plain}}}};

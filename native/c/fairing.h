@@ -54,7 +54,7 @@ typedef struct fairing_options {
     size_t size;                /* sizeof(fairing_options), for libraries of other versions */
     const char* equation;       /* "harmonic", "automatic", "minimal_energy", "soap_film", "least_variation" */
     const char* side;           /* whose slope counts at the boundary: "automatic", "outside", "inside" */
-    const char* inner_fairness; /* how vertices sit within it: "uniform", "conformal", "shape_preserving", … */
+    const char* inner_fairness; /* how vertices sit within it: "uniform", "conformal", … */
     double bulge;               /* of "constant": 1 lifts a flat disc by about a quarter of its radius */
     double tolerance;           /* of the largest move in a step, as a share of the patch's size */
     int stand_in;               /* whether another surface is taken where the equation has none (a warning says so) */

@@ -190,7 +190,8 @@ Points relaid(const Problem& problem, const Points& points, const Points& base, 
     conformal.weights = conformal_weights(patch, base);
     const auto tangential = make_tangential_step(patch, conformal.weights, problem.fixed_points, progress);
     Points slid = points;
-    slide(conformal, *tangential, measured_surface(problem, points).normals, Turning::known, most_iterations, slid);
+    const Points normals = measured_surface(problem, points).normals;
+    slide(conformal, *tangential, normals, shape_operators(conformal.patch, slid, normals), most_iterations, slid);
     const std::size_t usual = flipped_triangles(patch, points).size() + flipped_triangles(patch, base).size();
     const bool worse = !slid.allFinite() || flipped_triangles(patch, slid).size() > usual;
     return worse ? points : slid;

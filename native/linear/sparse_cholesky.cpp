@@ -211,8 +211,8 @@ VectorX SparseCholesky::solve_vector(const VectorX& rhs, const FrontReach& from,
         for_ranges(static_cast<int>(rhs.size()), coarse_grain, [&](int begin, int end) {
             for (int k = begin; k < end; ++k) x[k] = static_cast<Stored>(rhs[order_[k]] / unit);
         });
-        const auto up = [&](int s, Rows& b) { eliminate_vector(panel(panels, s), b.data()); };
-        const auto down = [&](int s, Rows& b) { substitute_vector(panel(panels, s), b.data()); };
+        const auto up = [&](int s, Rows& b) { eliminate<1>(panel(panels, s), b.data()); };
+        const auto down = [&](int s, Rows& b) { substitute<1>(panel(panels, s), b.data()); };
         const FrontSweeps sweeps{up, down};
         TreeSolve<Vector, decltype(sweeps)> solve(tree_, sweeps, x);
         solve.up(from);
@@ -239,8 +239,8 @@ Points SparseCholesky::solve_side_by_side(const Stored* panels, const Points& rh
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int k = begin; k < end; ++k) x.row(k) << rhs.col(order_[k]).cast<Stored>().transpose(), Stored(0);
     });
-    const auto up = [&](int s, Rows& b) { eliminate_lanes(panel(panels, s), b.data()); };
-    const auto down = [&](int s, Rows& b) { substitute_lanes(panel(panels, s), b.data()); };
+    const auto up = [&](int s, Rows& b) { eliminate<lanes>(panel(panels, s), b.data()); };
+    const auto down = [&](int s, Rows& b) { substitute<lanes>(panel(panels, s), b.data()); };
     const FrontSweeps sweeps{up, down};
     TreeSolve<Field, decltype(sweeps)> solve(tree_, sweeps, x);
     solve.up(FrontReach());

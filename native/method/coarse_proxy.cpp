@@ -90,7 +90,7 @@ private:
     }
 
     Projected without_folds(Placement placement, const TargetSurface& target) {
-        return project_relaxed(problem_, *levels_.work(0).tangential, target, std::move(placement), progress_.here());
+        return project_relaxed(problem_, *levels_.work(0).tangential, target, std::move(placement));
     }
 
     Projected unfolded(Placement placement, const TargetSurface& target) {
@@ -141,10 +141,6 @@ private:
     std::optional<Solution> on_users_mesh(const Solution& projected) override {
         Workspace& work = levels_.work(0);
         work.normal = make_normal_operator(problem_, projected.points.leftCols(problem_.patch.free_count));
-        if (std::holds_alternative<RowWeights>(*problem_.weights)) {
-            work.tangential =
-                make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        }
         return polished(problem_, work, projected, progress_.range(0.6, 1.0));
     }
 

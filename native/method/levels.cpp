@@ -10,11 +10,6 @@ namespace {
 constexpr int largest_factorised = 7000;
 constexpr int evening_sweeps = 3;  // of an interpolated surface
 
-Shared<Lambda> symmetric_weights(const Shared<Lambda>& weights) {
-    if (const auto* rows = std::get_if<RowWeights>(&*weights)) return symmetrised(*rows);
-    return weights;
-}
-
 // A level needs no shape before.
 Problem finest(const Problem& problem) {
     return {problem.patch,          problem.fixed_points, problem.fixed_normals,
@@ -41,25 +36,23 @@ Levels::Levels(const Problem& problem, const Problem& below, Boundaries boundari
     const Points points = with_fixed(problem.patch, below.fixed_points);
     const Points normals = with_fixed(problem.patch, below.fixed_normals);
     const Points unknown = Points::Zero(3, points.cols());  // keeps an boundary as it is
-    const Shared<Lambda> weights = symmetric_weights(problem.weights);
     const FixedPlaces boundary{points, boundaries == Boundaries::thinned ? normals : unknown};
-    coarse_ = with_edges(problem.patch, weights,
+    coarse_ = with_edges(problem.patch, problem.weights,
                          [&](const InnerWeights& edges) { return coarsen(problem.patch, edges, boundary, coarsest); });
     left_.resize(coarse_.size());
     levels_.reserve(coarse_.size() + 1);
-    levels_.push_back({finest(problem), weights, problem.patch.free_count});
+    levels_.push_back({finest(problem), problem.patch.free_count});
     for (CoarseLevel& coarse : coarse_) {
         const Patch& patch = coarse.patch;
         Problem level{patch, pick(points, patch.to_input, patch.free_count),
                       pick(normals, patch.to_input, patch.free_count), std::move(coarse.weights), problem.options};
-        const Shared<Lambda> own = level.weights;
-        levels_.push_back({std::move(level), own, patch.free_count});
+        levels_.push_back({std::move(level), patch.free_count});
     }
 }
 
 RingMatrix Levels::laplacian(std::size_t k) const {
     const Patch& patch = levels_[k].problem.patch;
-    return with_edges(patch, levels_[k].weights,
+    return with_edges(patch, levels_[k].problem.weights,
                       [&](const InnerWeights& edges) { return RingMatrix(patch.vertex_count(), edges); });
 }
 
@@ -94,7 +87,7 @@ void Levels::leave(std::size_t k) {
     PatchMembers& members = left_[k - 1];
     members = std::move(patch);
     patch = Patch({members.free_count, members.to_input, {}, {}, Triangles(3, 0)});
-    levels_[k].weights = levels_[k].problem.weights = {};
+    levels_[k].problem.weights = {};
 }
 
 void Levels::come_back(std::size_t k) {
@@ -117,7 +110,7 @@ bool Levels::is_factorised(std::size_t k) const {
 std::unique_ptr<FactorisedLaplacian> Levels::factorised(std::size_t k, const Progress& progress) const {
     const Level& level = levels_[k];
     const Problem& problem = level.problem;
-    return with_edges(problem.patch, level.weights, [&](const InnerWeights& edges) {
+    return with_edges(problem.patch, problem.weights, [&](const InnerWeights& edges) {
         return std::make_unique<FactorisedLaplacian>(problem.patch, edges, problem.fixed_points, progress.here());
     });
 }

@@ -42,8 +42,7 @@ public:
     // Has factors and restrictions of the tangential steps made beside other work: no surface is needed for them.
     void prepare_beside();
 
-    // Makes the tangential step of a level; that of the next coarser one comes first. λ that aren't symmetric count by
-    // their symmetric part.
+    // Makes the tangential step of a level; that of the next coarser one comes first.
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
 
@@ -62,8 +61,7 @@ public:
 private:
     struct Level {
         Problem problem;
-        Shared<Lambda> weights;  // symmetric
-        int free_count;          // also while the patch is left
+        int free_count;  // also while the patch is left
         Workspace work = {};
         const LaplaceCycle* tangential_cycle = nullptr;  // in `work`
         std::unique_ptr<FactorisedLaplacian> factor = {};

@@ -183,13 +183,6 @@ private:
         normals.resize(3, 0);  // the iteration needs the room
         progress.report(share_of_start, "refinement");
         work.normal = normal_operator(k, points);
-        // λ that aren't symmetric need a factorisation of their own; so far their symmetric part was good enough.
-        if (k == 0 && std::holds_alternative<RowWeights>(*problem.weights)) {
-            work.tangential =
-                make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());
-            slide(problem, *work.tangential, max_normals(problem.patch, points, problem.fixed_normals), turning(),
-                  most_slides, points);
-        }
         if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
         work.reaction = reaction_;
         Solution solution = iterate(problem, work, std::move(points), progress.range(share_of_start, 1.0));
@@ -197,8 +190,6 @@ private:
         work.normal.reset();  // the tangential step serves the finer levels
         return solution;
     }
-
-    [[nodiscard]] Turning turning() const { return traits_.is_jagged ? Turning::unknown : Turning::known; }
 
     const Problem& problem_;
     const Traits& traits_;

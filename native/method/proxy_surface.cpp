@@ -38,7 +38,7 @@ private:
         if (!work_.tangential)
             work_.tangential =
                 make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        return place(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own, progress_.range(0.6, 0.8));
+        return place(problem_, *work_.tangential, {proxy.history, proxy.mesh, target}, own);
     }
 
     std::optional<Solution> on_users_mesh(const Solution& projected) override {

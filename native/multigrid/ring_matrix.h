@@ -21,15 +21,21 @@ struct RingMatrix {
     // The weights from the k-th on; null where all are 1.
     [[nodiscard]] const float* weights_from(int k) const { return weights.size() > 0 ? &weights[k] : nullptr; }
 
-    // write(i, (A x)_i) for the first `rows` vertices: in double precision, 0 for constants.
+    // (A x)_i in double precision, 0 for constants.
+    [[nodiscard]] Vector3 row(const Points& x, int i) const {
+        Vector3 sum = Vector3::Zero();
+        for (int k = begin[i]; k < begin[i + 1]; ++k) sum += double{weight(k)} * (x.col(i) - x.col(columns[k]));
+        return sum;
+    }
+
+    // The mean of the neighbours of vertex i by the weights.
+    [[nodiscard]] Vector3 mean(const Points& x, int i) const { return x.col(i) - row(x, i) / double{diagonal[i]}; }
+
+    // write(i, (A x)_i) for the first `rows` vertices.
     template <typename Write>
     void apply(const Points& x, int rows, const Write& write) const {
         for_ranges(rows, coarse_grain, [&](int first, int last) {
-            for (int i = first; i < last; ++i) {
-                Vector3 sum = Vector3::Zero();
-                for (int k = begin[i]; k < begin[i + 1]; ++k) sum += double{weight(k)} * (x.col(i) - x.col(columns[k]));
-                write(i, sum);
-            }
+            for (int i = first; i < last; ++i) write(i, row(x, i));
         });
     }
 

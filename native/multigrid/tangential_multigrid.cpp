@@ -133,7 +133,7 @@ Points MultigridStep::harmonic_positions() const {
     return points.leftCols(patch_.free_count);
 }
 
-double MultigridStep::merit(const Points& points, const Points& /*normals*/) const {
+double MultigridStep::merit(const Points& points) const {
     return -0.5 * scale() * inner_product<Points>(points, pull(points));
 }
 

@@ -41,7 +41,7 @@ public:
                   const LaplaceCycle& coarser);
     void hold(const Points& fixed_points) override { fixed_points_ = fixed_points; }
     [[nodiscard]] Points harmonic_positions() const override;
-    [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
+    [[nodiscard]] double merit(const Points& points) const override;
     [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
     [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,
                                       Effort effort = {}) const override;

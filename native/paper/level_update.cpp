@@ -185,7 +185,7 @@ void LevelUpdate::move_vertices(const VectorX& wanted, double damping) {
     for (int sweep = 0; sweep < level_.paper.vertex_sweeps; ++sweep) {
         for (int i = 0; i < level_.patch.free_count; ++i) {
             const VertexTarget target{state_.normals.col(i), state_.weights_of(i),
-                                      level_.weights.mean(i, state_.points), wanted[i], damping * share_[i]};
+                                      level_.weights.mean(state_.points, i), wanted[i], damping * share_[i]};
             state_.points.col(i) = updated_position(state_.points.col(i), state_.around(level_.patch, i), target);
         }
     }

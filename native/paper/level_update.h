@@ -1,9 +1,9 @@
 // One update of a level's mesh, M^k → M^(k+1) (paper §7.1, 7.2).
 #pragma once
 
-#include "fairness/row_weights.h"
 #include "geometry/mean_curvature.h"
 #include "geometry/one_ring.h"
+#include "multigrid/ring_matrix.h"
 #include "paper/options.h"
 #include "problem/problem.h"
 
@@ -15,7 +15,7 @@ struct LevelProblem {
     const Points& fixed_normals;
     const SolverOptions& solver;
     const PaperOptions& paper;
-    RowWeights weights;
+    RingMatrix weights;
     // Whether the boundary data prescribe the normal.
     [[nodiscard]] bool prescribes_normal(int vertex) const {
         return solver.equation != Equation::soap_film && !patch.is_free(vertex) &&

@@ -19,7 +19,8 @@ public:
 
     Solution run() {
         Stopwatch watch;
-        if (options_.nested) coarser_ = coarsen(problem_.patch, symmetrised(pp_.weights));
+        const auto coarsened = [&](const InnerWeights& edges) { return coarsen(problem_.patch, edges); };
+        if (options_.nested) coarser_ = with_edges(problem_.patch, problem_.weights, coarsened);
         if (pp_.paper.levels > 0 && coarser_.size() >= static_cast<std::size_t>(pp_.paper.levels))
             coarser_.erase(coarser_.begin() + pp_.paper.levels - 1, coarser_.end());
         solution_.seconds["hierarchy"] = watch.lap();
@@ -63,9 +64,10 @@ private:
 
     [[nodiscard]] LevelProblem level_problem(int level) const {
         const Patch& patch = patch_of(level);
+        const auto made = [&](const InnerWeights& edges) { return RingMatrix(patch.vertex_count(), edges); };
         return {patch, problem_.fixed_normals, options_, pp_.paper,
-                level == 0 ? pp_.weights
-                           : row_weights(patch, coarser_[static_cast<std::size_t>(level) - 1].weights, "weights")};
+                level == 0 ? with_edges(patch, problem_.weights, made)
+                           : made(coarser_[static_cast<std::size_t>(level) - 1].weights)};
     }
 
     // Coarse levels need not be more accurate than they differ from the next finer one. Their boundary is much finer

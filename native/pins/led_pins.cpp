@@ -89,7 +89,7 @@ private:
         const TargetSurface target(mesh.patch, mesh.points, normals);
         const auto tangential =
             make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        const Projected best = place(problem_, *tangential, {mesh_, mesh, target}, guess_, progress_.range(0.8, 1.0));
+        const Projected best = place(problem_, *tangential, {mesh_, mesh, target}, guess_);
         Solution result = solution;
         result.polished = false;
         result.points = best.placement.points;

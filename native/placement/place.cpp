@@ -12,15 +12,14 @@ namespace {
 
 class Placing {
 public:
-    Placing(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-            const Progress& progress)
-        : problem_(problem), tangential_(tangential), target_(target), progress_(progress) {}
+    Placing(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target)
+        : problem_(problem), tangential_(tangential), target_(target) {}
 
     // By the springs; where their folds stay, from where the start itself is. True where nothing is folded: no other
     // start is needed.
     bool from(const Placement& start) {
         Placement placement = start;
-        relax(problem_, tangential_, target_, placement, progress_.here());
+        relax(tangential_, target_, placement);
         return from_relaxed(std::move(placement)) || keep_untangled(start);
     }
 
@@ -51,7 +50,7 @@ private:
     bool keep(Placement placement) {
         Indices folded = folds_of_placement(problem_, target_, placement);
         const bool done = folded.empty();
-        const double merit = tangential_.merit(placement.points, normals_at(placement, target_));
+        const double merit = tangential_.merit(placement.points);
         if (!best_ || folded.size() < best_->folded.size() ||
             (folded.size() == best_->folded.size() && merit < merit_)) {
             best_ = Projected{std::move(placement), std::move(folded), 0};
@@ -63,7 +62,6 @@ private:
     const Problem& problem_;
     const TangentialStep& tangential_;
     const TargetSurface& target_;
-    const Progress& progress_;
     std::optional<Projected> best_;
     double merit_ = 0.0;
     std::size_t folded_by_springs_ = std::numeric_limits<std::size_t>::max();
@@ -119,9 +117,9 @@ VectorX carried_over(const Placement& placement, const TargetSurface& target, co
 }
 
 Projected place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-                const std::optional<Points>& guess, const Progress& progress) {
+                const std::optional<Points>& guess) {
     const TargetSurface& target = surface.target;
-    Placing placing(problem, tangential, target, progress);
+    Placing placing(problem, tangential, target);
     if (guess && placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
         return std::move(placing).best();
     placing.from(by_history(problem, surface.history, surface.mesh, target));
@@ -129,8 +127,8 @@ Projected place(const Problem& problem, const TangentialStep& tangential, const 
 }
 
 Projected project_relaxed(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                          Placement relaxed, const Progress& progress) {
-    Placing placing(problem, tangential, target, progress);
+                          Placement relaxed) {
+    Placing placing(problem, tangential, target);
     placing.from_relaxed(std::move(relaxed));
     return std::move(placing).best();
 }

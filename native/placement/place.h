@@ -1,7 +1,6 @@
 // The user's vertices on the surface of a proxy, by their inner fairness and without folds.
 #pragma once
 
-#include "base/progress.h"
 #include "geometry/target_surface.h"
 #include "problem/problem.h"
 #include "problem/solution.h"
@@ -52,11 +51,11 @@ struct OwnMeshSurface {
 // begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the proxy
 // mesh (placement/first_placement). Where the springs' minimum is folded, folds are turned back vertex by vertex.
 Projected place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-                const std::optional<Points>& guess, const Progress& progress);
+                const std::optional<Points>& guess);
 
 // The same from vertices that springs have spread already.
 Projected project_relaxed(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                          Placement relaxed, const Progress& progress);
+                          Placement relaxed);
 
 // Ends a projected solution as `folded` where the placement is, or where the weights' own minimum has so many folds
 // that it says nothing about these vertices.

@@ -19,7 +19,7 @@ public:
         : tangential_(tangential),
           target_(target),
           placement_(placement),
-          merit_(merit_of(placement)),
+          merit_(tangential.merit(placement.points)),
           anderson_(history_depth) {}
 
     void run() {
@@ -31,10 +31,6 @@ public:
     }
 
 private:
-    [[nodiscard]] double merit_of(const Placement& placement) const {
-        return tangential_.merit(placement.points, normals_at(placement, target_));
-    }
-
     // Where the surface is curved, plain steps are too short by the same share each time: acceleration learns it.
     bool improve(const Points& d, double largest) {
         const auto as_vector = [](const auto& points) { return VectorX(points.reshaped()); };
@@ -50,7 +46,7 @@ private:
 
     bool accepts(const Points& move) {
         Placement trial = moved(placement_, target_, move);
-        const double reached = merit_of(trial);
+        const double reached = tangential_.merit(trial.points);
         if (!(reached < merit_)) return false;
         merit_ = reached;
         placement_ = std::move(trial);
@@ -138,15 +134,6 @@ Indices unknowns_near(const Patch& patch, const Indices& triangles, int rings) {
 
 void relax(const TangentialStep& tangential, const TargetSurface& target, Placement& placement) {
     Relaxation(tangential, target, placement).run();
-}
-
-void relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement,
-           const Progress& progress) {
-    if (const auto* rows = std::get_if<RowWeights>(&*problem.weights)) {
-        const auto symmetric = make_tangential_step(problem.patch, symmetrised(*rows), problem.fixed_points, progress);
-        relax(*symmetric, target, placement);
-    }
-    relax(tangential, target, placement);
 }
 
 void follow_boundary(const Patch& patch, const Points& offsets, Points& points) {

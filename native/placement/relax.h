@@ -12,10 +12,6 @@ namespace fairing {
 // the surface, accelerated, shortened until the sum no longer grows.
 void relax(const TangentialStep& tangential, const TargetSurface& target, Placement& placement);
 
-// Relaxes, weights that aren't symmetric by way of their symmetric part: they have no energy to descend.
-void relax(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target, Placement& placement,
-           const Progress& progress);
-
 // The three rows next to the boundary move half as far as the mean of what they touch in the row before. `offsets`: of
 // the fixed vertices from the surface, 3 × fixed count; `points`: 3 × local vertices on it, the fixed ones leave it.
 // Vertices stay where triangles between free ones would turn over.

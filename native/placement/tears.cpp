@@ -59,10 +59,11 @@ public:
         triangles_ = patch.triangles(Eigen::all, near);
     }
 
-    [[nodiscard]] std::ptrdiff_t torn(const Points& points) const {
+    // `enough`: from there on it doesn't matter.
+    [[nodiscard]] std::ptrdiff_t torn(const Points& points, std::ptrdiff_t enough) const {
         const auto turned =
             std::count_if(turning_.begin(), turning_.end(), [&](int t) { return is_flipped(patch_, points, t); });
-        return turned + std::ssize(crossing_triangles(triangles_, points));
+        return turned >= enough ? turned : turned + std::ssize(crossing_triangles(triangles_, points));
     }
 
 private:
@@ -75,7 +76,7 @@ private:
 bool improve(const Patch& patch, int v, Points& points) {
     constexpr std::array radii{0.2, 0.4, 0.7, 1.0, 1.5};  // of the ring's
     const Around around(patch, v);
-    std::ptrdiff_t least = around.torn(points);
+    std::ptrdiff_t least = around.torn(points, std::numeric_limits<std::ptrdiff_t>::max());
     const Vector3 centre = points.col(v);
     const double reach = mean_spoke(patch, points, v);
     Vector3 best = centre;
@@ -83,7 +84,7 @@ bool improve(const Patch& patch, int v, Points& points) {
         for (int k = 0; k < 27 && least > 0; ++k) {  // of a cube's surface
             const Eigen::Vector3i corner(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
             points.col(v) = centre + radius * reach * corner.cast<double>().normalized();
-            const std::ptrdiff_t torn = around.torn(points);
+            const std::ptrdiff_t torn = around.torn(points, least);
             if (torn >= least) continue;
             least = torn;
             best = points.col(v);

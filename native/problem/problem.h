@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/shared.h"
-#include "fairness/row_weights.h"
+#include "fairness/inner_weights.h"
 #include "geometry/vertex_normal.h"
 
 namespace fairing {

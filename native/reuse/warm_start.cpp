@@ -25,7 +25,7 @@ public:
     explicit NoStep(const Points& points) : points_(points) {}
     void hold(const Points& /*fixed_points*/) override {}
     [[nodiscard]] Points harmonic_positions() const override { return points_; }
-    [[nodiscard]] double merit(const Points& /*points*/, const Points& /*normals*/) const override { return 0.0; }
+    [[nodiscard]] double merit(const Points& /*points*/) const override { return 0.0; }
     using TangentialStep::displacement;
     [[nodiscard]] double imbalance(const Points& /*points*/, const Points& /*normals*/) const override { return 0.0; }
     [[nodiscard]] Points displacement(const Points& /*points*/, const TangentPlanes& /*planes*/,

@@ -133,7 +133,7 @@ private:
 
     // Within the surface, unless that costs more than the last descent step has gained: they would take turns for ever.
     void even_out(double most_energy) {
-        slide(problem_, *work_.tangential, state_.normals, Turning::unknown, 1, state_.points);
+        slide(problem_, *work_.tangential, state_.normals, {}, 1, state_.points);
         measure();
         energy_ <= most_energy ? keep() : restore();
     }

@@ -53,13 +53,6 @@ void slide(Sliding& vertices, const TangentialStep& tangential, int most_steps) 
 
 }  // namespace
 
-void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, Turning turning,
-           int most_steps, Points& points) {
-    ShapeOperators shapes;
-    if (turning == Turning::known) shapes = shape_operators(problem.patch, points, normals);
-    slide(problem, tangential, normals, std::move(shapes), most_steps, points);
-}
-
 void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, ShapeOperators shapes,
            int most_steps, Points& points) {
     const Points surface = points;

@@ -8,16 +8,9 @@
 
 namespace fairing {
 
-// Whether steps use how the tangent planes turn, which is read off the normals. Where these are noisy, as beside a
-// jagged boundary, the planes count as fixed.
-enum class Turning { known, unknown };
-
 // Moves vertices nearer to their inner-fairness positions, by some accelerated tangential steps, each of which ends on
-// the surface as given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins).
-void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, Turning turning,
-           int most_steps, Points& points);
-
-// The same where the shape operators are known at the free vertices; empty: not known.
+// the surface as given. `points`: 3 × local vertices; `normals`: unit, of the surface there (0 at pins); `shapes`: how
+// the tangent planes turn at the free vertices. Empty: they count as fixed, as where normals are noisy.
 void slide(const Problem& problem, const TangentialStep& tangential, const Points& normals, ShapeOperators shapes,
            int most_steps, Points& points);
 

@@ -38,7 +38,7 @@ void SymmetricStep::hold(const Points& fixed_points) { pull_ = (coupling_ * fixe
 
 Points SymmetricStep::harmonic_positions() const { return factor_.solve_points(pull_); }
 
-double SymmetricStep::merit(const Points& points, const Points& /*normals*/) const {
+double SymmetricStep::merit(const Points& points) const {
     const auto free = points.leftCols(free_count_);
     return 0.5 * inner_product<Points>(free, gradient(points) - pull_);
 }
@@ -91,6 +91,13 @@ GradientSolution<Points> SymmetricStep::solve_across(const Points& r, const Poin
     };
     const auto approximate_inverse = [&](const Points& field, Points& z) { z = precondition(field, normals); };
     return conjugate_gradients(r, effort.tolerance, effort.max_cycles, apply, approximate_inverse);
+}
+
+std::unique_ptr<TangentialStep> make_tangential_step(const Patch& patch, const Lambda& weights,
+                                                     const Points& fixed_points, const Progress& progress) {
+    return with_edges(patch, weights, [&](const InnerWeights& edges) {
+        return std::make_unique<SymmetricStep>(patch, edges, fixed_points, progress);
+    });
 }
 
 }  // namespace fairing

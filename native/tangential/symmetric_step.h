@@ -1,4 +1,4 @@
-// Tangential steps of symmetric λ.
+// Tangential steps with a factor of λ.
 #pragma once
 
 #include "base/progress.h"
@@ -16,7 +16,7 @@ public:
 
     void hold(const Points& fixed_points) override;
     [[nodiscard]] Points harmonic_positions() const override;
-    [[nodiscard]] double merit(const Points& points, const Points& normals) const override;
+    [[nodiscard]] double merit(const Points& points) const override;
     [[nodiscard]] double imbalance(const Points& points, const Points& normals) const override;
     using TangentialStep::displacement;
     [[nodiscard]] Points displacement(const Points& points, const TangentPlanes& planes,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/progress.h"
-#include "fairness/row_weights.h"
+#include "fairness/inner_weights.h"
 #include "geometry/shape_operator.h"
 
 namespace fairing {
@@ -45,18 +45,17 @@ public:
     // The positions with Σ_j λ_ij (x_i − x_j) = 0 in all three coordinates: the discrete harmonic map of the boundary.
     [[nodiscard]] virtual Points harmonic_positions() const = 0;
 
-    // The merit that a step lowers. Symmetric λ: the Dirichlet energy ½ Σ λ_ij |x_i − x_j|², up to a constant of the
-    // fixed vertices. Others have none: ½ Σ |P (Λx − x)_i|².
-    [[nodiscard]] virtual double merit(const Points& points, const Points& normals) const = 0;
+    // What a step lowers: the Dirichlet energy ½ Σ λ_ij |x_i − x_j|², up to a constant of the fixed vertices.
+    [[nodiscard]] virtual double merit(const Points& points) const = 0;
 
     // |P L x|, the root of the sum of squares over the free vertices: 0 where no step is left.
     [[nodiscard]] virtual double imbalance(const Points& points, const Points& normals) const = 0;
 
-    // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients
-    // (accelerated steps where λ is not symmetric), preconditioned by P L⁻¹ P, to the relative residual `tolerance` or
-    // for `max_cycles`. Newton's step where it is known how the planes turn: P L P d − ⟨n, L x⟩ W d = −P L x, since P
-    // turns with the vertices and L x stands along the normals at the end. Without it smooth moves on a hemisphere are
-    // too short by 60 %. Where that system is not positive definite, or λ not symmetric, the planes count as fixed.
+    // d with P L P d = −P L x; P is the projection across the unit normals, L the λ-Laplacian. Conjugate gradients,
+    // preconditioned by P L⁻¹ P, to the relative residual `tolerance` or for `max_cycles`. Newton's step where it is
+    // known how the planes turn: P L P d − ⟨n, L x⟩ W d = −P L x, since P turns with the vertices and L x stands along
+    // the normals at the end. Without it smooth moves on a hemisphere are too short by 60 %. Where that system is not
+    // positive definite, the planes count as fixed.
     [[nodiscard]] virtual Points displacement(const Points& points, const TangentPlanes& planes,
                                               Effort effort = {}) const = 0;
 

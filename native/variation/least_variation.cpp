@@ -129,7 +129,7 @@ Termination ending(const NewtonResult& result, const Problem& problem) {
 
 // The problem's own, or the uniform one where that is the same.
 std::unique_ptr<TangentialStep> step_within(const Problem& problem, UniformStep uniform, const Progress& progress) {
-    if (!uniform || !std::holds_alternative<UniformWeights>(*problem.weights))
+    if (!uniform || *problem.weights)
         return make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress);
     uniform->hold(problem.fixed_points);
     return uniform;
@@ -143,7 +143,7 @@ Solution projected(const Problem& given, const ProxyMesh& mesh, const SolvedShee
     const Termination end = ending(solved.result, problem);
     const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
     const auto tangential = step_within(problem, std::move(within), progress.here());
-    const Projected best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt, progress.here());
+    const Projected best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt);
     const Placement& placement = best.placement;
     const SurfaceState state = measured_surface(on_patch(problem, solved.mesh.patch), solved.sheet.points);
     Solution solution;

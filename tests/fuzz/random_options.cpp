@@ -6,8 +6,8 @@ namespace fairing::fuzz {
 
 namespace {
 
-std::vector<DirectedWeight> random_weights(FuzzedDataProvider& bytes, int vertex_count) {
-    std::vector<DirectedWeight> result;
+InnerWeights random_weights(FuzzedDataProvider& bytes, int vertex_count) {
+    InnerWeights result;
     const int count = bytes.ConsumeIntegralInRange(0, 40);
     const auto vertex = [&] { return bytes.ConsumeIntegralInRange(0, vertex_count - 1); };
     for (int k = 0; k < count; ++k) {
@@ -44,9 +44,8 @@ PaperOptions random_paper_options(FuzzedDataProvider& bytes) {
 FairOptions random_options(FuzzedDataProvider& bytes, int vertex_count) {
     FairOptions options;
     options.method = bytes.ConsumeBool() ? Method::paper : Method::global;
-    options.inner_fairness =
-        bytes.PickValueInArray({InnerFairness::uniform, InnerFairness::conformal, InnerFairness::inverse_distance,
-                                InnerFairness::shape_preserving, InnerFairness::custom});
+    options.inner_fairness = bytes.PickValueInArray(
+        {InnerFairness::uniform, InnerFairness::conformal, InnerFairness::inverse_distance, InnerFairness::custom});
     options.solver.equation =
         bytes.PickValueInArray({Equation::harmonic, Equation::constant, Equation::minimal_energy, Equation::soap_film});
     if (options.solver.equation == Equation::constant) {

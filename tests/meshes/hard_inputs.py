@@ -14,7 +14,7 @@ from meshing import IntArray
 from shapes import Patch
 
 # All kinds of requests for a surface: both methods, each kind of inner fairness.
-KINDS = ("uniform", "conformal", "inverse_distance", "shape_preserving")
+KINDS = ("uniform", "conformal", "inverse_distance")
 WAYS = [(method, kind) for method in ("global", "paper") for kind in KINDS]
 
 

@@ -143,7 +143,7 @@ def test_wrong_arguments_of_every_kind_are_named(option: str, value: Any) -> Non
         ({"fixed": None}, "fixed_normals"),
         ({"boundary": CAP.fixed}, "fixed: given twice"),
         ({"equation": "biharmonic"}, "'harmonic', 'constant', 'minimal_energy', 'soap_film'"),
-        ({"inner_fairness": "smooth"}, "'uniform', 'conformal', 'inverse_distance', 'shape_preserving'"),
+        ({"inner_fairness": "smooth"}, "'uniform', 'conformal', 'inverse_distance'"),
     ],
 )
 def test_messages_say_what_helps(options: dict[str, Any], message: str) -> None:

@@ -144,11 +144,10 @@ def test_deep_caps_are_polished(half_angle: float) -> None:
         assert cap.error(result.vertices) < 1e-8
 
 
-@pytest.mark.parametrize("weights", ["conformal", "shape_preserving"])
-def test_graded_meshes_do_not_overrule_a_finer_one(weights: str) -> None:
+def test_graded_meshes_do_not_overrule_a_finer_one() -> None:
     """On the mesh given the catenoid is off by 2.8e-4, on an even one by 3e-5 and 4e-5."""
     catenoid = graded.regraded(shapes.catenoid(60), 1000)
-    result = fair_patch(catenoid, reference=catenoid.vertices, inner_fairness=weights)
+    result = fair_patch(catenoid, reference=catenoid.vertices, inner_fairness="conformal")
     assert result.converged
     assert not result.polished
     assert catenoid.error(result.vertices) < 1e-4

@@ -46,29 +46,22 @@ def test_uniform_is_balanced(name: str) -> None:
     assert tangential_imbalance(patch, conformal, weights) > 0.05
 
 
-@pytest.mark.parametrize("kind", ["conformal", "shape_preserving"])
-def test_a_planar_mesh_is_reproduced(kind: str) -> None:
-    """Both weights reproduce linear functions: every flat mesh is its own fair mesh, sheared from Delaunay's, too."""
+def test_a_planar_mesh_is_reproduced() -> None:
+    """Conformal weights reproduce linear functions: a flat mesh is its own fair mesh, sheared from Delaunay's, too."""
     patch = shapes.plane(500)
     patch.vertices[:, 2] += 1.5 * patch.vertices[:, 1]
-    result = fair_patch(patch, inner_fairness=kind, reference=patch.vertices)
+    result = fair_patch(patch, inner_fairness="conformal", reference=patch.vertices)
     assert np.abs(result.vertices - patch.vertices).max() < 1e-8
     assert np.abs(fair_patch(patch).vertices - patch.vertices).max() > 1e-2
-
-
-def lopsided_rows(edges: IntArray) -> FloatArray:
-    """Rows (i, j, λ) with λ_ij from 1 to 4 and λ_ji of its own: far from symmetric."""
-    both = np.vstack([edges, edges[:, ::-1]])
-    weights = np.random.default_rng(3).uniform(1.0, 4.0, len(both))
-    return np.column_stack([both, weights])
 
 
 @pytest.mark.parametrize("name", CURVED)
 def test_custom_weights_are_balanced_and_leave_the_surface_alone(name: str) -> None:
     patch = CURVED[name]
-    rows = lopsided_rows(measures.edges(patch.triangles))
+    edges = measures.edges(patch.triangles)
+    rows = np.column_stack([edges, np.random.default_rng(3).uniform(1.0, 4.0, len(edges))])
     weights = np.zeros((len(patch.vertices),) * 2)
-    weights[rows[:, 0].astype(int), rows[:, 1].astype(int)] = rows[:, 2]
+    weights[edges[:, 0], edges[:, 1]] = weights[edges[:, 1], edges[:, 0]] = rows[:, 2]
     weights /= weights.sum(axis=1)[:, None]
     result = fair_patch(patch, inner_fairness=rows)
     assert result.converged
@@ -82,8 +75,8 @@ def test_custom_weights_that_lead_to_no_fixed_vertex_are_refused() -> None:
     patch = CURVED["cap"]
     edges = measures.edges(patch.triangles)
     free = np.isin(edges, patch.free).all(axis=1)
-    rows = np.column_stack([np.vstack([edges[free], edges[free][:, ::-1]]), np.ones(2 * free.sum())])
-    with pytest.raises(ValueError, match=r"inner_fairness: (no chain of positive weights|vertex .* needs a row)"):
+    rows = np.column_stack([edges[free], np.ones(free.sum())])
+    with pytest.raises(ValueError, match="inner_fairness: no chain of positive weights"):
         fair_patch(patch, inner_fairness=rows)
 
 
@@ -173,7 +166,7 @@ def test_flipped_triangles_are_those_around_a_vertex_dragged_across_an_edge() ->
     assert np.array_equal(fairing.looks.flipped_triangles(vertices, patch.triangles, fixed=patch.fixed), turned)
 
 
-@pytest.mark.parametrize("kind", ["conformal", "inverse_distance", "shape_preserving"])
+@pytest.mark.parametrize("kind", ["conformal", "inverse_distance"])
 def test_a_reference_that_carries_no_texture_is_reported_and_left_out(kind: str) -> None:
     """A crumpled or a collapsed M0: the answer is the uniform one, bit for bit."""
     uniform = fair_patch(CAP)

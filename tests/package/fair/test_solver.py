@@ -48,7 +48,6 @@ def dragged(patch: Patch, vertices: FloatArray, at: int, by: float) -> FloatArra
     [
         {},
         {"inner_fairness": "conformal"},
-        {"inner_fairness": "shape_preserving"},
         {"equation": "constant", "load": 2.0},
         {"equation": "soap_film"},
         {"equation": "minimal_energy"},
@@ -195,7 +194,6 @@ def test_one_call_at_a_time() -> None:
         {"equation": "minimal_energy"},
         {"equation": "soap_film"},
         {"inner_fairness": "conformal"},
-        {"inner_fairness": "shape_preserving"},
         {"method": "paper", "tolerance": 1e-6},
     ],
 )

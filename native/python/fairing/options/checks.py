@@ -98,7 +98,7 @@ def layout_within(layout: Layout, count: int) -> dict[str, Any]:
     if isinstance(layout.inner_fairness, str):
         found["inner_fairness"] = arguments.choice("inner_fairness", layout.inner_fairness, INNER_FAIRNESS)
     elif layout.inner_fairness is not None:
-        found["weights"] = _directed_weights(layout.inner_fairness, count)
+        found["weights"] = _edge_weights(layout.inner_fairness, count)
     return found
 
 
@@ -137,7 +137,7 @@ def callback(progress: Any) -> Any:
     return progress
 
 
-def _directed_weights(value: npt.ArrayLike, count: int) -> FloatArray:
+def _edge_weights(value: npt.ArrayLike, count: int) -> FloatArray:
     rows = arguments.floats("inner_fairness", value)
     ends = rows[:, :2]
     whole = (ends == np.floor(ends)) & (np.abs(ends) <= np.iinfo(np.int32).max)

@@ -140,9 +140,9 @@ class Layout:
     """How vertices lie within the surface, which stays the same."""
 
     inner_fairness: Any = None
-    """One of "uniform" | "conformal" | "inverse_distance" | "shape_preserving" | (e, 3) array | None, which is
-    "uniform" for :func:`fairing.fair` and "conformal" for calls that make vertices: How vertices sit within the surface
-    (§7.3); rows of the array: i, j, λ_ij ≥ 0, normalised for each i, one at least for each free i."""
+    """One of "uniform" | "conformal" | "inverse_distance" | (e, 3) array | None, which is "uniform" for
+    :func:`fairing.fair` and "conformal" for calls that make vertices: How vertices sit within the surface (§7.3); rows
+    of the array: i, j, λ_ij ≥ 0, the same for j, i. A pair may be listed again: its weights are added."""
 
     neighbours: npt.ArrayLike | None = None
     """(e, 2) int. Edges that uniform and inverse-distance weights use instead of the triangles' own (for quads and

@@ -175,8 +175,8 @@ class Solver:
     ) -> None:
         """Check and copy everything; nothing is solved yet. Raises what fairing.fair does for these arguments.
 
-        How many vertices there are is known at the first :meth:`solve` only: indices that are too large, and free
-        vertices without a row in ``inner_fairness``, are refused there. So is everything about connectivity where the
+        How many vertices there are is known at the first :meth:`solve` only: indices that are too large, and vertices
+        that ``inner_fairness`` ties to no fixed one, are refused there. So is everything about connectivity where the
         largest index is more than a hundred times the number of indices.
         """
         faces = arguments.integers("triangles", triangles, 3)
