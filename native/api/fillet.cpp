@@ -1,7 +1,6 @@
 #include "api/fillet.h"
 
 #include <map>
-#include <set>
 
 #include "api/prepared_fillet.h"
 #include "fillet/end_cuts.h"
@@ -16,35 +15,17 @@ namespace {
 constexpr double roundoff = 1e-9;   // of a triangle: places that near to its sides are on them
 constexpr double resolution = 0.5;  // of the spacing: how finely the line is sought
 
-Indices triangles_at(const LevelLine& line) {
-    std::set<int> found;
-    for (const LineSegment& segment : line.segments) found.insert(segment.triangle);
-    return {found.begin(), found.end()};
-}
-
-Indices triangles_at_walls(const SeamMesh& mesh, const SeamDistance& distance) {
-    std::set<int> found;
-    for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.twin[h] == none && distance.reaches(h / 3)) found.insert(h / 3);
-    }
-    return {found.begin(), found.end()};
-}
-
 }  // namespace
 
 LevelLine fillet_line(PreparedFillet& made) {
     const SeamMesh& mesh = made.mesh;
     const SeamDistance& distance = made.distance;
     const FilletInput& input = made.input;
-    SideNormals& sides = made.sides;
     const LevelLine found = level_line(mesh, distance, resolution * input.spacing, snap * input.spacing);
-    const Indices passed = triangles_at(found);
-    sides.find_at(passed);
-    LevelLine line = resampled(mesh, distance, found, input.spacing, sides);
+    LevelLine line = resampled(mesh, distance, found, input.spacing, made.sides);
     join_at_walls(mesh, distance, input.spacing, line);
     part_seams(mesh, distance, input.spacing, line);
-    sides.find_at(triangles_at_walls(mesh, distance));
-    part_walls(mesh, distance, sides, input.spacing, line);
+    part_walls(mesh, distance, made.sides, input.spacing, line);
     return line;
 }
 
@@ -76,13 +57,9 @@ std::vector<EndSide> ends_of(const SplitMesh& cut) {
     return ends;
 }
 
-void add_boundary(const SeamMesh& mesh, const Points& points, SideNormals& sides, FilletCut& result) {
-    const std::vector<EndSide> ends = ends_of(result.mesh);
-    std::set<int> parents;
-    for (const EndSide& end : ends) parents.insert(result.mesh.parent[end.piece]);
-    sides.find_at({parents.begin(), parents.end()});
+void add_boundary(const SeamMesh& mesh, const Points& points, const SideNormals& sides, FilletCut& result) {
     std::map<int, std::vector<std::pair<Vector3, double>>> seen;
-    for (const EndSide& end : ends) {
+    for (const EndSide& end : ends_of(result.mesh)) {
         const int parent = result.mesh.parent[end.piece];
         for (const int v : {end.from, end.to}) {
             const Vector3 weights = barycentric(mesh.points, mesh.triangles, parent, points.col(v));

@@ -125,6 +125,11 @@ PreparedFillet::PreparedFillet(const FilletInput& given)
       mesh(input.vertices, input.triangles, input.seams, input.walls),
       distance(directed_mesh(mesh, input.seams), input.widths, width_of(input, true) + input.spacing, input.through),
       sides(mesh, joined(input.seams, input.walls)),
-      least_width(width_of(input, false)) {}
+      least_width(width_of(input, false)) {
+    Indices near;
+    for (int t = 0; t < mesh.triangles.cols(); ++t)
+        if (distance.reaches(t)) near.push_back(t);
+    sides.find_at(near);
+}
 
 }  // namespace fairing

@@ -60,6 +60,7 @@ void bind_fillet(py::module_& module) {
              return on_wrong_side(vertices, triangles, edges, width, {before, after});
          });
     bind(module, "drawn_to", &drawn_to);
+    bind(module, "least_bent", &least_bent);
     // None where no rows fit.
     bind(
         module, "fillet_rows",

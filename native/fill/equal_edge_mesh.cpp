@@ -166,7 +166,7 @@ bool EqualEdgeMesh::may_collapse(Halfedge h) {
     if (static_cast<int>(mesh_.valence(gone) + mesh_.valence(kept)) - 4 > highest_valence) return false;
     if (!mesh_.is_collapse_ok(h)) return false;
     const Vector3 place = point(kept);
-    const Vector3 normal = surface_->normal(where_[kept.idx()]);
+    const Vector3 normal = surface_->normal(where_[gone.idx()]);  // an edge that stays has two sides
     for (const Halfedge spoke : mesh_.voh_range(gone)) {
         const Vertex other = mesh_.to_vertex_handle(spoke);
         const Vertex next = apex(spoke);

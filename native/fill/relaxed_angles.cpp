@@ -41,9 +41,11 @@ EqualEdgeMesh::Side EqualEdgeMesh::side_of(Halfedge h) const {
     const std::array around{h, mesh_.next_halfedge_handle(h), mesh_.prev_halfedge_handle(h)};
     Side side;
     side.normal.setZero();
+    const auto is_free = [&](Halfedge each) { return !fixed(mesh_.from_vertex_handle(each)); };
+    const bool any_free = std::ranges::any_of(around, is_free);  // they count alone: edges that stay have two sides
     for (std::size_t k = 0; k < 3; ++k) {
         const Vertex corner = mesh_.from_vertex_handle(around[k]);
-        side.normal += surface_->normal(where_[corner.idx()]);
+        if (!any_free || is_free(around[k])) side.normal += surface_->normal(where_[corner.idx()]);
         side.forced[k] = stays(mesh_.edge_handle(around[k])) && stays(mesh_.edge_handle(around[(k + 2) % 3]));
     }
     side.b = point(mesh_.to_vertex_handle(h));

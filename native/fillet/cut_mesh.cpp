@@ -57,7 +57,8 @@ private:
 
     void add_seams() {
         for (int h = 0; h < mesh_.half_edge_count(); ++h) {
-            if (mesh_.seam[h] == none || mesh_.tail(h) > mesh_.head(h)) continue;
+            const bool parts = mesh_.seam[h] != none || mesh_.twin[h] == none;
+            if (!parts || mesh_.tail(h) > mesh_.head(h)) continue;
             int from = mesh_.tail(h);
             for (const int p : points_on_[mesh_.edge[h]]) {
                 made_.seams.push_back({from, number_[p]});
@@ -161,9 +162,7 @@ private:
         std::vector<char> inside;
         for (const auto& [a, b, c] : pieces.triangles()) {
             const Vector2 at = (pieces.place(a) + pieces.place(b) + pieces.place(c)) / 3.0;
-            const double apex = mesh_.apex[3 * t][1] > 0.0 ? at[1] / mesh_.apex[3 * t][1] : 0.0;
-            const double head = (at[0] - apex * mesh_.apex[3 * t][0]) / mesh_.length[3 * t];
-            inside.push_back(distance_.value(t, {1.0 - apex - head, head, apex}) < 0.0 ? 1 : 0);
+            inside.push_back(distance_.value(t, mesh_.weights_at(3 * t, at)) < 0.0 ? 1 : 0);
         }
         return inside;
     }

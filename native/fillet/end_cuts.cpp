@@ -93,7 +93,6 @@ private:
     }
 
     Vector3 side_normal(int parent, const Vector3& place) {
-        sides_.find_at({parent});
         return sides_.normal(parent, barycentric(mesh_.points, mesh_.triangles, parent, place));
     }
 

@@ -15,6 +15,7 @@ using Pair = std::array<int, 2>;
 // Shares of the spacing.
 constexpr double tiny = 0.02;               // edges that short are closed
 constexpr double sliver = 0.1;              // lower triangles would stay as low between edges that stay
+constexpr double crushed = 0.1;             // of its area before: a triangle that loses more may lie on an edge
 constexpr double brief = 0.5;               // edges of seams that short are closed; the new mesh would be as fine
 constexpr std::size_t most_of_speck = 200;  // triangles
 
@@ -94,6 +95,19 @@ Indices merged(const std::vector<Pair>& lines, const Points& points, const std::
     return into;
 }
 
+// Whether triangles would lose nearly all of their area: their corners stay then.
+bool hold_crushed(const Triangles& triangles, const Points& points, const Indices& into, std::vector<char>& stays) {
+    bool any = false;
+    for (const auto t : triangles.colwise()) {
+        const Eigen::Vector3i to(into[t[0]], into[t[1]], into[t[2]]);
+        const Vector3 before = area_vector(points, t);
+        const bool gone = to[0] == to[1] || to[1] == to[2] || to[2] == to[0];
+        if (gone || !(area_vector(points, to).dot(before) < crushed * before.squaredNorm())) continue;
+        for (const int v : t) any = (into[v] != v && std::exchange(stays[v], 1) == 0) || any;
+    }
+    return any;
+}
+
 // Whether no side is there twice, and the boundary loops and Euler's number are still those of all triangles.
 bool is_like(const Triangles& closed, const Triangles& triangles, int count) {
     std::set<Pair> sides;
@@ -147,7 +161,10 @@ FirstMesh first_mesh(CutPieces cut, const VectorX& spacings) {
     for (const auto& ends : make_edges(first.triangles, count).ends)
         if ((cut.points.col(ends[0]) - cut.points.col(ends[1])).norm() < tiny * spacings[ends[0]]) all.push_back(ends);
     all.insert(all.end(), cut.seams.begin(), cut.seams.end());
-    const Indices into = merged(all, cut.points, stays, brief * spacings);
+    Indices into;
+    do {
+        into = merged(all, cut.points, stays, brief * spacings);
+    } while (hold_crushed(first.triangles, cut.points, into, stays));
     const Triangles moved = first.triangles.unaryExpr([&](int v) { return into[v]; });
     Indices rows;
     for (int t = 0; t < static_cast<int>(moved.cols()); ++t)

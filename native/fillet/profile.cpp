@@ -20,4 +20,13 @@ Points drawn_to(const Points& points, const Triangles& triangles, const Indices&
     return result;
 }
 
+Points least_bent(const Points& points, const Triangles& triangles, const Indices& fixed) {
+    Bending bending(points, triangles, fixed, VectorX::Ones(points.cols()));
+    const Indices& free = bending.free();
+    Points result = points;
+    if (free.empty() || !bending.factorise(VectorX::Zero(std::ssize(free)), "start", Progress())) return result;
+    result(Eigen::all, free) -= bending.solve(bending.force(points, true));
+    return result;
+}
+
 }  // namespace fairing

@@ -1,4 +1,4 @@
-// Sharper and flatter fillets.
+// Sharper and flatter fillets, and what they begin with.
 #pragma once
 
 #include "base/progress.h"
@@ -11,5 +11,9 @@ namespace fairing {
 // smoothed, further away it is met. Vertices without triangles keep their places. Throws SolverError.
 Points drawn_to(const Points& points, const Triangles& triangles, const Indices& fixed, const Points& target,
                 const VectorX& pull);
+
+// The surface of least ∫ |Δx|² (3 × n) over the mesh as it lies, with the slopes at `fixed` vertices: it rounds what is
+// broken, however sharply, without a fold. `points` where no system fits.
+Points least_bent(const Points& points, const Triangles& triangles, const Indices& fixed);
 
 }  // namespace fairing

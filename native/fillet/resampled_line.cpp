@@ -115,17 +115,7 @@ private:
     [[nodiscard]] Vector3 weights_in(int point, int triangle) const {
         const LinePoint& known = line_.points[point];
         if (known.triangle == triangle) return known.weights;
-        const int h = 3 * triangle;
-        const Vector3 x = (mesh_.points.col(mesh_.head(h)) - mesh_.points.col(mesh_.tail(h))) / mesh_.length[h];
-        const Vector3 offset = known.place - mesh_.points.col(mesh_.tail(h));
-        const double along = offset.dot(x);
-        return weights_at(h, {along, (offset - along * x).norm()});
-    }
-
-    [[nodiscard]] Vector3 weights_at(int h, const Vector2& place) const {
-        const double apex = mesh_.apex[h][1] > 0.0 ? place[1] / mesh_.apex[h][1] : 0.0;
-        const double head = (place[0] - apex * mesh_.apex[h][0]) / mesh_.length[h];
-        return {1.0 - apex - head, head, apex};
+        return barycentric(mesh_.points, mesh_.triangles, triangle, known.place);
     }
 
     // Moved square to the line until it is on it: chords are not where that is curved.
@@ -140,7 +130,7 @@ private:
         for (int step = 0; step < most_steps; ++step) {
             const double value = distance_.value(triangle, weights);
             if (!std::isfinite(value)) break;
-            const Vector3 moved = weights_at(h, mesh_.in_frame(h, weights) + value * inward);
+            const Vector3 moved = mesh_.weights_at(h, mesh_.in_frame(h, weights) + value * inward);
             if (!(moved.minCoeff() > 0.0)) break;
             weights = moved;
         }

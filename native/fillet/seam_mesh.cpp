@@ -96,6 +96,12 @@ Vector2 SeamMesh::in_frame(int h, const Vector3& weights) const {
     return {weights[(k + 1) % 3] * length[h] + weights[(k + 2) % 3] * apex[h][0], weights[(k + 2) % 3] * apex[h][1]};
 }
 
+Vector3 SeamMesh::weights_at(int h, const Vector2& in_frame) const {
+    const double up = apex[h][1] > 0.0 ? in_frame[1] / apex[h][1] : 0.0;
+    const double along = (in_frame[0] - up * apex[h][0]) / length[h];
+    return {1.0 - up - along, along, up};
+}
+
 Vector3 SeamMesh::place(int triangle, const Vector3& weights) const {
     return points.col(triangles(0, triangle)) * weights[0] + points.col(triangles(1, triangle)) * weights[1] +
            points.col(triangles(2, triangle)) * weights[2];

@@ -53,6 +53,7 @@ struct SeamMesh {
     [[nodiscard]] UnionFind parts() const;
     // In the frame of half-edge h: the place with these barycentric weights in its triangle.
     [[nodiscard]] Vector2 in_frame(int h, const Vector3& weights) const;
+    [[nodiscard]] Vector3 weights_at(int h, const Vector2& in_frame) const;  // for h the first of its triangle
     [[nodiscard]] Vector3 place(int triangle, const Vector3& weights) const;
 
 private:

@@ -8,27 +8,6 @@ namespace {
 
 constexpr double equal_areas = 1e-9;  // relative: parts that a rotation turns into each other, but for roundoff
 
-int root(Indices& parent, int k) {
-    while (parent[k] != k) k = parent[k] = parent[parent[k]];
-    return k;
-}
-
-// Of the part that each triangle is in.
-std::vector<double> part_areas(const SeamMesh& mesh) {
-    Indices part(mesh.triangles.cols());
-    std::iota(part.begin(), part.end(), 0);
-    for (int h = 0; h < mesh.half_edge_count(); ++h) {
-        if (mesh.twin[h] != none && mesh.seam[h] == none) part[root(part, h / 3)] = root(part, mesh.twin[h] / 3);
-    }
-    std::vector<double> sum(part.size(), 0.0);
-    for (int t = 0; t < static_cast<int>(part.size()); ++t)
-        sum[root(part, t)] += 0.5 * mesh.length[3 * t] * mesh.apex[3 * t][1];
-    std::vector<double> area;
-    area.reserve(part.size());
-    for (int t = 0; t < static_cast<int>(part.size()); ++t) area.push_back(sum[root(part, t)]);
-    return area;
-}
-
 // Turns seams that no part decides on so that chains of them run on.
 void run_on(std::vector<VertexPair>& seams, std::vector<char>& settled) {
     std::multimap<int, int> at;
@@ -62,13 +41,15 @@ void run_on(std::vector<VertexPair>& seams, std::vector<char>& settled) {
 }  // namespace
 
 std::vector<VertexPair> directed(const SeamMesh& mesh, const std::vector<VertexPair>& seams) {
-    const std::vector<double> area = part_areas(mesh);
+    UnionFind parts = mesh.parts();
+    std::vector<double> area(static_cast<std::size_t>(mesh.triangles.cols()), 0.0);  // of each part, at its root
+    for (int t = 0; t < std::ssize(area); ++t) area[parts.root(t)] += 0.5 * mesh.length[3 * t] * mesh.apex[3 * t][1];
     std::vector<VertexPair> result = seams;
     std::vector<char> settled(seams.size(), 0);
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || mesh.left[h] == 0 || mesh.twin[h] == none) continue;
-        const double here = area[h / 3];
-        const double there = area[mesh.twin[h] / 3];
+        const double here = area[parts.root(h / 3)];
+        const double there = area[parts.root(mesh.twin[h] / 3)];
         if (std::abs(here - there) <= equal_areas * (here + there)) continue;
         VertexPair& pair = result[mesh.seam[h]];
         settled[mesh.seam[h]] = 1;

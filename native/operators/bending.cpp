@@ -69,8 +69,11 @@ bool Bending::factorise(const VectorX& factors, const char* what, const Progress
     return factor_.factorise(SparseMatrix(system.triangularView<Eigen::Lower>()), what, progress);
 }
 
-Points Bending::force(const Points& x) const {
-    const Eigen::MatrixXd curvature = rows_.asDiagonal() * (whole_ * x.transpose());
+Points Bending::force(const Points& x, bool slopes_stay) const {
+    Eigen::MatrixXd curvature = rows_.asDiagonal() * (whole_ * x.transpose());
+    VectorX counted = VectorX::Constant(x.cols(), slopes_stay ? 0.0 : 1.0);
+    counted(free_).setOnes();
+    curvature = counted.asDiagonal() * curvature;
     return (columns_.transpose() * curvature).transpose();
 }
 

@@ -26,8 +26,9 @@ public:
     // definite.
     [[nodiscard]] bool factorise(const VectorX& factors, const char* what, const Progress& progress);
     [[nodiscard]] Points solve(const Points& rhs) const { return factor_.solve_points(rhs); }
-    // (Lᵀ W A⁻¹ L x) at the free vertices (3 × free count) of x (3 × n).
-    [[nodiscard]] Points force(const Points& x) const;
+    // (Lᵀ W A⁻¹ L x) at the free vertices (3 × free count) of x (3 × n), less what the slopes of x over the boundary
+    // bring if they stay.
+    [[nodiscard]] Points force(const Points& x, bool slopes_stay = false) const;
 
 private:
     Indices free_;

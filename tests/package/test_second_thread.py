@@ -51,6 +51,7 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "hole_loops": (POINTS, FACES, None),
     "interpolate": (POINTS, FACES, FIXED, FLAT),
     "judged": (POINTS, TOP, RIM, LINE, LINE, POINTS, TOP, NONE, NO_EDGES, False, None),
+    "least_bent": (POINTS, FACES, FIXED),
     "mean_curvature": (POINTS, FACES, None, None, "fitted"),
     "mend_outline": (POINTS, RIM, LINE),
     "mesh_levels": (POINTS, FACES, None, 0),

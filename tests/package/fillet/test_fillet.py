@@ -10,6 +10,7 @@ import fairing
 import measures
 import solids
 import wedges
+from fairing import _core
 from grids import halves, numbered
 from measures import with_new
 from wedges import FloatArray, IntArray
@@ -28,7 +29,7 @@ def areas(vertices: FloatArray, triangles: IntArray) -> FloatArray:
 
 
 @pytest.mark.parametrize("rows", [1, 7])
-@pytest.mark.parametrize("degrees", [60, 90, 120, 150])
+@pytest.mark.parametrize("degrees", [30, 40, 60, 90, 120, 150])
 def test_between_planes_it_is_the_arc_that_touches_both(degrees: float, rows: int) -> None:
     vertices, triangles, seam = wedges.wedge(degrees, rows=rows)
     result = fairing.fillet(vertices, triangles, seam, width=WIDTH)
@@ -136,7 +137,6 @@ def test_pieces_outside_stay_in_their_planes_and_all_else_stays() -> None:
 
 def test_widths_differ_on_both_sides() -> None:
     vertices, triangles, seam = wedges.wedge(90, rows=3)
-    vertices = vertices * [1.0, 1.0, 1.0]
     vertices[vertices[:, 0] < 0] *= [1.4, 1.4, 1.0]  # the left side becomes the larger one
     result = fairing.fillet(vertices, triangles, seam, width=0.4, width_2=0.2)
     points = np.concatenate([vertices, result.vertices])
@@ -332,46 +332,37 @@ def is_round(vertices: FloatArray, triangles: IntArray, result: fairing.results.
     assert fairing.boundary_loops(faces) == []
 
 
-def test_a_triangle_without_area_in_a_seam_is_got_over() -> None:
-    """As booleans leave them: the seam has a vertex on one side only, and so a triangle without area in it."""
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_what_booleans_leave_in_a_seam_is_got_over(count: int) -> None:
+    """Edges without length, whose points of the line lie in one place and seemed to be before each other for ever; or a
+    vertex on one side only, and so a triangle without area in the seam."""
     vertices, triangles = solids.box(2)
-    edge = measures.edges(triangles)
+    edge, one_sided = measures.edges(triangles), count == 1
     along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
     a, b = along[0].tolist()
-    beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))
-    more = np.concatenate([vertices, [0.5 * (vertices[a] + vertices[b])]])
-    new = len(vertices)
-    t = triangles[beside[0]]
-    k = int(next(k for k in range(3) if {int(t[k]), int(t[(k + 1) % 3])} == {a, b}))
-    u, v, apex = int(t[k]), int(t[(k + 1) % 3]), int(t[(k + 2) % 3])
-    cut = np.concatenate([np.delete(triangles, beside[0], axis=0), [[u, new, apex], [new, v, apex], [u, v, new]]])
-    seam = np.concatenate([along, [[a, new], [new, b]]])
-    result = fairing.fillet(more, cut, seam, width=0.2)
-    is_round(more, cut, result)
-
-
-@pytest.mark.parametrize("count", [2, 3])
-def test_edges_without_length_in_a_seam_are_got_over(count: int) -> None:
-    """As booleans leave them. Points of the line lie in one place, and seemed to be before each other for ever."""
-    vertices, triangles = solids.box(2)
-    edge = measures.edges(triangles)
-    along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
-    a, b = along[0].tolist()
-    doubled = list(range(len(vertices), len(vertices) + count))
-    place = vertices[a] + 0.3 * (vertices[b] - vertices[a])
-    more = np.concatenate([vertices, [place] * count])
-    beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))
+    chain = [a, *range(len(vertices), len(vertices) + count), b]
+    more = np.concatenate([vertices, [vertices[a] + 0.3 * (vertices[b] - vertices[a])] * count])
+    beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))[: 1 if one_sided else 2]
     parts = []
-    for t in triangles[beside]:
-        apex = next(int(v) for v in t if v not in (a, b))
-        chain = [a, *doubled, b]
-        if t.tolist()[t.tolist().index(a) - 2] != b:
-            chain.reverse()
-        parts += [[u, v, apex] for u, v in pairwise(chain)]
+    for t in triangles[beside].tolist():
+        apex = next(v for v in t if v not in (a, b))
+        ordered = chain if t[t.index(a) - 2] == b else chain[::-1]
+        parts += [[u, v, apex] for u, v in pairwise(ordered)]
+        parts += [[ordered[0], ordered[2], ordered[1]]] if one_sided else []
     cut = np.concatenate([np.delete(triangles, beside, axis=0), parts])
-    seam = np.concatenate([along[1:], list(pairwise([a, *doubled, b]))])
-    result = fairing.fillet(more, cut, seam, width=0.2)
-    is_round(more, cut, result)
+    seam = np.concatenate([along[0 if one_sided else 1 :], list(pairwise(chain))])
+    is_round(more, cut, fairing.fillet(more, cut, seam, width=0.2))
+
+
+def test_a_short_edge_of_a_seam_is_not_closed_where_a_triangle_would_lie_on_the_seam() -> None:
+    points = np.array([(-0.2, -0.2), (0, 0), (1, 0), (2, 0), (1, 2), (1, -2), (-2, 0)])
+    points = np.column_stack([points, np.zeros(7)])
+    triangles = np.array(
+        [(0, 1, 4), (1, 2, 4), (2, 3, 4), (0, 4, 6), (6, 5, 0), (0, 2, 1), (0, 3, 2), (0, 5, 3)], dtype=np.int32
+    )
+    _, _, made, _ = _core.first_mesh(points, triangles, [1] * 8, [(1, 0), (1, 2), (2, 3)], np.ones(7))
+    assert len(made) == 6
+    assert areas(points, made).min() > 0.05
 
 
 def test_errors_name_vertices_of_the_mesh_given(monkeypatch: pytest.MonkeyPatch) -> None:

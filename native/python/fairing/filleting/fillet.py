@@ -181,13 +181,10 @@ def fillet(
         As for :func:`fairing.fair`.
     """
     given = options_of(options, named, progress).chosen | ({"threads": threads} if threads else {})
-    points = arguments.floats("vertices", vertices)
-    corners = arguments.triangles_within(triangles, len(points))
-    check_finite(points, corners)
+    mesh, ends, room = _checked(vertices, triangles, seam, walls)
+    points, seams = mesh.points, mesh.seams
     wants_rows = arguments.choice("faces", faces, FACES) == "quads"
     counted = None if neighbours is None else arguments.vertices_of("neighbours", neighbours, len(points), 2)
-    seams, ends = seams_and_walls(points, corners, seam, walls)
-    room = _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
     both = _widths((width, width_2), seams, room[0], len(points))
     length = _spacing(spacing, both, seams)
     _refuse_large(points, seams, both, length, max_vertices)
@@ -197,7 +194,6 @@ def fillet(
     watch = Watch(progress)
     finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
     wishes = Wishes(finer, shape, both, ends, given, watch, wants_rows)
-    mesh = Given(points, corners, seams)
     widest = room[1].copy() if clamp else np.full(len(points), np.inf)
     for _ in range(_ROUNDS):
         wishes = _tapered(mesh, wishes, widest)
@@ -205,7 +201,7 @@ def fillet(
         bad: list[tuple[IntArray, Any]] = [part[:2] for part in cut["eaten"] if not part[2]]
         what = "nothing would be left of a part between seams"
         if not bad:
-            refuse_vertices_on_edges(points, corners, cut["parent"])
+            refuse_vertices_on_edges(points, mesh.triangles, cut["parent"])
             watch.lap("cut")
             try:
                 made = solved(mesh, cut, wishes)
@@ -240,11 +236,16 @@ def fillet_width(
     A side is the way square to a seam, straight on over the surface to the next seam, wall or border. A tenth of the
     seams, by their length, may have shorter ones. Arguments as for :func:`fairing.fillet`.
     """
+    return float(_checked(vertices, triangles, seam, walls)[2][0])
+
+
+def _checked(vertices: Any, triangles: Any, seam: Any, walls: Any) -> tuple[Given, IntArray, Any]:
+    """The mesh with its seams, the walls, and the room beside the seams."""
     points = arguments.floats("vertices", vertices)
     corners = arguments.triangles_within(triangles, len(points))
     check_finite(points, corners)
     seams, ends = seams_and_walls(points, corners, seam, walls)
-    return float(_core.seam_room(points, corners, (seams.tolist(), ends.tolist()))[0])
+    return Given(points, corners, seams), ends, _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
 
 
 def _widths(given: tuple[Any, Any], seams: IntArray, usual: float, count: int) -> tuple[FloatArray, FloatArray]:

@@ -51,7 +51,6 @@ class Made:
     """A surface's mesh. Numbers: the caller's n vertices, the line's points, new ones."""
 
     cut: dict[str, Any]
-    inside: Mask
     triangles: IntArray
     vertices: FloatArray
     """(n + l + k, 3)"""
@@ -82,7 +81,8 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
     chosen = dict(wishes.options)
     if chosen.get("continuity", "G1") == "G2":
         chosen["fixed_curvatures"] = cut["curvatures"][rim]
-    report = new.faired(chosen, watch.part(0.4, 1.0))
+    begun = _core.least_bent(new.vertices, new.triangles, patch.fixed)
+    report = replace(new, vertices=begun).faired(chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
     old, weights = _origins(cut, origin, pieces, count)
     values = report_fields(report, count)
@@ -99,14 +99,12 @@ def solved(given: Given, cut: dict[str, Any], wishes: Wishes) -> Made:
         if warning.code != "SHARP_BOUNDARY" or not len(cut["corners"])  # two sides of a seam meet there
     )  # fmt: skip
     fair = Patch(vertices, new.triangles, patch.fixed, patch.normals)
-    return Made(
-        cut, inside, new.triangles, vertices, fair, old, weights, seam_points, values
-    )  # fmt: skip
+    return Made(cut, new.triangles, vertices, fair, old, weights, seam_points, values)
 
 
 def result_of(given: Given, made: Made, wishes: Wishes) -> FilletResult:
     """With the pieces outside, and without vertices that are in none of the triangles."""
-    count, cut, inside = len(given.points), made.cut, made.inside
+    count, cut, inside = len(given.points), made.cut, made.cut["inside"]
     gone = _is_gone(cut, inside, given.triangles)
     kept = np.flatnonzero(~inside & gone[cut["parent"]])
     parents = np.concatenate([cut["parent"][kept], _under(made.triangles, made.old, count, made.on_seam)])
@@ -208,7 +206,7 @@ def in_rows(
     rows = _core.fillet_rows(
         given.points, given.triangles, (given.seams.tolist(), wishes.walls.tolist()), wishes.widths,
         (wishes.spacing, spacing), None if counted is None else counted.tolist(),
-        (made.vertices, made.triangles, fixed, normals, before, made.inside.tolist()), progress,
+        (made.vertices, made.triangles, fixed, normals, before, made.cut["inside"].tolist()), progress,
     )  # fmt: skip
     if rows is None:
         return None
@@ -223,7 +221,7 @@ def in_rows(
         "warnings": tuple(_moved(warning, made, vertices, triangles) for warning in made.values["warnings"]),
     }  # fmt: skip
     rowed = replace(
-        made, cut={**rows["cut"], "eaten": made.cut["eaten"]}, inside=rows["cut"]["inside"], triangles=triangles,
+        made, cut={**rows["cut"], "eaten": made.cut["eaten"]}, triangles=triangles,
         vertices=vertices, patch=Patch(vertices, triangles, values["fixed"], None),
         old=np.concatenate([made.old, rows["given"]]).astype(np.int32),
         weights=np.concatenate([made.weights, rows["on_given"]]),
