@@ -88,9 +88,8 @@ Solution with_pins(Solution solution, Pins pins) {
     return solution;
 }
 
-bool is_of_fourth_order(const Problem& problem, const Solution& solution) {
-    const Equation equation = problem.options.equation;
-    return equation != Equation::soap_film && equation != Equation::least_variation && !stands_in(solution.provenance);
+bool is_of_fourth_order(const Problem& problem) {
+    return problem.options.equation != Equation::soap_film && problem.options.equation != Equation::least_variation;
 }
 
 bool are_close(const Problem& problem, const Indices& pins, double distance) {
@@ -146,53 +145,55 @@ Solution try_directly(const Problem& problem, const Progress& progress) {
 
 Indices pins_to_spread(const Problem& problem) {
     Indices pins = isolated_pins(problem.patch);
-    if (static_cast<Eigen::Index>(pins.size()) == problem.fixed_points.cols()) pins.clear();
+    if (!is_of_fourth_order(problem) || static_cast<Eigen::Index>(pins.size()) == problem.fixed_points.cols())
+        return {};
     return pins;
 }
 
-std::optional<Solution> lift_pins(const Problem& problem, double radius, std::optional<Points> guess,
-                                  const Progress& progress) {
+std::optional<Solution> lift_pins(const Problem& problem, double radius, const Progress& progress) {
+    const Stopwatch watch;
     const Released free = released(problem.patch, isolated_pins(problem.patch));
     const Solution without = solve_equation_alone(on_released(problem, free), progress.range(0.0, 0.5));
     if (end_of(without) != Termination::converged) return std::nullopt;
     const Points start = without.points(Eigen::all, free.to);
     Solution found = spread_from(problem, radius, start, progress.range(0.5, 0.6));
     if (found.flaw != Flaw::absent) {
-        auto led = lead_pins(problem, radius, {start, std::move(guess)}, progress.range(0.6, 1.0));
+        auto led = lead_pins(problem, radius, start, progress.range(0.6, 1.0));
         if (!led) return std::nullopt;
         found = judged(problem, std::move(*led));
         if (found.flaw != Flaw::absent) return std::nullopt;
     }
     found.initial_residual = without.initial_residual;
     found.seconds = without.seconds;
+    found.strategies = {{"lifted pins", watch.seconds()}};
     return found;
 }
 
 Solution with_spread_pins(const Problem& problem, double radius, Solution sharp, const Progress& progress) {
-    if (!(radius > 0.0) || !is_of_fourth_order(problem, sharp) || sharp.pins == Pins::spread) return sharp;
-    const Indices all = isolated_pins(problem.patch);
-    if (all.empty()) return sharp;
+    const bool is_asked = radius > 0.0 && is_of_fourth_order(problem) && !stands_in(sharp.provenance);
+    if (!is_asked || sharp.pins == Pins::spread || isolated_pins(problem.patch).empty()) return sharp;
     if (end_of(sharp) != Termination::converged) return with_pins(std::move(sharp), Pins::no_surface);
     const Indices pins = pins_to_spread(problem);
     if (pins.empty()) return with_pins(std::move(sharp), Pins::no_boundary);
     const Stopwatch watch;
-    Solution found = spread_from(problem, radius, sharp.points, progress);
-    if (found.flaw != Flaw::absent) {
-        if (auto other = lift_pins(problem, radius, sharp.points, progress)) found = std::move(*other);
+    std::optional<Solution> found = spread_from(problem, radius, sharp.points, progress);
+    if (found->flaw != Flaw::absent) {
+        const bool is_tried = sharp.pins == Pins::not_found;
+        found = is_tried ? std::nullopt : lift_pins(problem, radius, progress);
     }
     const double seconds = watch.seconds();
     sharp.seconds["pins"] = seconds;
     sharp.strategies.push_back({"pins", seconds});
-    if (found.flaw != Flaw::absent) {
+    if (!found) {
         const bool close = are_close(problem, pins, 2.0 * radius);
         return with_pins(std::move(sharp), close ? Pins::too_close : Pins::not_found);
     }
-    found.initial_residual = sharp.initial_residual;
-    found.levels = sharp.levels;
-    found.seconds = sharp.seconds;
-    found.strategies = sharp.strategies;
-    found.uniform_weights = sharp.uniform_weights;
-    return found;
+    found->initial_residual = sharp.initial_residual;
+    found->levels = sharp.levels;
+    found->seconds = sharp.seconds;
+    found->strategies = sharp.strategies;
+    found->uniform_weights = sharp.uniform_weights;
+    return std::move(*found);
 }
 
 }  // namespace fairing

@@ -56,7 +56,7 @@ bool has_little_chance(const Traits& traits) {
     return traits.has_old_shape && traits.is_jagged && traits.poor_share_of_membrane() > most_poor;
 }
 
-std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, bool lifts_pins) {
+std::vector<Step> equation_steps(const Problem& problem, const Traits& traits) {
     if (problem.options.equation == Equation::soap_film) return {Step::direct};
     if (problem.options.equation == Equation::least_variation) return {Step::least_variation};
     std::vector<Step> steps{traits.has_levels ? Step::levels : Step::direct};
@@ -68,7 +68,6 @@ std::vector<Step> equation_steps(const Problem& problem, const Traits& traits, b
     }
     if (!is_uniform(problem.weights)) steps.push_back(Step::uniform_weights);
     if (traits.is_jagged && !traits.has_old_shape) steps.push_back(Step::low_passed);
-    if (lifts_pins) steps.push_back(Step::lifted_pins);
     return steps;
 }
 
@@ -130,7 +129,6 @@ const char* name_of(Step step) {
         case Step::proxy_mesh: return "proxy mesh";
         case Step::uniform_weights: return "uniform weights";
         case Step::low_passed: return "low-passed";
-        case Step::lifted_pins: return "lifted pins";
         case Step::least_variation: return "least variation";
         case Step::old_shape: return "old shape";
         case Step::loft: return "loft";
@@ -141,8 +139,8 @@ const char* name_of(Step step) {
 
 std::string text_of(const Plan& plan) { return text_of(plan.equation) + " | " + text_of(plan.stand_ins); }
 
-Plan plan_for(const Problem& problem, const Traits& traits, bool lifts_pins) {
-    return {equation_steps(problem, traits, lifts_pins), stand_ins(problem, traits)};
+Plan plan_for(const Problem& problem, const Traits& traits) {
+    return {equation_steps(problem, traits), stand_ins(problem, traits)};
 }
 
 }  // namespace fairing

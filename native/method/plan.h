@@ -52,7 +52,6 @@ enum class Step {
     proxy_mesh,       // on a mesh of the engine's own, the vertices projected onto it (method/proxy_surface)
     uniform_weights,  // all of these with uniform weights, where the problem's turn triangles over
     low_passed,       // on a mesh of the engine's own between loops without their short waves (method/proxy_surface)
-    lifted_pins,      // the surface without pins, lifted to pins that have a radius (method/direct)
     // What stands in for it.
     least_variation,  // the surface of least variation, also as the equation asked for
     old_shape,        // the shape before, as smooth as it can be (stand_in/stand_in)
@@ -73,7 +72,6 @@ struct Plan {
 // "direct, proxy mesh | least variation".
 std::string text_of(const Plan& plan);
 
-// `lifts_pins`: isolated pins may have a radius.
-Plan plan_for(const Problem& problem, const Traits& traits, bool lifts_pins);
+Plan plan_for(const Problem& problem, const Traits& traits);
 
 }  // namespace fairing

@@ -69,12 +69,14 @@ bool has_run_out(const Problem& problem, const Solution& solution) {
 
 class PlanRun {
 public:
-    PlanRun(const Problem& problem, double pin_radius, const Progress& progress)
-        : problem_(problem),
-          pin_radius_(pin_radius),
-          progress_(progress),
-          traits_(problem),
-          plan_(plan_for(problem, traits_, pin_radius > 0.0 && !pins_to_spread(problem).empty())) {}
+    PlanRun(const Problem& problem, const Progress& progress)
+        : problem_(problem), progress_(progress), traits_(problem), plan_(plan_for(problem, traits_)) {}
+
+    // Between the loops as they are.
+    Solution alone() {
+        std::erase(plan_.equation, Step::low_passed);
+        return equation();
+    }
 
     Solution equation() {
         for (const Step step : plan_.equation) {
@@ -138,7 +140,6 @@ private:
             case Step::proxy_mesh: return solve_on_proxy_mesh(problem_, traits_, attempts_, progress);
             case Step::uniform_weights: return solve_uniform_weights(problem_, progress);
             case Step::low_passed: return solve_low_passed(problem_, traits_, attempts_, progress);
-            case Step::lifted_pins: return lift_pins(problem_, pin_radius_, std::nullopt, progress);
             case Step::least_variation:
                 if (problem_.options.equation == Equation::least_variation)
                     return solve_least_variation(problem_, progress);
@@ -169,10 +170,9 @@ private:
     }
 
     const Problem& problem_;
-    const double pin_radius_;
     const Progress& progress_;
     const Traits traits_;
-    const Plan plan_;
+    Plan plan_;
     Attempts attempts_;
 };
 
@@ -210,8 +210,15 @@ Found alone(const Problem& problem, const Progress& progress) {
 }  // namespace
 
 Solution solve(const Problem& problem, double pin_radius, const Progress& progress) {
-    PlanRun run(problem, pin_radius, progress);
-    return run.stand_in(run.equation());
+    const bool is_lifted = pin_radius > 0.0 && !pins_to_spread(problem).empty();
+    if (is_lifted) {
+        if (Found lifted = lift_pins(problem, pin_radius, progress.range(0.0, 0.5))) return std::move(*lifted);
+    }
+    const Progress rest = progress.range(is_lifted ? 0.5 : 0.0, 1.0);
+    PlanRun run(problem, rest);
+    Solution solution = run.stand_in(run.equation());
+    if (is_lifted && !stands_in(solution.provenance)) solution.pins = Pins::not_found;
+    return solution;
 }
 
 Solution solve_automatically(Problem& problem, double pin_radius, const Near& near, const Progress& progress) {
@@ -221,7 +228,7 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Near& ne
     if (!traits.is_tube || !traits.is_between_tubes)
         return begun ? std::move(*begun) : solve(problem, pin_radius, rest);
     const Progress beginning = rest.range(0.0, 0.4);
-    PlanRun harmonic(problem, pin_radius, beginning);
+    PlanRun harmonic(problem, beginning);
     Solution first = begun ? std::move(*begun) : harmonic.equation();
     Solution best = first;
     double least = lost_girth(problem, best);
@@ -248,7 +255,7 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Near& ne
 }
 
 Solution solve_equation_alone(const Problem& problem, const Progress& progress) {
-    return PlanRun(problem, 0.0, progress).equation();
+    return PlanRun(problem, progress).alone();
 }
 
 std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, const Progress& progress,

@@ -23,7 +23,7 @@ Solution solve(const Problem& problem, double pin_radius, const Progress& progre
 using Near = std::function<std::optional<Solution>(const Problem&, const Progress&)>;
 Solution solve_automatically(Problem& problem, double pin_radius, const Near& near, const Progress& progress);
 
-// The equation alone: nothing stands in.
+// The equation alone, between the loops as they are: nothing stands in.
 Solution solve_equation_alone(const Problem& problem, const Progress& progress);
 
 // One surface of those that stand in, at once. Nothing where it is not accepted. `near`: 3 × local vertices where the

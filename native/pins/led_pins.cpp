@@ -18,14 +18,13 @@ constexpr double edge_of_radius = 0.35;  // so that bells have three edges to fa
 
 class LedPins {
 public:
-    LedPins(const Problem& problem, double radius, const LedStart& start, const Progress& progress)
+    LedPins(const Problem& problem, double radius, const Points& start, const Progress& progress)
         : problem_(problem),
           radius_(radius),
-          start_(start.points),
-          guess_(start.guess),
+          start_(start),
           progress_(progress),
           pins_(isolated_pins(problem.patch)),
-          mesh_(problem.patch, start.points),
+          mesh_(problem.patch, start),
           sizing_(fine_sizing(problem.patch.free_count)) {
         sizing_.longest = std::min(sizing_.longest, edge_of_radius * radius);
     }
@@ -89,7 +88,7 @@ private:
         const TargetSurface target(mesh.patch, mesh.points, normals);
         const auto tangential =
             make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        const Projected best = place(problem_, *tangential, {mesh_, mesh, target}, guess_);
+        const Projected best = place(problem_, *tangential, {mesh_, mesh, target}, std::nullopt);
         Solution result = solution;
         result.polished = false;
         result.points = best.placement.points;
@@ -103,7 +102,6 @@ private:
     const Problem& problem_;
     double radius_;
     const Points& start_;
-    const std::optional<Points>& guess_;
     const Progress& progress_;
     Indices pins_;
     ProxyMesh mesh_;
@@ -113,7 +111,7 @@ private:
 
 }  // namespace
 
-std::optional<Solution> lead_pins(const Problem& problem, double radius, const LedStart& start,
+std::optional<Solution> lead_pins(const Problem& problem, double radius, const Points& start,
                                   const Progress& progress) {
     return LedPins(problem, radius, start, progress).run();
 }

@@ -7,16 +7,10 @@
 
 namespace fairing {
 
-struct LedStart {
-    Points points;                // of the surface without pins, 3 × local vertices
-    std::optional<Points> guess;  // of one with the pins, from which the caller's vertices are projected
-};
-
-// As pins/spread_pins from the surface without pins, for pins so far from it that one
+// As pins/spread_pins from the surface without pins (`start`, 3 × local vertices), for pins so far from it that one
 // iteration does not find the way, or that the vertices around them fold. The pins move in steps, and the mesh is made
 // anew between them. Then the caller's vertices are projected onto the surface. Not judged yet; nothing where a step is
 // not found however short.
-std::optional<Solution> lead_pins(const Problem& problem, double radius, const LedStart& start,
-                                  const Progress& progress);
+std::optional<Solution> lead_pins(const Problem& problem, double radius, const Points& start, const Progress& progress);
 
 }  // namespace fairing
