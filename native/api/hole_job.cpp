@@ -178,10 +178,19 @@ FilledHole HoleJob::filled(const Progress& progress) const {
     const SolverOptions& solver = options_.fair.solver;
     const bool may_differ =
         !options_.bridge && solver.otherwise != Otherwise::stop && solver.equation != Equation::soap_film;
-    std::optional<SolvedHole> made = surface(may_differ, progress.range(0.0, 0.9));
+    const double flat = flat_count();
+    Limit::of(flat, options_.max_vertices)
+        .check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), vertices_of(hole_));
+    if (const auto made = from_fan(progress.range(0.0, 0.1)))
+        return timed(finished(coarser(*made, progress.range(0.9, 1.0)), split_));
+    const NewSurface first = first_over(loops_, split_, taken(), first_equation(options_), progress.range(0.1, 0.2));
+    // Where none was found on a small mesh and another kind may close the hole, a fine one takes most of the time in
+    // vain.
+    std::optional<SolvedHole> made;
+    if (first.converged || !may_differ) made = surface(first, progress.range(0.2, 0.9));
     if (may_differ && !(made && is_usable(made->report))) {
         if (auto other = film(progress.range(0.9, 0.95))) return timed(std::move(*other));
-        if (!made) made = surface(false, progress.range(0.95, 1.0));
+        if (!made) made = surface(first, progress.range(0.95, 1.0));
     }
     return timed(finished(std::move(*made), split_));
 }
@@ -304,40 +313,25 @@ std::optional<FilledHole> HoleJob::film(const Progress& progress) const {
     return made;
 }
 
-// Nothing where none was found on a small mesh and another kind may close the hole: a fine mesh takes most of the time
-// there, in vain.
-std::optional<SolvedHole> HoleJob::surface(bool may_differ, const Progress& progress) const {
+SolvedHole HoleJob::surface(const NewSurface& first, const Progress& progress) const {
     const SolverOptions& solver = options_.fair.solver;
-    const double flat = flat_count();
-    const Limit most = Limit::of(flat, options_.max_vertices);
-    const Indices boundary = vertices_of(hole_);
-    most.check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), boundary);
-    if (const auto made = from_fan(progress.range(0.0, 0.1))) return coarser(*made, progress.range(0.9, 1.0));
-    Stopwatch watch;
-    const VertexPairs outer = taken();
-    const NewSurface first = first_over(loops_, split_, outer, first_equation(options_), progress.range(0.1, 0.2));
-    if (may_differ && !first.converged) return std::nullopt;
-    const double first_seconds = watch.lap();
-    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals(), outer};
+    HolePatch patch{joined(split_.parted, first.vertices), first.triangles, split_.fixed(), normals(), taken()};
     if (solver.equation == Equation::soap_film) patch.normals = std::nullopt;
     WantedLengths wanted{options_.spacing, 0, options_.spread};
     const double count = expected_remesh_count(patch.input({}), wanted);
-    most.check(count, boundary, first.converged);
+    Limit::of(flat_count(), options_.max_vertices).check(count, vertices_of(hole_), first.converged);
     const bool is_coarse = count < 0.9 * solved_count;
     wanted.least_count = solved_count;
     const Otherwise otherwise = first.converged ? solver.otherwise : Otherwise::stop;  // it was sought in vain once
+    const Progress last = progress.range(0.9, 1.0);
     SolvedHole made = on_mesh(patch, wanted, start_after(first.provenance, solver), otherwise,
-                              progress.range(0.2, is_coarse ? 0.9 : 1.0));
+                              progress.range(0.0, is_coarse ? 0.9 : 1.0));
     if (options_.in_rows) {
-        const auto again = [&](const HolePatch& rows) {
-            return solved(rows, Start::given, Otherwise::stop, progress.range(0.9, 1.0));
-        };
-        made = fairing::in_rows(std::move(made), static_cast<int>(loops_.size()), split_.count(), again,
-                                progress.range(0.9, 1.0));
+        const auto again = [&](const HolePatch& rows) { return solved(rows, Start::given, Otherwise::stop, last); };
+        made = fairing::in_rows(std::move(made), static_cast<int>(loops_.size()), split_.count(), again, last);
     } else if (is_coarse) {
-        made = coarser(made, progress.range(0.9, 1.0));
+        made = coarser(made, last);
     }
-    made.report.seconds["first"] = first_seconds;
     return made;
 }
 

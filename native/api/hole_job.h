@@ -42,7 +42,7 @@ private:
     [[nodiscard]] std::optional<FilledHole> closed_by_face() const;
     [[nodiscard]] std::optional<SolvedHole> fan(const Progress& progress) const;
     [[nodiscard]] std::optional<FilledHole> along(const CurvesThrough& through, const Progress& progress) const;
-    [[nodiscard]] std::optional<SolvedHole> surface(bool may_differ, const Progress& progress) const;
+    [[nodiscard]] SolvedHole surface(const NewSurface& first, const Progress& progress) const;
     [[nodiscard]] std::optional<SolvedHole> from_fan(const Progress& progress) const;
     [[nodiscard]] SolvedHole on_mesh(const HolePatch& patch, const WantedLengths& wanted, Start start,
                                      Otherwise otherwise, const Progress& progress) const;

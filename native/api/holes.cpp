@@ -8,6 +8,7 @@
 #include "boundary/surrounding_fit.h"
 #include "fill/loop_check.h"
 #include "fill/short_edges.h"
+#include "fill/small_hole.h"
 #include "geometry/triangle.h"
 #include "mesh/hole_loops.h"
 
@@ -121,9 +122,10 @@ public:
             loops.push_back(loop.vertices);
             is_bare.push_back(loop.is_bare ? 1 : 0);
         }
-        check_boundary(loops, is_bare, mesh_.mesh().vertices);
+        for (BoundaryLoop& loop : hole_.loops) loop.shape.points = mesh_.mesh().vertices(Eigen::all, loop.vertices);
+        // Both sides of a seam, cut up otherwise, cross where faces close it: no surface has to be found.
+        check_boundary(loops, is_bare, mesh_.mesh().vertices, !bridge && is_crack(hole_.loops[0].shape));
         for (BoundaryLoop& loop : hole_.loops) {
-            loop.shape.points = mesh_.mesh().vertices(Eigen::all, loop.vertices);
             loop.begin_anew();
             if (named_.vertex_normals.cols() > 0) loop.shape.normals = named_.vertex_normals(Eigen::all, loop.vertices);
             if (named_.vertex_curvatures.size() > 0) loop.curvatures = named_.vertex_curvatures(loop.vertices);

@@ -18,8 +18,8 @@ public:
                   KeptEdges kept = {}, EdgeSet taken = {});
     // Splits, collapses, flips and smooths. Asks whether to stop.
     void equalise();
-    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: then once more, so that
-    // the smallest grow at the cost of others. Asks whether to stop.
+    // Splits edges and takes vertices out where angles below 26° stay otherwise, worst first: the smallest grow at the
+    // cost of others. Asks whether to stop.
     void repair_angles();
     // Splits edges between fixed vertices, at which a patch would end, but for those at sharp corners. Returns how
     // many.
@@ -88,7 +88,6 @@ private:
     [[nodiscard]] std::vector<std::function<int(EqualEdgeMesh&)>> remedies(Face f);
     [[nodiscard]] std::vector<Face> bad_faces() const;
     bool repair(Face f);
-    void repair_bad_faces();
     const Patch* patch_;
     const Points* points_;
     const TargetSurface* surface_;

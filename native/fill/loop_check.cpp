@@ -74,7 +74,7 @@ void refuse_on_edges(const std::vector<Triple>& on_edges) {
            {{lying == 1 ? "on_edge" : "on_edges", static_cast<double>(lying)}});
 }
 
-void refuse_touches(const VertexPairs& edges, const View<Points>& points) {
+void refuse_touches(const VertexPairs& edges, const View<Points>& points, bool may_cross) {
     const Touches found = touching_edges(edges, points);
     if (!found.on_edges.empty()) refuse_on_edges(found.on_edges);
     Indices meeting;
@@ -87,6 +87,7 @@ void refuse_touches(const VertexPairs& edges, const View<Points>& points) {
                                  "itself";
         refuse(Code::nonmanifold_vertex, text, std::move(meeting), {{"meeting", count}});
     }
+    if (may_cross) return;
     Indices crossing;
     for (const auto& ends : crossing_edges(edges, points)) crossing.insert(crossing.end(), ends.begin(), ends.end());
     crossing = once(std::move(crossing));
@@ -103,7 +104,8 @@ Diagnostic at_vertices(Code code, const std::string& text, Indices vertices, Fig
     return {code, text, std::move(vertices), ElementKind::vertex, std::move(figures)};
 }
 
-void check_boundary(const std::vector<Indices>& loops, const std::vector<char>& is_bare, const View<Points>& points) {
+void check_boundary(const std::vector<Indices>& loops, const std::vector<char>& is_bare, const View<Points>& points,
+                    bool may_cross) {
     VertexPairs edges;
     for (std::size_t l = 0; l < loops.size(); ++l) {
         check_loop(loops[l], is_bare[l] != 0);
@@ -111,7 +113,7 @@ void check_boundary(const std::vector<Indices>& loops, const std::vector<char>& 
         edges.insert(edges.end(), around.begin(), around.end());
     }
     check_places(loops, points);
-    refuse_touches(edges, points);
+    refuse_touches(edges, points, may_cross);
 }
 
 void refuse_shared_edges(const std::vector<Indices>& loops) {

@@ -145,13 +145,7 @@ std::vector<EqualEdgeMesh::Face> EqualEdgeMesh::bad_faces() const {
 }
 
 void EqualEdgeMesh::repair_angles() {
-    for (const bool worst_counts : {false, true}) {
-        worst_counts_ = worst_counts;
-        repair_bad_faces();
-    }
-}
-
-void EqualEdgeMesh::repair_bad_faces() {
+    worst_counts_ = true;
     const std::size_t most = std::min(most_attempts, most_copied / mesh_.n_vertices() + 1);
     std::size_t attempts = 0;
     for (int round = 0; round < most_rounds; ++round) {

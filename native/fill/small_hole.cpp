@@ -30,7 +30,8 @@ bool lies_on_another_edge(const LoopShape& loop, int k, double reach) {
     return false;
 }
 
-// But for its two ends all of it lies on the other side.
+}  // namespace
+
 bool is_crack(const LoopShape& loop) {
     constexpr double narrow = 0.1;  // of an edge: a mesh within would be of needles
     const double reach = narrow * loop.perimeter() / loop.size();
@@ -38,8 +39,6 @@ bool is_crack(const LoopShape& loop) {
     for (int k = 0; k < loop.size() && apart <= 2; ++k) apart += lies_on_another_edge(loop, k, reach) ? 0 : 1;
     return apart <= 2;
 }
-
-}  // namespace
 
 bool takes_no_vertex(const LoopShape& loop, double spacing) {
     if (loop.size() > 4) return is_crack(loop);

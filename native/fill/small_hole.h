@@ -6,6 +6,9 @@
 
 namespace fairing {
 
+// Whether but for its two ends all of a loop lies on its other side, within a tenth of an edge.
+bool is_crack(const LoopShape& loop);
+
 // Whether faces close a loop without a new vertex: it has three edges, or four, none of them longer than those wanted
 // (a new vertex would lift the surface of a flat place by as much as the fitted normals are off, over half an edge), or
 // it is a crack, which runs back where it came from. `spacing`: 0 for the loop's own edges.
