@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections import defaultdict, deque
 from dataclasses import replace
 
 import numpy as np
 
+import fairing
+
 from ..words.words import said
-from .boundary import two_sided_edges
 from .region import MeshArrays, reversed_corners
 from .types import Ints, Mask
 
@@ -27,36 +27,12 @@ def winding_note(turned: int) -> tuple[str, ...]:
 
 def _against_most(mesh: MeshArrays) -> Mask:
     """Return the (f,) mask of faces wound against most of those that edges connect them with."""
+    own = np.flatnonzero(mesh.in_patch[mesh.triangle_faces])
+    corners = mesh.triangles[own]
+    whole = own[(corners != np.roll(corners, 1, axis=1)).all(axis=1)]
+    turned = whole[fairing._core.turned_triangles(mesh.triangles[whole], len(mesh.positions))]
     against = np.zeros(len(mesh.in_patch), dtype=bool)
-    own = np.zeros(len(mesh.edges), dtype=bool)
-    own[mesh.corner_edges[mesh.in_patch[mesh.corner_faces]]] = True
-    sides = two_sided_edges(mesh, own)
-    within = mesh.in_patch[sides.faces].all(axis=1)
-    if not sides.alike[within].any():
-        return against
-    adjacent: dict[int, list[tuple[int, bool]]] = defaultdict(list)
-    for (a, b), alike in zip(sides.faces[within].tolist(), sides.alike[within].tolist(), strict=True):
-        adjacent[a].append((b, alike))
-        adjacent[b].append((a, alike))
-    turns: dict[int, bool] = {}
-    for start in adjacent:
-        if start not in turns:
-            part = _spread(start, adjacent)
-            most = 2 * sum(part.values()) > len(part)
-            turns.update({face: turned != most for face, turned in part.items()})
-    against[[face for face, turned in turns.items() if turned]] = True
-    return against
-
-
-def _spread(start: int, adjacent: dict[int, list[tuple[int, bool]]]) -> dict[int, bool]:
-    """Return which faces connected with `start` are wound against it; on a Möbius strip the first path there counts."""
-    against, queue = {start: False}, deque([start])
-    while queue:
-        face = queue.popleft()
-        for other, alike in adjacent[face]:
-            if other not in against:
-                against[other] = against[face] != alike
-                queue.append(other)
+    against[mesh.triangle_faces[turned]] = True
     return against
 
 

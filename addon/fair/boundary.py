@@ -56,7 +56,7 @@ class _Fits:
     """Fits at those of the fixed vertices that have triangles outside."""
 
     found: Mask  # (k,)
-    fits: fairing.solving.slopes.BoundaryNormals | None  # None where none has any
+    fits: fairing.solving.surroundings.BoundaryNormals | None  # None where none has any
 
 
 def boundary(mesh: MeshArrays, patch: Patch, source: str, outside: Ints) -> Boundary:

@@ -108,7 +108,7 @@ def _hard_by_angle(mesh: MeshArrays) -> Mask:
     return hard
 
 
-def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.filleting.edges.FairEdges | None]:
+def _faired(mesh: MeshArrays, reference: Floats | None = None) -> tuple[Ints, fairing.results.FairEdges | None]:
     """Return which vertices of the mesh the hard edges have (q,), and these edges as fair curves."""
     if mesh.hard is None:
         return nothing(), None

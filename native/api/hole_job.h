@@ -3,6 +3,7 @@
 
 #include "api/fill.h"
 #include "api/remesh.h"
+#include "boundary/surrounding_fit.h"
 #include "fill/split_boundary.h"
 
 namespace fairing {
@@ -80,6 +81,8 @@ HolePatch meshed(const HolePatch& patch, int old_count, const WantedLengths& wan
 // The join measured on the triangles outside, at the vertices that have some.
 void measure_join(FairResult& report, const HolePatch& patch, const Triangles& around);
 
+// NaN where a fit is far less certain than the others.
+VectorX trusted_curvatures(const SurroundingNormals& fits);
 // G2: mean curvatures at `fixed` of what lies around a patch, NaN where they are not known; on the side of the normals.
 VectorX curvatures_around(const HolePatch& patch, const Triangles& around);
 

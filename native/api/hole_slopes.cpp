@@ -8,9 +8,6 @@
 
 namespace fairing {
 
-namespace {
-
-// NaN where a fit is far less certain than the others.
 VectorX trusted_curvatures(const SurroundingNormals& fits) {
     constexpr double usual = 4.0;   // times the median of the errors
     constexpr double small = 0.25;  // of the largest curvature
@@ -32,6 +29,8 @@ VectorX trusted_curvatures(const SurroundingNormals& fits) {
     }
     return result;
 }
+
+namespace {
 
 Vector3 averaged_normal_at(int vertex, const HoledMesh& mesh) {
     Vector3 sum = Vector3::Zero();
@@ -95,8 +94,9 @@ VectorX curvatures_around(const HolePatch& patch, const Triangles& around) {
             "the triangles outside");
     const BoundaryNormals fits =
         boundary_normals({patch.vertices, patch.triangles, around}, patch.fixed, {}, SideRule::automatic);
-    const SurroundingNormals beyond = surrounding_normals(patch.vertices, around, patch.fixed);
     const VectorX own = trusted_curvatures(fits.normals);
+    if (!patch.normals) return own;
+    const SurroundingNormals beyond = surrounding_normals(patch.vertices, around, patch.fixed);
     const VectorX others = trusted_curvatures(beyond);
     VectorX result = own;
     for (Eigen::Index k = 0; k < result.size(); ++k) {

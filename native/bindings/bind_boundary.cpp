@@ -1,3 +1,4 @@
+#include "api/hole_job.h"
 #include "api/soft_base.h"
 #include "base/parallel.h"
 #include "bindings/bind.h"
@@ -18,10 +19,13 @@ using namespace py::literals;
 
 py::dict to_dict(const SurroundingNormals& result) {
     return py::dict("normals"_a = result.normals, "fitted"_a = result.fitted, "errors"_a = result.errors,
-                    "curvatures"_a = result.curvatures, "curvature_errors"_a = result.curvature_errors);
+                    "curvatures"_a = result.curvatures, "curvature_errors"_a = result.curvature_errors,
+                    "trusted_curvatures"_a = trusted_curvatures(result));
 }
 
-void bind_normals(py::module_& module) {
+}  // namespace
+
+void bind_boundary(py::module_& module) {
     bind(module, "surrounding_normals", &surrounding_normals, &to_dict);
     bind(
         module, "boundary_normals",
@@ -45,15 +49,11 @@ void bind_normals(py::module_& module) {
         dict["vertices"] = result.vertices;
         dict["moved"] = result.moved;
         dict["held"] = result.held;
-        dict["noise"] = result.noise;
         return dict;
     });
-}
-
-}  // namespace
-
-void bind_boundary(py::module_& module) {
-    bind_normals(module);
+    bind(module, "curvatures_around",
+         [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& fixed,
+            const MaybePoints& normals) { return curvatures_around({vertices, inside, fixed, normals}, outside); });
     bind(module, "hard_edges", &hard_edges);
     bind(module, "feather_weights", &feather_weights);
     bind(

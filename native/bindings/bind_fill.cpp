@@ -4,6 +4,7 @@
 #include "bindings/words.h"
 #include "fill/conformal_map.h"
 #include "fill/joined_loops.h"
+#include "fill/proportion.h"
 #include "fill/quads.h"
 
 namespace fairing::bindings {
@@ -25,7 +26,9 @@ WantedLengths to_lengths(const Wanted& wanted) {
 // Fixed vertices on creases, and on smooth curves.
 using FreeSlopes = std::pair<Indices, Indices>;
 
-void bind_meshes(py::module_& module) {
+}  // namespace
+
+void bind_fill(py::module_& module) {
     bind(
         module, "remesh",
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& triangles,
@@ -44,11 +47,10 @@ void bind_meshes(py::module_& module) {
             const MaybePoints& fixed_normals, const Wanted& wanted) {
              return expected_remesh_count({vertices, triangles, fixed, fixed_normals}, to_lengths(wanted));
          });
-}
-
-}  // namespace
-
-void bind_fill(py::module_& module) {
+    bind(module, "refuse_large", [](double count, double flat, int most, const Indices& around) {
+        Limit::of(flat, most).check(count, around);
+        return count;
+    });
     bind(
         module, "fill_loops",
         [](const ProgressCallback& progress, const Points& vertices, const std::vector<Indices>& loops,
@@ -65,7 +67,6 @@ void bind_fill(py::module_& module) {
     bind(module, "triangulated", &triangulated_faces);
     bind(module, "paired_quads", &paired_quads,
          [](const PairedQuads& paired) { return py::make_tuple(paired.quads, paired.pairs, paired.rest); });
-    bind_meshes(module);
 }
 
 }  // namespace fairing::bindings

@@ -11,19 +11,18 @@ namespace {
 
 py::object shown(const VisibleJoin& join) { return py::make_tuple(join.degrees, join.limit, join.seen); }
 
-// Measures of the parts of a mesh.
-void bind_parts(py::module_& module) {
+py::object shown(const Faults& faults) { return py::make_tuple(faults.folded, faults.crossing); }
+
+}  // namespace
+
+void bind_shape(py::module_& module) {
+    using namespace py::literals;
     bind(
         module, "visible_join",
         [](const Points& vertices, const Triangles& inside, const Triangles& outside, const Indices& boundary) {
             return visible_join({vertices, inside, outside}, boundary);
         },
         [](const VisibleJoin& join) { return shown(join); });
-}
-
-py::object shown(const Faults& faults) { return py::make_tuple(faults.folded, faults.crossing); }
-
-void bind_judged(py::module_& module) {
     bind(
         module, "judged",
         [](const ProgressCallback& progress, const Points& vertices, const Triangles& surface, const Triangles& others,
@@ -34,17 +33,10 @@ void bind_judged(py::module_& module) {
             return judged({vertices, surface, others, held, rim}, was, is_clear, progress);
         },
         [](const Judged& found) {
-            using namespace py::literals;
             return py::dict("join"_a = shown(found.join), "now"_a = shown(found.now),
                             "before"_a = found.before ? shown(*found.before) : py::none(), "pierced"_a = found.pierced,
                             "rounded"_a = found.rounded, "blunt"_a = found.blunt, "seams"_a = found.seams);
         });
-}
-
-}  // namespace
-
-void bind_shape(py::module_& module) {
-    using namespace py::literals;
     // The limits of shape/limits.h that Python uses.
     module.attr("LIMITS") = py::dict("waist"_a = waist, "balloon"_a = balloon, "visible_kink"_a = visible_kink,
                                      "kink_share"_a = kink_share, "off_slope"_a = off_slope);
@@ -57,8 +49,6 @@ void bind_shape(py::module_& module) {
             if (!found) return py::none();
             return py::make_tuple(found->least, found->largest, found->thinnest, found->thickest);
         });
-    bind_parts(module);
-    bind_judged(module);
 }
 
 }  // namespace fairing::bindings

@@ -66,12 +66,6 @@ def _off(plain: str, word: str, vertex: str, face: str) -> bytes:
     return "\r\n".join([word, counts, *map("".join, zip(rows, tails, strict=True)), ""]).encode()
 
 
-def _binary_off(order: str, tail: tuple[int, ...]) -> bytes:
-    places = struct.pack(f"{order}24f", *(x for corner in CORNERS for x in corner))
-    faces = [number for quad in QUADS for number in (4, *quad, *tail)]
-    return b"OFF BINARY\n" + struct.pack(f"{order}3i", 8, 5, 0) + places + struct.pack(f"{order}{len(faces)}i", *faces)
-
-
 def good() -> dict[str, bytes]:
     """Files by names; all of them are the box. Dialects are OBJ's and OFF's, which are read here."""
     plain = off(CORNERS, QUADS)
@@ -96,8 +90,6 @@ def good() -> dict[str, bytes]:
             ]
         },
         "behind_others.off": b"appearance {\n+texturing\n}\n" + plain.encode(),
-        "larger_end_first.off": _binary_off(">", (0,)),
-        "pmp.off": _binary_off("<", ()),
         "comments.off": plain.replace("OFF\n", "OFF # here\n# counts\n").encode(),
         "text.stl": _stl(),
         "long_name.stl": _stl("a box, exported: 10 facets (vertex, facet)"),

@@ -31,7 +31,7 @@ from fairing.options.groups import Boundary, Curves, Layout, Options, PaperOptio
 from fairing.results import Cancelled, Diagnostic, FairResult, FillResult, MeshError, RemeshResult, SolverError
 from fairing.solving.fair import Solver, fair
 from fairing.solving.feather import feather_weights
-from fairing.solving.slopes import bad_outline, boundary_normals, surrounding_normals
+from fairing.solving.surroundings import bad_outline, boundary_normals, surrounding_normals
 
 __all__ = [
     "Boundary",

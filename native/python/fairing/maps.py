@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from fairing import _core
 from fairing.options import arguments
-from fairing.results import FloatArray, IntArray, PairedQuads
+from fairing.results import FloatArray, PairedQuads
 
 __all__ = ["conformal_map", "interpolate", "paired_quads"]
 
@@ -22,12 +22,7 @@ def interpolate(
     Errors as in :func:`fairing.fair`.
     """
     points, faces, held = arguments.held_mesh(vertices, triangles, fixed)
-    given = np.ascontiguousarray(values, dtype=np.float64)
-    count = 0 if held is None else len(held)
-    if given.ndim != 2 or len(given) != count:
-        raise ValueError(f"values: expected shape ({count}, c), got {given.shape}")
-    if not np.isfinite(given).all():
-        raise ValueError("values: expected finite numbers")
+    given = arguments.numbers("values", values, (0 if held is None else len(held), -1))
     border = [np.empty(0, dtype=np.int32), *_core.boundary_loops(faces)]
     missing = np.setdiff1d(np.concatenate(border), np.empty(0) if held is None else held)
     if len(missing):
@@ -50,11 +45,7 @@ def conformal_map(
     """
     points, faces = arguments.mesh(vertices, triangles)
     held = arguments.vertices_of("fixed", fixed, len(points))
-    given = np.ascontiguousarray(places, dtype=np.float64)
-    if given.shape != (len(held), 2):
-        raise ValueError(f"places: expected shape ({len(held)}, 2), got {given.shape}")
-    if not np.isfinite(given).all():
-        raise ValueError("places: expected finite numbers")
+    given = arguments.numbers("places", places, (len(held), 2))
     if len(np.unique(held)) < len(held):
         raise ValueError("fixed: a vertex is named twice")
     used = np.unique(faces)
@@ -72,20 +63,12 @@ def paired_quads(vertices: npt.ArrayLike, triangles: npt.ArrayLike, kept: npt.Ar
 
     A quad is convex: no angle is above 165°. It is bent by less than 40° along the edge that went. Vertices stay where
     they are, and so does each edge that ``kept``, (e, 2), names in either order, and the border. A triangle is used
-    once. Raises ValueError for arrays of other shapes, coordinates that aren't finite, a triangle that names a vertex
-    twice, or a kept edge that the triangles don't have, and MeshError INDEX_RANGE for an index that is no vertex.
+    once. Raises ValueError for arrays of other shapes, a triangle that names a vertex twice, or a kept edge that the
+    triangles don't have, and MeshError INDEX_RANGE or NONFINITE.
     """
-    points, faces = arguments.mesh(vertices, triangles)
-    _check(points, faces)
-    quads, pairs, rest = _core.paired_quads(points, faces, arguments.edges_of("kept", kept, faces))
-    return PairedQuads(quads, faces[rest], pairs, rest)
-
-
-def _check(points: npt.NDArray[np.float64], faces: IntArray) -> None:
-    used = np.unique(faces)
-    bad = used[~np.isfinite(points[used]).all(axis=1)]
-    if len(bad):
-        raise ValueError(f"vertices: the coordinates of vertex {bad[0]} are not finite")
+    points, faces = arguments.finite_mesh(vertices, triangles)
     twice = np.flatnonzero((faces == np.roll(faces, 1, axis=1)).any(axis=1))
     if len(twice):
         raise ValueError(f"triangles: row {twice[0]} names a vertex twice: {faces[twice[0]].tolist()}")
+    quads, pairs, rest = _core.paired_quads(points, faces, arguments.edges_of("kept", kept, faces))
+    return PairedQuads(quads, faces[rest], pairs, rest)

@@ -107,7 +107,7 @@ def self_intersections(
     count, and both of a pair are named: faster where these are few. ValueError where a number is none of a triangle.
     """
     points, faces = arguments.mesh(vertices, triangles)
-    asked = None if near is None else arguments.rows_within("near", near, len(faces))
+    asked = None if near is None else arguments.rows_within("near", near, len(faces), "triangle")
     whole = np.isfinite(points[faces]).all(axis=(1, 2))
     finite = np.flatnonzero(whole)
     if asked is not None:
@@ -174,5 +174,4 @@ def nearest(places: FloatArray, ends: FloatArray) -> IntArray:
         ((part[:, None] - ends[None]) ** 2).sum(axis=2).argmin(axis=1)
         for part in np.array_split(places, range(block, len(places), block))
     ]
-    result: IntArray = np.concatenate(found)
-    return result
+    return np.concatenate(found)

@@ -74,15 +74,13 @@ class Solved:
     """
 
     equation: str
-    """The equation that holds: the one asked for, or "least_variation" where any component has it instead, or "loft"
-    where any is a loft, "smoothed" where any is its own shape, smoothed, or "bilaplacian" where any has nothing better
-    (see ``otherwise`` of :func:`fairing.fair`; the warning NO_SOLUTION names the component). ``converged`` refers to
-    it. The last three solve no equation: ``residual`` says nothing about them."""
+    """The equation that holds and that ``converged`` refers to: the one asked for, or what any component has instead
+    (``otherwise``, NO_SOLUTION): "least_variation"; or, without an equation and with no ``residual`` to speak of,
+    "loft", "smoothed" (its own shape), "bilaplacian"."""
     provenance: str
     """Where the surface comes from: "equation"; "low_passed", the same between boundary loops without their short
-    waves, beside which the real ones lie; or what stands in for a surface that the equation does not have:
-    "least_variation", "loft", "least_bent", "swept_tube", "old_shape" or "first_surface". Of several components
-    the last in this order. All but the first come with the warning NO_SOLUTION."""
+    waves; or what stands in (NO_SOLUTION): "least_variation", "loft", "least_bent", "swept_tube", "old_shape" or
+    "first_surface". Of several components the last in this order."""
     vertices: FloatArray
     """(n, 3) positions of all vertices; those that are neither free nor in ``moved`` keep their bits. Of a new mesh:
     (k, 3) the new vertices alone."""
@@ -96,10 +94,8 @@ class Solved:
     """(k',) degrees, in the order of ``fixed``: how visible the join is (:func:`fairing.looks.visible_join`). Where no
     triangles outside were given, they are taken for the patch's mirror image across the prescribed tangent planes."""
     girth: tuple[float, float] | None
-    """How thin and how thick the surface is between boundary loops that are ends of tubes: the radius of the thinnest
-    cross-section over that of the thinner end, and of the thickest over the thicker end's, by the areas within. About
-    (1, 1) for tubes and cones, less for waists, more for balloons. None where no component has two loops or more, or
-    one of them is no tube's end."""
+    """How thin and how thick the surface is between ends of tubes (:func:`fairing.looks.girth`). About (1, 1) for tubes
+    and cones, less for waists, more for balloons. None where no component has two loops or more, or one is no end."""
     continuity: Literal["G1", "G2"]
     """"G2": the surface continues the curvature of its surroundings, wherever that is known (G2_NOT_MET names the other
     vertices). "G1": only their slopes, because no more was asked for or because G2_NOT_MET says why."""
@@ -115,9 +111,8 @@ class Solved:
     iterations: int
     """Steps of the iteration that led to the result (of the component with most), not of all that was tried."""
     residual: float
-    """Largest |Δ_B H| D³ at a free vertex (|H| D for ``equation="soap_film"``; for "least_variation" the
-    largest derivative of its energy by a height, times D). It has no unit, but grows
-    with finer meshes of the same surface: compare it with ``initial_residual``, and judge by ``converged``."""
+    """Largest |Δ_B H| D³ at a free vertex (|H| D for "soap_film"; for "least_variation" the largest derivative of its
+    energy by a height, times D). Without a unit, but larger on finer meshes: compare it with ``initial_residual``."""
     initial_residual: float
     """The same for the initial surface."""
     levels: tuple[int, ...]
@@ -126,12 +121,10 @@ class Solved:
     """Wall-clock time of each stage and in ``"total"``. Stages need not add up to it: attempts that were given up are
     not listed."""
     way: tuple[tuple[str, float], ...]
-    """Name and seconds of each strategy that was tried, in order. The last one led to the result, unless none was
-    accepted. "warm" begins at the last answer, "near" at the vertices given, "levels" goes from coarse to fine,
-    "direct" stays on the mesh given, "proxy mesh" takes one of the engine's own, "low-passed" does so over the
-    low-passed boundary, "uniform weights" stays with uniform ones, "lifted pins" begins without the pins. "least
-    variation", "old shape", "loft", "first surface" and "paper" are the surfaces and the method of that name. Several
-    components follow each other."""
+    """Name and seconds of each strategy that was tried, component by component. The last one led to the result, unless
+    none was accepted. "warm" begins at the last answer, "near" at the vertices given, "levels" goes from coarse to
+    fine, "direct" stays on the mesh given, "proxy mesh" takes one of the engine's own, "low-passed" does so over the
+    low-passed boundary; the others are the weights, surfaces and the method of that name."""
     warnings: tuple[Diagnostic, ...]
 
 
@@ -254,6 +247,28 @@ class FromCurvesResult(NewMeshResult):
     """Loops around openings, and around the outside of a sheet."""
     creases: IntArray
     """(c, 2) wires over which the surface may bend: those given, and those around openings that were closed."""
+
+
+@dataclass(frozen=True, eq=False)
+class EdgesThrough:
+    """What :func:`fairing.fair_edges` makes fair. All arrays are read-only."""
+
+    edges: IntArray
+    """(e, 2) edges of the patch, the smaller index first, ascending."""
+    onward: IntArray
+    """(o, 2) hard edges outside and along its boundary."""
+
+
+@dataclass(frozen=True, eq=False)
+class FairEdges:
+    """Edges as fair curves. All arrays are read-only."""
+
+    vertices: FloatArray
+    """(n, 3) all vertices; those that are not in ``moved`` keep their bits."""
+    moved: IntArray
+    """(k,) ascending."""
+    curves: tuple[IntArray, ...]
+    """The vertices of each chain that is fair now, from end to end."""
 
 
 def report_fields(report: FairResult, old_count: int) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from solids import FloatArray, IntArray
 
 def faired(
     vertices: FloatArray, inside: IntArray, outside: IntArray, side: str = "automatic", continuity: str = "G1"
-) -> tuple[fairing.FairResult, fairing.solving.slopes.BoundaryNormals, IntArray]:
+) -> tuple[fairing.FairResult, fairing.solving.surroundings.BoundaryNormals, IntArray]:
     """The result, the normals, and the free vertices."""
     rim = np.intersect1d(inside, outside)
     found = fairing.boundary_normals(vertices, inside, rim, outside=outside, side=side)

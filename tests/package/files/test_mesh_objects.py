@@ -244,7 +244,7 @@ def test_a_mesh_that_is_not_known() -> None:
     ("selected", "words"),
     [
         ([], "no face"),
-        ([9999], "names a face"),
+        ([9999], "there is no face 9999"),
         ([True, False], "mask of 512"),
         ("wall", "no data"),
         ([0.5], "integers"),

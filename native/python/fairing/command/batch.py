@@ -14,6 +14,7 @@ from pathlib import Path
 
 from fairing._core import __version__
 from fairing.command.work import GOOD, LOOK, SUFFIX, UNUSABLE, Report, done_with
+from fairing.results import Progress
 
 _AFTER = """
 exit status: 0, all results are good; 1, some should be looked at; 3, some can't be used and were not written, or a file
@@ -131,9 +132,9 @@ def _done(given: Namespace) -> Iterator[Report]:
         yield from _several_at_once(given)
     else:
         for number, source in enumerate(given.files):
-            bar = _Bar(number, len(given.files), source.name, _shows(given))
+            bar = _bar(number, len(given.files), source.name, given)
             yield done_with(source, target_of(source, given), given, bar)
-            bar.end()
+            bar(1.0, "")
 
 
 def _several_at_once(given: Namespace) -> Iterator[Report]:
@@ -146,9 +147,9 @@ def _several_at_once(given: Namespace) -> Iterator[Report]:
         tasks = [pool.submit(done_with, source, target_of(source, given), each, None) for source in given.files]
         try:
             for number, task in enumerate(as_completed(tasks)):
-                bar = _Bar(number, len(tasks), f"{number + 1} of {len(tasks)}", _shows(given))
+                bar = _bar(number, len(tasks), f"{number + 1} of {len(tasks)}", given)
+                bar(1.0, "done")
                 bar(1.0, "")
-                bar.end()
                 yield task.result()
         finally:  # of an interrupt: files that are being worked on get done, no other begins
             pool.shutdown(cancel_futures=True)
@@ -159,26 +160,18 @@ def _leave_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
-class _Bar:
-    """A line on the terminal that goes with the engine's progress."""
+def _bar(number: int, count: int, name: str, given: Namespace) -> Progress:
+    """Writes a line on the terminal that goes with the engine's progress; an empty one at its end."""
+    is_shown = not given.quiet and sys.stderr.isatty()
 
-    def __init__(self, number: int, count: int, name: str, shown: bool) -> None:
-        self._number, self._count, self._name, self._shown = number, count, name, shown
+    def show(fraction: float, stage: str) -> None:
+        part = (number + fraction) / count
+        full = round(part * _WIDTH)
+        line = f"[{'#' * full}{'.' * (_WIDTH - full)}] {part:4.0%} {name} {stage}" if stage else ""
+        if is_shown:
+            print(f"\r{line[:100]:100}", end="" if stage else "\r", file=sys.stderr, flush=True)
 
-    def __call__(self, fraction: float, stage: str) -> None:
-        if self._shown:
-            part = (self._number + fraction) / self._count
-            full = round(part * _WIDTH)
-            line = f"[{'#' * full}{'.' * (_WIDTH - full)}] {part:4.0%} {self._name} {stage}"
-            print(f"\r{line[:100]:100}", end="", file=sys.stderr, flush=True)
-
-    def end(self) -> None:
-        if self._shown:
-            print(f"\r{'':100}\r", end="", file=sys.stderr, flush=True)
-
-
-def _shows(given: Namespace) -> bool:
-    return not given.quiet and sys.stderr.isatty()
+    return show
 
 
 def _print(report: Report, given: Namespace) -> None:

@@ -1,4 +1,4 @@
-"""Meshes in files: OBJ by what stands beside, other formats by plyfile, trimesh or meshio (extra `io`)."""
+"""Meshes in files: OBJ and OFF by what stands beside, other formats by plyfile, trimesh or meshio (extra `io`)."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import importlib
 from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -27,25 +28,14 @@ def _write_cells(meshio: Any, target: Path, parts: Parts, make: Any) -> list[str
     return []
 
 
-_OWN: dict[str, Any] = {".obj": obj, ".off": off}
-_READ: dict[str, Callable[[Any, Path], tuple[Parts, Any]]] = {
-    "fairing": lambda _, source: _OWN[source.suffix.lower()].read(source),
-    "plyfile": ply.read,
-    "trimesh": scenes.read,
-    "meshio": _read_cells,
-}
-_WRITE: dict[str, Callable[[Any, Path, Parts, Any], list[str]]] = {
-    "fairing": lambda _, target, *what: _OWN[target.suffix.lower()].write(target, *what),
-    "plyfile": ply.write,
-    "trimesh": scenes.write,
-    "meshio": _write_cells,
-}
-# What a library can't read the next one reads; the first one writes.
-_KINDS = {
-    ".ply": ("plyfile",), **dict.fromkeys(_OWN, ("fairing",)), ".stl": ("trimesh", "meshio"),
-    **dict.fromkeys((".glb", ".gltf", ".3mf"), ("trimesh",)),
-    **dict.fromkeys((".vtk", ".vtu", ".msh", ".xdmf", ".inp", ".med", ".su2", ".mesh"), ("meshio",)),
-    **dict.fromkeys((".bdf", ".nas", ".dat", ".avs"), ("meshio",)),
+_CELLS = ("meshio", SimpleNamespace(read=_read_cells, write=_write_cells))
+_SCENES = ("trimesh", scenes)
+# The library of each format, and what reads and writes by it. What one can't read the next reads; the first one writes.
+_KINDS: dict[str, tuple[tuple[str, Any], ...]] = {
+    ".ply": (("plyfile", ply),), ".obj": (("fairing", obj),), ".off": (("fairing", off),), ".stl": (_SCENES, _CELLS),
+    **dict.fromkeys((".glb", ".gltf", ".3mf"), (_SCENES,)),
+    **dict.fromkeys((".vtk", ".vtu", ".msh", ".xdmf", ".inp", ".med", ".su2", ".mesh"), (_CELLS,)),
+    **dict.fromkeys((".bdf", ".nas", ".dat", ".avs"), (_CELLS,)),
 }  # fmt: skip
 
 
@@ -55,11 +45,11 @@ def read(source: Path) -> tuple[Parts, Write]:
     if not source.is_file():
         raise ValueError(f"{source}: there is no such file")
     reasons = []
-    for library in _libraries(kind):
+    for library, module in _libraries(kind):
         name = library.__name__
         try:
             with np.errstate(all="ignore"):
-                parts, known = _READ[name](library, source)
+                parts, known = module.read(library, source)
                 if not len(parts.faces.sizes):
                     raise ValueError("it has no faces")
         except (Exception, SystemExit) as error:  # libraries raise anything, and meshio ends the program
@@ -72,13 +62,13 @@ def read(source: Path) -> tuple[Parts, Write]:
 
 def _written(read: tuple[str, str, Any], target: Path, parts: Parts) -> list[str]:
     """``read``: the format, the library that read it, and what the file said besides."""
-    kind = target.suffix.lower()
-    library = next(_libraries(kind))
-    name = library.__name__
+    library, module = next(_libraries(target.suffix.lower()))
+    known = read[2] if read[:2] == (target.suffix.lower(), library.__name__) else None
     try:
-        return _WRITE[name](library, target, parts, read[2] if read[:2] == (kind, name) else None)
+        lost: list[str] = module.write(library, target, parts, known)
     except (Exception, SystemExit) as error:
-        raise ValueError(f"{target}: {name} stops: {error!r}") from error
+        raise ValueError(f"{target}: {library.__name__} stops: {error!r}") from error
+    return lost
 
 
 def check(kind: str) -> None:
@@ -86,17 +76,18 @@ def check(kind: str) -> None:
     next(_libraries(kind))
 
 
-def _libraries(kind: str) -> Iterator[Any]:
-    """Those of a format that are installed; ValueError where none is."""
+def _libraries(kind: str) -> Iterator[tuple[Any, Any]]:
+    """Those of a format that are installed, with what reads and writes by them; ValueError where none is."""
     if kind not in _KINDS:
         raise ValueError(f"{kind or 'a name without an ending'}: no format that is known; those are {' '.join(_KINDS)}")
     found = False
-    for name in _KINDS[kind]:
+    for name, module in _KINDS[kind]:
         try:
             library = importlib.import_module(name)
         except ImportError:
             continue
         found = True
-        yield library
+        yield library, module
     if not found:
-        raise ValueError(f"{kind} needs {' or '.join(_KINDS[kind])}: pip install 'intrinsic-fairing[io]'")
+        names = " or ".join(name for name, _ in _KINDS[kind])
+        raise ValueError(f"{kind} needs {names}: pip install 'intrinsic-fairing[io]'")

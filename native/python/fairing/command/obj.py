@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import os
 import re
-import shutil
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,17 +21,17 @@ _CORNER = {"vt": ("uv", 2), "vn": ("normals", 3)}
 class Header:
     """What a file says besides."""
 
-    folder: Path
-    libraries: list[str] = field(default_factory=list)
+    libraries: list[Path] = field(default_factory=list)
+    """Files of materials."""
     words: list[str] = field(default_factory=lambda: [""])
     """Names of objects, groups and materials; data at faces has their numbers."""
     gone: set[str] = field(default_factory=set)
     """Statements that are not kept."""
 
 
-def read(source: Path) -> tuple[Parts, Header]:
+def read(_: Any, source: Path) -> tuple[Parts, Header]:
     """The mesh; data at faces: the numbers of what holds for each."""
-    header = Header(source.parent)
+    header = Header()
     rows: dict[str, list[list[float]]] = {"v": [], "vt": [], "vn": []}
     corners: list[list[int]] = []
     sizes: list[int] = []
@@ -50,7 +50,7 @@ def read(source: Path) -> tuple[Parts, Header]:
         elif word in state:
             state[word] = numbers.setdefault(" ".join(rest), len(numbers))
         elif word == "mtllib":
-            header.libraries.append(" ".join(rest))
+            header.libraries.append(source.parent.resolve() / " ".join(rest))
         elif word:
             header.gone.add(word)
     header.words = list(numbers)
@@ -81,15 +81,15 @@ def _parts(rows: dict[str, Any], corners: npt.NDArray[Any], sizes: npt.NDArray[A
     return by_vertices(table[:, :3], faces, (of_points, of_faces), at_corners)
 
 
-def write(target: Path, parts: Parts, header: Header | None) -> list[str]:
+def write(_: Any, target: Path, parts: Parts, header: Header | None) -> list[str]:
     """Write a mesh, its faces by objects and groups; tell what it can't have."""
-    known = header or Header(target.parent)
+    known = header or Header()
     places, number, _ = by_points(parts)
     table = parts.points[places]
     if "colors" in parts.vertex_data:
         colours = parts.vertex_data["colors"][places, :3]
         table = np.column_stack([table, colours / 255 if colours.dtype == np.uint8 else colours])
-    lines = [*(f"mtllib {name}" for name in known.libraries), *_lines("v", table)]
+    lines = [f"mtllib {_from(target.parent.resolve(), place)}" for place in known.libraries] + _lines("v", table)
     words = (number[parts.faces.corners] + 1).astype(str)
     for word, (name, _) in _CORNER.items():
         own = np.full(len(words), "", dtype="U12")
@@ -110,7 +110,6 @@ def write(target: Path, parts: Parts, header: Header | None) -> list[str]:
             now[word] = value
         lines.append("f " + " ".join(faces[face]))
     target.write_bytes("\n".join([*lines, ""]).encode("utf-8", "surrogateescape"))
-    _copy_materials(known, target.parent)
     written = {"colors", PLACE, *(name for name, _ in _CORNER.values()), *(_STATE.values() if header else ())}
     return sorted(known.gone | ({*parts.vertex_data, *parts.face_data} - written))
 
@@ -119,15 +118,6 @@ def _lines(word: str, rows: npt.NDArray[Any]) -> list[str]:
     return [f"{word} {' '.join(map(repr, row))}" for row in rows.tolist()]
 
 
-def _copy_materials(header: Header, folder: Path) -> None:
-    """Beside a file in another folder: its materials, and the pictures that these name."""
-    names = [name for name in header.libraries if header.folder.resolve() != folder.resolve()]
-    for name in names:  # grows as it goes
-        place = header.folder / name
-        if not place.is_file() or ".." in Path(name).parts or Path(name).is_absolute():
-            continue
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(place, folder / name)
-        if name in header.libraries:
-            text = place.read_text(encoding="utf-8", errors="replace")
-            names += re.findall(r"^[ \t]*(?:map_\w+|bump|disp|decal|norm|refl)[ \t].*?([^\s]+)[ \t]*$", text, re.M)
+def _from(folder: Path, place: Path) -> str:
+    """How a file in the folder names another one."""
+    return os.path.relpath(place, folder) if place.anchor == folder.anchor else str(place)

@@ -105,5 +105,4 @@ def _json(source: Path) -> dict[str, Any]:
         raw = raw[20 : 20 + int(np.frombuffer(raw, "<u4", 1, 12)[0])]
     elif source.suffix.lower() != ".gltf":
         return {}
-    found: dict[str, Any] = json.loads(raw)
-    return found
+    return json.loads(raw)

@@ -57,7 +57,7 @@ def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespac
     options = {name: value for name in _OPTIONS[given.command] if (value := getattr(given, name)) is not None}
     options["progress"] = progress
     try:
-        made, report = _WORK[given.command](parts, given, options)
+        made, report = _worked(parts, given, options)
     except MeshError as error:
         if error.code not in _NOTHING or given.command != "fill" or given.bridge:
             raise
@@ -73,37 +73,27 @@ def _made(opened: tuple[Path, Parts, files.Write], target: Path, given: Namespac
     return report
 
 
-def _fill(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
+def _worked(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
     """Holes whose surface can't be used stay open."""
-    made = fill_accepted(parts, lambda each: given.accept_all or judged(each)[0] != UNUSABLE, **options)
-    verdict, reason, each = judged_holes(made.result)
-    holes = [_hole(parts, *row) for row in zip(made.result.holes, each, strict=True)]
-    return made, {"verdict": verdict, "reason": reason, "holes": holes}
-
-
-def _fair(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
-    return _judged(fair_faces(parts, selection(parts, given), **options))
-
-
-def _fillet(parts: Parts, given: Namespace, options: dict[str, Any]) -> tuple[Made[Any], Report]:
-    return _judged(fillet_edges(parts, **options))
-
-
-def _judged(made: Made[Any]) -> tuple[Made[Any], Report]:
-    return made, dict(zip(("verdict", "reason"), judged(made.result), strict=True))
-
-
-_WORK = {"fill": _fill, "fair": _fair, "fillet": _fillet}
+    if given.command == "fill":
+        made = fill_accepted(parts, lambda each: given.accept_all or judged(each)[0] != UNUSABLE, **options)
+        verdict, reason, each = judged_holes(made.result)
+        holes = [_hole(parts, *row) for row in zip(made.result.holes, each, strict=True)]
+        return made, {"verdict": verdict, "reason": reason, "holes": holes}
+    done: Made[Any]
+    done = (
+        fair_faces(parts, selection(parts, given), **options)
+        if given.command == "fair"
+        else fillet_edges(parts, **options)
+    )
+    verdict, reason = judged(done.result)
+    return done, {"verdict": verdict, "reason": reason}
 
 
 def _hole(parts: Parts, hole: Hole, verdict: tuple[str, str]) -> Report:
     around = np.concatenate(hole.loops)
-    return {
-        "edges": len(around),
-        "at": parts.points[around].mean(axis=0).round(6).tolist(),
-        "verdict": verdict[0],
-        "reason": verdict[1],
-    }
+    at = parts.points[around].mean(axis=0).round(6).tolist()
+    return {"edges": len(around), "at": at, "verdict": verdict[0], "reason": verdict[1]}
 
 
 def _figures(result: Any) -> Report:

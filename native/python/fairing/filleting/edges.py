@@ -4,26 +4,15 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing.filling.ends import chain_from, ends_at, matched, meeting_point
+from fairing.filling.ends import Links, chain_end, chain_from, ends_at, links_of, matched, meeting_point, paths_between
 from fairing.measure import boundary_loops, edges_with_uses, hard_edges
 from fairing.options import arguments
-from fairing.results import FloatArray, IntArray, read_only
-
-
-@dataclass(frozen=True, eq=False)
-class EdgesThrough:
-    """What :func:`fairing.fair_edges` makes fair. All arrays are read-only."""
-
-    edges: IntArray
-    """(e, 2) edges of the patch, the smaller index first, ascending."""
-    onward: IntArray
-    """(o, 2) hard edges outside and along its boundary."""
+from fairing.results import EdgesThrough, FairEdges, FloatArray, IntArray, read_only
 
 
 def edges_through(
@@ -37,7 +26,7 @@ def edges_through(
     """Find the edges of a patch along which hard edges (:func:`fairing.hard_edges`) of its surroundings run on.
 
     Hard edges outside that end at the boundary are matched as :func:`fairing.fill` does at a hole, and joined by the
-    way over edges of the patch that is hard as far as can be. Where three quarters of it are hard, or more, the patch
+    path over edges of the patch that is hard as far as can be. Where three quarters of it are hard, or more, the patch
     has that edge, maybe dented; elsewhere it has none.
 
     vertices: (n, 3); inside, outside: (m, 3) and (o, 3) triangles of the patch and around it; neighbours: (e, 2) those
@@ -47,13 +36,18 @@ def edges_through(
     points = arguments.floats("vertices", vertices)
     own, around = (arguments.triangles_within(triangles, len(points)) for triangles in (inside, outside))
     marks = arguments.integers("marked", [] if marked is None else marked, 2)
-    found, inner = arguments.NO_EDGES, _inner(own)
+    edges, uses = edges_with_uses(own)
+    found, inner = arguments.NO_EDGES, edges[uses == 2]
     hard = hard_edges(points, np.concatenate([own, around]), marked=marks)
     is_inner = arguments.places_of(hard, inner) >= 0
     onward = hard[~is_inner]
     joined = _joined(points, around, boundary_loops(own), onward, marks) if len(onward) else []
     if joined:
-        found = _core.hard_ways(points, _counted(inner, neighbours, len(points)), hard[is_inner], joined)
+        counted = inner
+        if neighbours is not None:
+            named = arguments.vertices_of("neighbours", neighbours, len(points), 2)
+            counted = inner[arguments.places_of(inner, named) >= 0]
+        found = _core.hard_ways(points, counted, hard[is_inner], joined)
     return EdgesThrough(read_only(found), read_only(onward))
 
 
@@ -61,45 +55,14 @@ def _joined(
     points: FloatArray, around: IntArray, loops: Sequence[IntArray], hard: IntArray, marks: IntArray
 ) -> list[list[int]]:
     """The vertices of the loops at which hard edges end that belong together."""
-    pairs = {(min(a, b), max(a, b)) for a, b in marks.tolist()}
     joined = []
     for loop in loops:
-        ends = ends_at(loop, points, around, hard, pairs).ends
-        joined += [[ends[k].vertex for k in joint.ends] for joint in matched(ends).joints]
+        ends, _ = ends_at(loop, points, around, hard, marks)
+        joined += [[ends[k].vertex for k in joint.ends] for joint in matched(ends)[0]]
     return joined
 
 
-def _inner(triangles: IntArray) -> IntArray:
-    """Edges with a triangle on both sides."""
-    edges, uses = edges_with_uses(triangles)
-    inner: IntArray = edges[uses == 2]
-    return inner
-
-
-def _counted(inner: IntArray, neighbours: npt.ArrayLike | None, count: int) -> IntArray:
-    """Those of the inner edges that count."""
-    if neighbours is None:
-        return inner
-    named = arguments.vertices_of("neighbours", neighbours, count, 2)
-    counted: IntArray = inner[arguments.places_of(inner, named) >= 0]
-    return counted
-
-
 _ONWARD = 0.5  # cosine of the turn at which an edge does not go on in another one
-
-Links = dict[int, list[int]]
-
-
-@dataclass(frozen=True, eq=False)
-class FairEdges:
-    """Edges as fair curves. All arrays are read-only."""
-
-    vertices: FloatArray
-    """(n, 3) all vertices; those that are not in ``moved`` keep their bits."""
-    moved: IntArray
-    """(k,) ascending."""
-    curves: tuple[IntArray, ...]
-    """The vertices of each chain that is fair now, from end to end."""
 
 
 def fair_edges(
@@ -118,10 +81,10 @@ def fair_edges(
     pairs = (
         arguments.vertices_of(name, value, len(points), 2) for name, value in (("edges", edges), ("onward", onward))
     )
-    inner, outer = (_links(each) for each in pairs)
+    inner, outer = (links_of(each) for each in pairs)
     before = points if reference is None else arguments.floats("reference", reference, len(points))
     result = points.copy()
-    paths = _paths(inner, outer)
+    paths = paths_between({v for v in inner if len(inner[v]) != 2 or outer.get(v)}, inner)
     tangents = {(path[0], path[1]): _tangent(path, outer, points) for each in paths for path in (each, each[::-1])}
     centres = _centres(paths, inner, outer, tangents, points)
     moved: set[int] = set(centres)
@@ -129,38 +92,14 @@ def fair_edges(
         result[vertex] = place
     curves = []
     for path in paths:
-        ways = tangents[path[0], path[1]], tangents[path[-1], path[-2]]
-        known = [way is not None or end in centres for way, end in zip(ways, (path[0], path[-1]), strict=True)]
-        if not all(known):
+        own = tangents[path[0], path[1]], tangents[path[-1], path[-2]]
+        if any(each is None and end not in centres for each, end in zip(own, (path[0], path[-1]), strict=True)):
             continue
         if len(path) > 2:
-            result[path[1:-1]] = _curve(result[[path[0], path[-1]]], ways, before[path])
+            result[path[1:-1]] = _curve(result[[path[0], path[-1]]], own, before[path])
         moved |= set(path[1:-1])
         curves.append(np.array(path, dtype=np.int32))
     return FairEdges(read_only(result), np.array(sorted(moved), dtype=np.int32), tuple(curves))
-
-
-def _links(edges: IntArray) -> Links:
-    joined: Links = defaultdict(list)
-    for a, b in np.unique(np.sort(edges, axis=1), axis=0).tolist():
-        if a != b:
-            joined[a].append(b)
-            joined[b].append(a)
-    return joined
-
-
-def _paths(inner: Links, outer: Links) -> list[list[int]]:
-    """The chains between nodes: ends, branchings, and where edges go on."""
-    nodes = sorted(v for v in inner if len(inner[v]) != 2 or outer.get(v))
-    found = []
-    for node in nodes:
-        for first in inner[node]:
-            path = [node, first]
-            while len(inner[path[-1]]) == 2 and not outer.get(path[-1]):
-                path.append(next(v for v in inner[path[-1]] if v != path[-2]))
-            if (path[0], path[1]) < (path[-1], path[-2]):
-                found.append(path)
-    return found
 
 
 def _tangent(path: list[int], outer: Links, points: FloatArray) -> FloatArray | None:
@@ -168,8 +107,7 @@ def _tangent(path: list[int], outer: Links, points: FloatArray) -> FloatArray | 
     chord = points[path[-1]] - points[path[0]]
     best, most = None, _ONWARD * float(np.linalg.norm(chord))
     for second in outer.get(path[0], ()):
-        chain = chain_from(path[0], second, outer, points)
-        direction = _core.chain_end(np.ascontiguousarray(points[chain]))[0].ravel()
+        direction, _ = chain_end(chain_from(path[0], second, outer, points), points)
         if direction @ chord > most:
             best, most = direction, float(direction @ chord)
     return best
@@ -187,26 +125,26 @@ def _centres(
     loose: set[int] = set()  # branchings from which a chain leads nowhere
     for each in paths:
         for path in (each, each[::-1]):
-            way = tangents[path[0], path[1]]
-            if way is not None:
-                lines[path[-1]].append((points[path[0]], way))
+            tangent = tangents[path[0], path[1]]
+            if tangent is not None:
+                lines[path[-1]].append((points[path[0]], tangent))
             elif len(inner[path[0]]) < 3:
                 loose.add(path[-1])
     found = {}
     for vertex, to_it in lines.items():
         if len(inner[vertex]) < 3 or outer.get(vertex) or vertex in loose:
             continue
-        centre = meeting_point([place for place, _ in to_it], [way for _, way in to_it])
-        if centre is not None and all(way @ (centre - place) > 0.0 for place, way in to_it):
+        centre = meeting_point([place for place, _ in to_it], [tangent for _, tangent in to_it])
+        if centre is not None and all(tangent @ (centre - place) > 0.0 for place, tangent in to_it):
             found[vertex] = centre
     return found
 
 
-def _curve(ends: FloatArray, ways: tuple[FloatArray | None, FloatArray | None], before: FloatArray) -> FloatArray:
-    """Places of the inner vertices of a chain; ways: of the edges that come to its ends; before: its (k, 3) points."""
+def _curve(ends: FloatArray, tangents: tuple[FloatArray | None, FloatArray | None], before: FloatArray) -> FloatArray:
+    """Places of the inner vertices of a chain; tangents: of the edges that come to its ends; before: (k, 3) points."""
     lengths = np.linalg.norm(np.diff(before, axis=0), axis=1).cumsum()
-    begin = np.zeros(3) if ways[0] is None else ways[0]
-    end = np.zeros(3) if ways[1] is None else -ways[1]
-    shares = (lengths[:-1] / lengths[-1]).tolist()
-    places: FloatArray = _core.fair_curve(np.ascontiguousarray(ends), np.array([begin, end]), shares)
+    begin, end = (np.zeros(3) if each is None else each for each in tangents)
+    places: FloatArray = _core.fair_curve(
+        np.ascontiguousarray(ends), np.array([begin, -end]), lengths[:-1] / lengths[-1]
+    )
     return places

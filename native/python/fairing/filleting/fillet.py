@@ -9,24 +9,17 @@ import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing.filleting.rounded import Given, Made, Wishes, in_rows, result_of, solved
+from fairing.filleting.rounded import Made, Task, in_rows, result_of, solved
 from fairing.measure import edges_with_uses, hard_edges, nearest
-from fairing.meshing.remesh import FACES, Watch, options_of, quads_of, refuse_large
+from fairing.meshing.remesh import FACES, Watch, options_of, quads_of
 from fairing.options import arguments
 from fairing.options.groups import Options
 from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, MeshError, Progress
 
 
-def check_finite(points: FloatArray, faces: IntArray) -> None:
-    used = np.unique(faces)
-    bad = used[~np.isfinite(points[used]).all(axis=1)]
-    if len(bad):
-        text = f"vertices: {len(bad)} of them are NaN or infinite, first {bad[0]}"
-        raise MeshError(Diagnostic("NONFINITE", text, bad.astype(np.int32), "vertex", {"vertices": float(len(bad))}))
-
-
-def seams_and_walls(points: FloatArray, faces: IntArray, seam: Any, walls: Any) -> tuple[IntArray, IntArray]:
-    """Both (e, 2), checked."""
+def seamed(vertices: Any, triangles: Any, seam: Any, walls: Any) -> tuple[FloatArray, IntArray, IntArray, IntArray]:
+    """The mesh, and its seams and walls (e, 2), checked."""
+    points, faces = arguments.finite_mesh(vertices, triangles)
     needs_hard = seam is None or walls is None
     hard = hard_edges(points, faces) if needs_hard else arguments.NO_EDGES
     seams = hard if seam is None else arguments.edges_of("seam", seam, faces)
@@ -36,7 +29,7 @@ def seams_and_walls(points: FloatArray, faces: IntArray, seam: Any, walls: Any) 
         raise MeshError(Diagnostic("NO_SEAM", text, np.empty(0, np.int32), "vertex", {}))
     _check_sides(seams, faces)
     ends = hard if walls is None else arguments.edges_of("walls", walls, faces)
-    return seams, ends[arguments.places_of(ends, seams) < 0]
+    return points, faces, seams, ends[arguments.places_of(ends, seams) < 0]
 
 
 def refuse_vertices_on_edges(points: FloatArray, faces: IntArray, parent: IntArray) -> None:
@@ -57,9 +50,9 @@ def _check_sides(seams: IntArray, faces: IntArray) -> None:
     """MeshError where a seam has not one triangle on either side."""
     tails, heads = np.concatenate([faces[:, [k, (k + 1) % 3]] for k in range(3)]).T
     at = arguments.places_of(np.column_stack([tails, heads]), seams)
+    named = arguments.places_of(seams, seams)
     both, upward = (
-        np.bincount(at[those], minlength=len(seams))[arguments.places_of(seams, seams)]
-        for those in (at >= 0, (at >= 0) & (tails < heads))
+        np.bincount(at[those], minlength=len(seams))[named] for those in (at >= 0, (at >= 0) & (tails < heads))
     )
     cases = (
         (both > 2, "NONMANIFOLD_EDGE", "have three triangles and more: take the seam apart, or leave these edges out"),
@@ -77,7 +70,7 @@ def _check_sides(seams: IntArray, faces: IntArray) -> None:
             raise MeshError(Diagnostic(code, text, where, "vertex", {"edges": float(bad.sum())}))
 
 
-def width_of(name: str, value: Any, seams: IntArray, count: int) -> FloatArray:
+def _width(name: str, value: Any, seams: IntArray, count: int) -> FloatArray:
     """(n,) positive at the seams."""
     if np.ndim(value) == 0:
         return np.full(count, arguments.positive(name, value))
@@ -140,7 +133,7 @@ def fillet(
         together without seams and walls, ``width_2`` that of the smaller one. Where both are one, or of one size,
         ``width`` lies on the left of the first edge given, and of those that follow each other from there.
     clamp : bool
-        Make fillets no wider than there is room: at most nine tenths of the way to a wall or the middle between seams,
+        Make fillets no wider than there is room: nine tenths of the distance to a wall or the middle between seams,
         and less where nothing would be left of a face; widths taper. WIDTH_TOO_LARGE is then a warning that names the
         vertices, with the least width; without it such widths are refused.
     walls : (w, 2) int
@@ -181,34 +174,34 @@ def fillet(
         As for :func:`fairing.fair`.
     """
     given = options_of(options, named, progress).chosen | ({"threads": threads} if threads else {})
-    mesh, ends, room = _checked(vertices, triangles, seam, walls)
-    points, seams = mesh.points, mesh.seams
     wants_rows = arguments.choice("faces", faces, FACES) == "quads"
+    points, corners, seams, ends = seamed(vertices, triangles, seam, walls)
     counted = None if neighbours is None else arguments.vertices_of("neighbours", neighbours, len(points), 2)
-    both = _widths((width, width_2), seams, room[0], len(points))
-    length = _spacing(spacing, both, seams)
-    _refuse_large(points, seams, both, length, max_vertices)
+    usual, room = _core.seam_room(points, corners, (seams, ends))
+    one = _width("width", usual if width is None else width, seams, len(points))
+    both = one, one if width_2 is None else _width("width_2", width_2, seams, len(points))
     shape = arguments.finite("profile", profile)
     if abs(shape) > 1:
         raise ValueError(f"profile: a number from -1 to 1 is needed, not {profile!r}")
-    watch = Watch(progress)
-    finer = min(length, _spacing(0.0, both, seams)) if wants_rows else length
-    wishes = Wishes(finer, shape, both, ends, given, watch, wants_rows)
-    widest = room[1].copy() if clamp else np.full(len(points), np.inf)
+    task = Task(points, corners, seams, ends, both, 1.0, shape, given, Watch(progress), wants_rows)
+    length = arguments.length("spacing", spacing, "a quarter of the width") or task.largest / _ROWS
+    _refuse_large(task, length, max_vertices)
+    task = replace(task, spacing=min(length, task.largest / _ROWS) if wants_rows else length)
+    widest = room.copy() if clamp else np.full(len(points), np.inf)
     for _ in range(_ROUNDS):
-        wishes = _tapered(mesh, wishes, widest)
-        cut = mesh.cut(wishes, watch.part(0, 0.2))
+        task = _tapered(task, widest)
+        cut = task.cut()
         bad: list[tuple[IntArray, Any]] = [part[:2] for part in cut["eaten"] if not part[2]]
         what = "nothing would be left of a part between seams"
         if not bad:
-            refuse_vertices_on_edges(points, mesh.triangles, cut["parent"])
-            watch.lap("cut")
+            refuse_vertices_on_edges(points, corners, cut["parent"])
+            task.watch.lap("cut")
             try:
-                made = solved(mesh, cut, wishes)
+                made = solved(task, cut)
             except MeshError as error:
                 raise _named(error, len(points)) from error
-            near = _outside(mesh, made, wishes)
-            bad = [(near, np.minimum(np.maximum(*wishes.widths), room[1])[near])] if len(near) else []
+            near = _outside(task, made)
+            bad = [(near, np.minimum(np.maximum(*task.widths), room)[near])] if len(near) else []
             what = "the fillet would leave the shape that it rounds"
         if not bad or not clamp:
             break
@@ -216,12 +209,18 @@ def fillet(
             widest[vertices] = np.minimum(widest[vertices], _NARROWER * most)
     if bad:
         where = np.unique(np.concatenate([vertices for vertices, _ in bad]))
-        raise _too_wide(what, where, wishes, seams, min(float(np.min(most)) for _, most in bad))
-    clamped = _clamped(both, wishes.widths, seams)
-    made = replace(made, values={**made.values, "warnings": (*clamped, *made.values["warnings"])})
-    if not wants_rows:
-        return result_of(mesh, made, wishes)
-    return _with_quads(mesh, made, wishes, length, counted)
+        raise _too_wide(what, where, task.largest, min(float(np.min(most)) for _, most in bad))
+    warnings, pairs = _clamped(both, task.widths, seams), None
+    if wants_rows:
+        rows, pairs = in_rows(task, made, length, counted) or (made, np.empty((0, 2), np.int32))
+        made = rows
+        if not len(pairs):
+            at, text = np.unique(seams).astype(np.int32), "no rows of quads fit along the seams: triangles stay"
+            none = Diagnostic("NO_QUAD_ROWS", text, at, "vertex", {"edges": float(len(seams)), "seams": 1.0})
+            made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], none)})
+    result = result_of(task, made)
+    result = replace(result, warnings=(*warnings, *result.warnings))
+    return result if pairs is None else replace(result, quads=quads_of(result.triangles, pairs + result.outside))
 
 
 def fillet_width(
@@ -233,43 +232,27 @@ def fillet_width(
 ) -> float:
     """The width of a fillet by default: a fifth of the shortest side beside the seams.
 
-    A side is the way square to a seam, straight on over the surface to the next seam, wall or border. A tenth of the
+    A side goes square to a seam, straight on over the surface to the next seam, wall or border. A tenth of the
     seams, by their length, may have shorter ones. Arguments as for :func:`fairing.fillet`.
     """
-    return float(_checked(vertices, triangles, seam, walls)[2][0])
-
-
-def _checked(vertices: Any, triangles: Any, seam: Any, walls: Any) -> tuple[Given, IntArray, Any]:
-    """The mesh with its seams, the walls, and the room beside the seams."""
-    points = arguments.floats("vertices", vertices)
-    corners = arguments.triangles_within(triangles, len(points))
-    check_finite(points, corners)
-    seams, ends = seams_and_walls(points, corners, seam, walls)
-    return Given(points, corners, seams), ends, _core.seam_room(points, corners, (seams.tolist(), ends.tolist()))
-
-
-def _widths(given: tuple[Any, Any], seams: IntArray, usual: float, count: int) -> tuple[FloatArray, FloatArray]:
-    """(n,) of both sides, as they are asked for."""
-    first, second = given
-    one = width_of("width", usual if first is None else first, seams, count)
-    return one, one if second is None else width_of("width_2", second, seams, count)
+    points, corners, seams, ends = seamed(vertices, triangles, seam, walls)
+    return float(_core.seam_room(points, corners, (seams, ends))[0])
 
 
 _ROUNDS = 6  # of narrower widths, each of which may leave another part with nothing
 _NARROWER = 0.9  # of the width that takes a part whole, or where a surface leaves the shape
-_TAPER = 0.25  # of the way along a seam: so much widths change
+_TAPER = 0.25  # of the length along a seam: so much widths change
 
 
-def _tapered(mesh: Given, wishes: Wishes, widest: FloatArray) -> Wishes:
+def _tapered(task: Task, widest: FloatArray) -> Task:
     """With widths of at most `widest` (n,), which becomes less beside narrow places."""
-    ends = mesh.seams
-    steps = _TAPER * np.linalg.norm(mesh.points[ends[:, 0]] - mesh.points[ends[:, 1]], axis=1)
+    ends = task.seams
+    steps = _TAPER * np.linalg.norm(task.points[ends[:, 0]] - task.points[ends[:, 1]], axis=1)
     before = np.zeros_like(widest)
     while (widest != before).any():
         before = widest.copy()
         np.minimum.at(widest, ends, before[ends[:, ::-1]] + steps[:, None])
-    one, other = (np.minimum(side, widest) for side in wishes.widths)
-    return replace(wishes, widths=(one, other))
+    return replace(task, widths=(np.minimum(task.widths[0], widest), np.minimum(task.widths[1], widest)))
 
 
 def _clamped(
@@ -295,55 +278,30 @@ def _named(error: MeshError, count: int) -> MeshError:
     return MeshError(replace(said, elements=own, kind="vertex"))
 
 
-def _with_quads(mesh: Given, made: Made, wishes: Wishes, length: float, counted: IntArray | None) -> FilletResult:
-    """Quads in rows, and triangles where there are none."""
-    rows, pairs = in_rows(mesh, made, wishes, length, counted, None) or (made, np.empty((0, 2), np.int32))
-    if not len(pairs):
-        where, text = np.unique(mesh.seams).astype(np.int32), "no rows of quads fit along the seams: triangles stay"
-        warning = Diagnostic("NO_QUAD_ROWS", text, where, "vertex", {"edges": float(len(mesh.seams)), "seams": 1.0})
-        rows = replace(made, values={**made.values, "warnings": (*made.values["warnings"], warning)})
-    result = result_of(mesh, rows, wishes)
-    return replace(result, quads=quads_of(result.triangles, pairs + result.outside))
-
-
-def _spacing(value: Any, widths: tuple[FloatArray, FloatArray], seams: IntArray) -> float:
-    if arguments.finite("spacing", value) < 0:
-        raise ValueError(f"spacing: a length, or 0 for a quarter of the width, is needed, not {value!r}")
-    return float(value) or max(float(side[seams].max()) for side in widths) / _ROWS
-
-
-def _refuse_large(
-    points: FloatArray, seams: IntArray, widths: tuple[FloatArray, FloatArray], spacing: float, most: Any
-) -> None:
+def _refuse_large(task: Task, spacing: float, most: Any) -> None:
     """MeshError where so many vertices are wanted that a slip in the spacing is likelier than a wish."""
-    lengths = np.linalg.norm(points[seams[:, 0]] - points[seams[:, 1]], axis=1)
-    widest = max(float(side[seams].max()) for side in widths)
-    usual, wanted = (
-        sum(float((lengths / (share**2 * side[seams].mean(axis=1))).sum()) for side in widths)
-        for share in (1 / _ROWS, spacing / widest)
-    )
-    refuse_large(wanted, usual, arguments.whole("max_vertices", most, 0), seams.ravel())
+    lengths = np.linalg.norm(task.points[task.seams[:, 0]] - task.points[task.seams[:, 1]], axis=1)
+    across = sum(float((lengths / side[task.seams].mean(axis=1)).sum()) for side in task.widths)
+    wanted = across * (task.largest / spacing) ** 2
+    _core.refuse_large(wanted, across * _ROWS**2, arguments.whole("max_vertices", most, 0), task.seams.ravel())
 
 
-def _outside(mesh: Given, made: Made, wishes: Wishes) -> IntArray:
+def _outside(task: Task, made: Made) -> IntArray:
     """Vertices of seams beside which rounded convex edges leave the solid, or concave ones enter it."""
-    count = len(mesh.points)
-    before = np.einsum("kc,kcd->kd", made.weights, mesh.points[mesh.triangles[made.old]])
-    used = np.unique(made.triangles[made.triangles >= count]) - count
-    edges = [*mesh.seams.tolist(), *wishes.walls.tolist()]
-    widest = max(float(side[mesh.seams].max()) for side in wishes.widths)
-    after = made.vertices[count:][used]
-    wrong = _core.on_wrong_side(mesh.points, mesh.triangles, edges, widest, before[used], after, None)
-    ends = np.unique(mesh.seams)
-    near: IntArray = ends[np.unique(nearest(before[used[wrong]], mesh.points[ends]))]
-    return near
+    count = len(task.points)
+    used = np.unique(made.patch.triangles[made.patch.triangles >= count])
+    before, after = made.before(task)[used], made.patch.vertices[used]
+    edges = np.concatenate([task.seams, task.walls])
+    wrong = _core.on_wrong_side(task.points, task.triangles, edges, task.largest, before, after, None)
+    ends = np.unique(task.seams)
+    return ends[np.unique(nearest(before[wrong], task.points[ends]))]
 
 
-def _too_wide(what: str, where: IntArray, wishes: Wishes, seams: IntArray, widest: float) -> MeshError:
+def _too_wide(what: str, where: IntArray, width: float, widest: float) -> MeshError:
     """widest: that fits there, or not less than what is wanted."""
     text = f"width: {what}; a smaller width is needed, or one of its seams less"
-    figures = {"width": max(float(side[seams].max()) for side in wishes.widths), "vertices": float(len(where))}
-    if widest < figures["width"]:
+    figures = {"width": width, "vertices": float(len(where))}
+    if widest < width:
         figures["widest"] = widest
         text += f"; a fillet of less than {widest:.4g} fits"
     return MeshError(Diagnostic("WIDTH_TOO_LARGE", text, where.astype(np.int32), "vertex", figures))

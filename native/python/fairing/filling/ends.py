@@ -5,16 +5,47 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import chain as chained
+from itertools import combinations, product
 
 import numpy as np
 
 from fairing import _core
+from fairing.options.arguments import places_of
 from fairing.results import FloatArray, IntArray
 
 _MOST = 5  # edges of a chain that tell its tangent: the circle through more follows no curve that turns otherwise
 _TURN = 0.5  # cosine of the turn at which a chain ends in a corner
 _ALONG = 0.966  # cos 15°: an edge of the loop that leaves a hard edge by less is its next one, seen from one side
+Links = dict[int, list[int]]
+
+
+def sides_of(loop: IntArray) -> IntArray:
+    """(k, 2) the edges of a loop, from each vertex to the next."""
+    return np.column_stack([loop, np.roll(loop, -1)])
+
+
+def links_of(edges: IntArray) -> Links:
+    """Which vertices edges (e, 2) join."""
+    joined: Links = defaultdict(list)
+    for a, b in np.unique(np.sort(edges, axis=1), axis=0).tolist():
+        if a != b:
+            joined[a].append(b)
+            joined[b].append(a)
+    return joined
+
+
+def paths_between(nodes: set[int], links: Links) -> list[list[int]]:
+    """The vertices of each path over links from a node to the next one."""
+    found = []
+    for node in sorted(nodes):
+        for first in links[node]:
+            path = [node, first]
+            while path[-1] not in nodes:
+                path.append(next(v for v in links[path[-1]] if v != path[-2]))
+            if (path[0], path[1]) < (path[-1], path[-2]):
+                found.append(path)
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,77 +67,56 @@ class EdgeEnd:
     """Places in the loop from where the edge comes to it to where it leaves it, along it; not wrapped around."""
 
 
-@dataclass(frozen=True, eq=False)
-class EndsAt:
-    """What hard edges do at one loop."""
-
-    ends: list[EdgeEnd]
-    """In the order of the loop, one for each hard edge that leads into the hole."""
-    along: list[range]
-    """Such runs of hard edges that meet another one without having left the loop."""
+def chain_end(chain: Sequence[int], vertices: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The direction in which a chain of edges comes to its first vertex, and its curvature there."""
+    direction, curvature = _core.chain_end(np.ascontiguousarray(vertices[chain[: _MOST + 1]]))
+    return direction.ravel(), curvature.ravel()
 
 
 def ends_at(
-    loop: IntArray, vertices: FloatArray, triangles: IntArray, hard: IntArray, marked: set[tuple[int, int]]
-) -> EndsAt:
+    loop: IntArray, vertices: FloatArray, triangles: IntArray, hard: IntArray, marked: IntArray
+) -> tuple[list[EdgeEnd], list[range]]:
     """Follow hard edges to the loop, along it, and into the hole.
 
-    Where several of them end at one vertex there is a corner, and no end. hard: (h, 2) edges of the triangles; marked:
-    the pairs that were marked, the smaller index first.
+    Their ends in the order of the loop, one for each that leads into the hole; and runs along the loop to another one.
+    Where several of them end at one vertex there is a corner, and no end. hard, marked: (h, 2) edges of the triangles,
+    and some of these.
     """
-    joined = _inner_links(loop, hard)
+    joined = links_of(hard[places_of(hard, sides_of(loop)) < 0])
     ends, runs = [], []
     for at, vertex in enumerate(loop.tolist()):
         if len(joined[vertex]) != 1:
             continue
         chain = chain_from(vertex, joined[vertex][0], joined, vertices)
-        angle = _angle(chain[0], chain[1], vertices, triangles)
-        is_marked = _pair(chain[0], chain[1]) in marked
+        edge = np.array(chain[:2])
         last, run, chain = _along(loop, at, chain, vertices)
-        if last == at:
-            run = range(0)
-        elif joined[int(loop[last])]:
+        where = int(loop[last])
+        if last != at and joined[where]:
             runs.append(run)
             continue
-        direction, curvature = _core.chain_end(np.ascontiguousarray(vertices[chain]))
-        where = int(loop[last])
-        ends.append(EdgeEnd(last, where, vertices[where], direction.ravel(), curvature.ravel(), angle, is_marked, run))
-    return EndsAt(sorted(ends, key=lambda end: end.at), runs)
-
-
-def _inner_links(loop: IntArray, hard: IntArray) -> dict[int, list[int]]:
-    """Which vertices hard edges join, without the loop's own."""
-    own = {_pair(a, b) for a, b in zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)}
-    joined = defaultdict(list)
-    for a, b in hard.tolist():
-        if _pair(a, b) not in own:
-            joined[a].append(b)
-            joined[b].append(a)
-    return joined
+        is_marked = bool(places_of(edge[None], marked)[0] >= 0)
+        angle = _angle(edge[0], edge[1], vertices, triangles)
+        ends.append(EdgeEnd(last, where, vertices[where], *chain_end(chain, vertices), angle, is_marked, run))
+    return sorted(ends, key=lambda end: end.at), runs
 
 
 def _along(loop: IntArray, at: int, chain: list[int], vertices: FloatArray) -> tuple[int, range, list[int]]:
-    """Where a chain that has come to the loop leaves it, the edges of the loop on the way, and the longer chain."""
+    """Where a chain that has come to the loop leaves it, the edges of the loop on its path, and the longer chain."""
     count, here, step = len(loop), at, 0
     while abs(here - at) < count - 1:
-        direction, _ = _core.chain_end(np.ascontiguousarray(vertices[chain[: _MOST + 1]]))
-        ways = [step] if step else [1, -1]
-        onward = [way for way in ways if _goes_on(loop, here, way, direction.ravel(), vertices)]
+        direction = chain_end(chain, vertices)[0]
+        onward = [each for each in ([step] if step else [1, -1]) if _goes_on(loop, here, each, direction, vertices)]
         if not onward:
             break
         step = onward[0]
         here += step
         chain = [int(loop[here % count]), *chain]
-    return here % count, range(at, here + step, step or 1), chain[: _MOST + 1]
+    return here % count, range(at, here + step, step) if step else range(0), chain
 
 
-def _goes_on(loop: IntArray, at: int, way: int, direction: FloatArray, vertices: FloatArray) -> bool:
-    edge = vertices[loop[(at + way) % len(loop)]] - vertices[loop[at % len(loop)]]
+def _goes_on(loop: IntArray, at: int, step: int, direction: FloatArray, vertices: FloatArray) -> bool:
+    edge = vertices[loop[(at + step) % len(loop)]] - vertices[loop[at % len(loop)]]
     return bool(edge @ direction > _ALONG * np.linalg.norm(edge))
-
-
-def _pair(a: int, b: int) -> tuple[int, int]:
-    return (a, b) if a < b else (b, a)
 
 
 def chain_from(first: int, second: int, joined: Mapping[int, list[int]], vertices: FloatArray) -> list[int]:
@@ -140,8 +150,8 @@ def _angle(a: int, b: int, vertices: FloatArray, triangles: IntArray) -> float:
 
 
 _LARGEST = 40.0  # degrees by which an edge may miss where it goes: two edges at a right angle miss each other by 45
-_MOST_ENDS = 8  # at one loop: 1430 ways to join them without crossings
-_CLEARLY = 2.0  # so many times as much do the edges miss in any other way,
+_MOST_ENDS = 8  # at one loop: 1430 pairings without crossings
+_CLEARLY = 2.0  # so many times as much do the edges miss in any other pairing,
 _UNSURE = 0.5  # and by so many degrees more at each end, or the ends are ambiguous
 _MARK = 5.0  # degrees that it counts that one edge of a pair is marked and the other is not
 _BEND = 0.25  # as much of the difference between their dihedral angles counts
@@ -155,43 +165,32 @@ class Joint:
     centre: FloatArray | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class Matching:
-    """Ends that run on, and those that are left alone."""
+def matched(ends: Sequence[EdgeEnd]) -> tuple[list[Joint], dict[str, Sequence[int]]]:
+    """Join the ends at one loop, in its order, so that as few as can be are left over and all miss least.
 
-    joints: tuple[Joint, ...]
-    lonely: tuple[int, ...] = ()
-    """They lead nowhere."""
-    ambiguous: tuple[int, ...] = ()
-    """They may be joined in two ways that are as good."""
-    too_many: tuple[int, ...] = ()
-
-
-def matched(ends: Sequence[EdgeEnd]) -> Matching:
-    """Join the ends at one loop, in its order, so that as few as can be are left over and all miss least."""
+    And those that are left alone: "lonely" lead nowhere, "ambiguous" have two pairings that are as good.
+    """
     everyone = tuple(range(len(ends)))
     if len(ends) > _MOST_ENDS:
-        return Matching((), too_many=everyone)
+        return [], {"too_many": everyone}
     blocks = _blocks(ends)
-    ways = sorted(
-        ((sum(len(block) == 1 for block in way), sum(blocks[block][0] for block in way), way)
-         for way in _ways(everyone, blocks)),
+    pairings = sorted(
+        ((sum(len(block) == 1 for block in each), sum(blocks[block][0] for block in each), each)
+         for each in _pairings(everyone, blocks)),
         key=lambda found: found[:2],
     )  # fmt: skip
-    single, miss, best = ways[0]
+    single, miss, best = pairings[0]
     rivals = {
         block
-        for other, missed, way in ways[1:]
+        for other, missed, each in pairings[1:]
         if other == single and missed < _CLEARLY * miss + _UNSURE * len(ends)
-        for block in way
+        for block in each
     }
-    unsure = {end for block in rivals - set(best) for end in block if rivals}
+    unsure = set(chained.from_iterable(rivals - set(best)))
     unsure |= {end for block in best if unsure & set(block) for end in block}
-    return Matching(
-        tuple(Joint(block, blocks[block][1]) for block in best if len(block) > 1 and not unsure & set(block)),
-        lonely=tuple(sorted({block[0] for block in best if len(block) == 1} - unsure)),
-        ambiguous=tuple(sorted(unsure)),
-    )
+    lonely = sorted({block[0] for block in best if len(block) == 1} - unsure)
+    joints = [Joint(block, blocks[block][1]) for block in best if len(block) > 1 and not unsure & set(block)]
+    return joints, {"lonely": lonely, "ambiguous": sorted(unsure)}
 
 
 Blocks = dict[tuple[int, ...], tuple[float, "FloatArray | None"]]
@@ -217,22 +216,15 @@ def _blocks(ends: Sequence[EdgeEnd]) -> Blocks:
     return result
 
 
-def _ways(left: tuple[int, ...], blocks: Blocks) -> Iterator[tuple[tuple[int, ...], ...]]:
-    """All ways to join them, none crossing: what lies between two ends of a block stays among itself."""
+def _pairings(left: tuple[int, ...], blocks: Blocks) -> Iterator[tuple[tuple[int, ...], ...]]:
+    """All that join them without crossings: what lies between two ends of a block stays among itself."""
     if not left:
         yield ()
         return
     for block in (block for block in blocks if block[0] == left[0] and set(block) <= set(left)):
         parts = [tuple(k for k in left if a < k < b) for a, b in zip(block, (*block[1:], left[-1] + 1), strict=True)]
-        yield from ((block, *rest) for rest in _together(parts, blocks))
-
-
-def _together(parts: list[tuple[int, ...]], blocks: Blocks) -> Iterator[tuple[tuple[int, ...], ...]]:
-    if not parts:
-        yield ()
-        return
-    for first in _ways(parts[0], blocks):
-        yield from ((*first, *rest) for rest in _together(parts[1:], blocks))
+        for rest in product(*(tuple(_pairings(part, blocks)) for part in parts)):
+            yield (block, *chained.from_iterable(rest))
 
 
 def _pair_miss(a: EdgeEnd, b: EdgeEnd) -> float | None:
@@ -247,12 +239,12 @@ def _pair_miss(a: EdgeEnd, b: EdgeEnd) -> float | None:
 
 
 def _miss(end: EdgeEnd, place: FloatArray) -> float:
-    """Degrees between the way to a place and the way there on the straight line or the circle that the edge follows."""
-    way = place - end.place
-    distance = float(np.linalg.norm(way))
+    """Degrees between the direction to a place and the straight line or the circle that the edge follows."""
+    chord = place - end.place
+    distance = float(np.linalg.norm(chord))
     if not distance > 0.0:
         return 180.0
-    cosine = max(float(onward @ way) / distance for onward in (end.direction, _on_circle(end, distance)))
+    cosine = max(float(onward @ chord) / distance for onward in (end.direction, _on_circle(end, distance)))
     return float(np.degrees(np.arccos(min(max(cosine, -1.0), 1.0))))
 
 
@@ -262,8 +254,7 @@ def _on_circle(end: EdgeEnd, distance: float) -> FloatArray:
     if not bend > 0.0:
         return end.direction
     sine = min(0.5 * distance * bend, 1.0)
-    chord: FloatArray = np.sqrt(1.0 - sine * sine) * end.direction + sine / bend * end.curvature
-    return chord
+    return np.sqrt(1.0 - sine * sine) * end.direction + sine / bend * end.curvature
 
 
 def meeting_point(places: Sequence[FloatArray], directions: Sequence[FloatArray]) -> FloatArray | None:
@@ -274,5 +265,4 @@ def meeting_point(places: Sequence[FloatArray], directions: Sequence[FloatArray]
     if not np.linalg.eigvalsh(matrix)[0] > parallel * len(places):
         return None
     right = np.sum([each @ place for each, place in zip(across, places, strict=True)], axis=0)
-    point: FloatArray = np.linalg.solve(matrix, right)
-    return point
+    return np.linalg.solve(matrix, right)

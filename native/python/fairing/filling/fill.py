@@ -116,8 +116,7 @@ def _rank(provenance: str) -> int:
 
 
 def _moved(numbers: IntArray, count: int, first: int) -> IntArray:
-    moved: IntArray = read_only(np.where(numbers < count, numbers, numbers + first).astype(np.int32))
-    return moved
+    return read_only(np.where(numbers < count, numbers, numbers + first).astype(np.int32))
 
 
 def _renamed(warning: Diagnostic, count: int, first: int) -> Diagnostic:
@@ -242,53 +241,38 @@ def fill(
     length = spacing_of(spacing, inner)
     if not isinstance(bridge, (bool, np.bool_)):
         raise ValueError(f"bridge: True or False is needed, not {bridge!r}")
-    if arguments.finite("longest_length", longest_length) < 0:
-        raise ValueError(f"longest_length: a length, or 0 for any, is needed, not {longest_length!r}")
     joins = chosen.surface.continuity == "G2"
     if fixed_curvatures is not None and not joins:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     engine = own_mesh_options(chosen, threads)
     in_rows = arguments.choice("faces", faces, FACES) == "quads"
     most = arguments.whole("max_vertices", max_vertices, 0)
-    edges_around = run_on.Edges.of((points, around), (edges, wires, marked), bool(bridge))
+    runs = arguments.choice("edges", edges, run_on.EDGES) == "run_on" and not bridge
+    lines = run_on.Edges.of((points, around), wires, marked, (length.length, length.even), runs=runs)
     own = given_loops(loops, len(points)) if loops is not None else []
-    limits = arguments.whole("longest", longest, 0), float(longest_length)
-    rows = _rows(normals, fixed_curvatures, own, len(points))
+    limits = arguments.whole("longest", longest, 0), arguments.length("longest_length", longest_length, "any")
+    slopes, slopes_at = _rows("normals", normals, (3,), own, len(points))
+    bends, bends_at = _rows("fixed_curvatures", fixed_curvatures, (), own, len(points))
+    named_loops = own, slopes, bends, slopes_at, bends_at, *limits
     team = arguments.whole("threads", threads, 0)
-    holes = _core.Holes(points, around, edges_around.hard, (own, *rows, *limits), bool(bridge), team)
-    curves = edges_around.through(holes, points, (length.length, length.even))
+    holes = _core.Holes(points, around, lines.hard, named_loops, bool(bridge), team)
+    curves = lines.through(holes, points) if runs else []
     through = [each.for_engine if isinstance(each, run_on.Curves) else None for each in curves]
     wishes = bool(bridge), in_rows, joins, length.length, length.even, most
     filled = holes.fill(through, wishes, engine, progress)
     return joined(len(points), filled, holes, curves)
 
 
-Rows = tuple[list[FloatArray], list[FloatArray], FloatArray, FloatArray]
-
-
-def _rows(normals: Any, curvatures: Any, loops: list[IntArray], count: int) -> Rows:
-    """Normals and curvatures by loops, and by the mesh's vertices; what is not given is empty."""
-    of_loops, of_vertices = _split(normals, "normals", 2, loops, count)
-    bends, bends_of_vertices = _split(curvatures, "fixed_curvatures", 1, loops, count)
-    return (
-        [arguments.floats("normals", each) for each in of_loops],
-        [arguments.curvatures(each, np.arange(len(each), dtype=np.int32)) for each in bends],
-        np.empty((0, 3)) if of_vertices is None else arguments.floats("normals", of_vertices),
-        np.empty(0)
-        if bends_of_vertices is None
-        else arguments.curvatures(bends_of_vertices, np.arange(count, dtype=np.int32)),
-    )  # fmt: skip
-
-
-def _split(values: Any, name: str, dimensions: int, loops: list[IntArray], count: int) -> tuple[list[Any], Any]:
-    """The rows of each loop, or those of all vertices; None where there are none of these."""
+def _rows(
+    name: str, values: Any, width: tuple[int, ...], loops: list[IntArray], count: int
+) -> tuple[list[FloatArray], FloatArray]:
+    """The rows of each loop, or those of all vertices; what is not given is empty."""
     if values is None:
-        return [], None
+        return [], np.empty((0, *width))
     sizes = [len(loop) for loop in loops]
-    if isinstance(values, (list, tuple)) and len(values) and np.ndim(values[0]) == dimensions:
-        rows, by_loop = np.concatenate([np.asarray(each) for each in values]), True
-    else:
-        rows, by_loop = np.asarray(values), False
+    by_loop = isinstance(values, (list, tuple)) and len(values) > 0 and np.ndim(values[0]) == 1 + len(width)
+    given = np.concatenate([np.asarray(each) for each in values]) if by_loop else values
+    rows = arguments.floats(name, given) if width else arguments.numbers(name, given, (-1,), may_miss=True)
     if len(rows) == count and not by_loop:
         return [], rows
     if len(rows) != sum(sizes) or not sizes:
@@ -296,4 +280,4 @@ def _split(values: Any, name: str, dimensions: int, loops: list[IntArray], count
         if sizes:
             needed = f"{sum(sizes)} rows, one for each vertex of the loops, or {needed}"
         raise ValueError(f"{name}: {needed}, are needed, not {len(rows)}")
-    return np.split(rows, np.cumsum(sizes)[:-1]), None
+    return np.split(rows, np.cumsum(sizes)[:-1]), rows[:0]

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing.measure import edges_with_uses, self_intersections
-from fairing.meshing.denoise import edges_around
-from fairing.meshing.remesh import Patch, Spacing, Watch, refuse_large, spacing_of
+from fairing.filling.ends import sides_of
+from fairing.measure import self_intersections
+from fairing.meshing.denoise import denoised, edges_around
+from fairing.meshing.remesh import Patch, Spacing, Watch, spacing_of
 from fairing.options import arguments, checks
-from fairing.options.groups import Boundary, Options
 from fairing.results import (
     Diagnostic,
     FloatArray,
@@ -24,7 +23,6 @@ from fairing.results import (
     read_only,
     report_fields,
 )
-from fairing.solving.fair import solved
 
 _STIFF = 100.0  # mean edges: shorter waves go from soap films that are bent into one surface, whose cells have some 20
 
@@ -62,10 +60,8 @@ def surface_from_curves(
         Some of these edges: over them the surface may bend.
     closed : bool
         Whether openings get a soap film, with a crease around. The outside of a sheet stays open.
-    spacing, inner, max_vertices
+    spacing, inner, max_vertices, progress, threads
         As for :func:`fairing.fill`, the wires in place of the boundary.
-    progress, threads
-        As for :func:`fairing.fair`.
 
     Raises
     ------
@@ -81,143 +77,79 @@ def surface_from_curves(
     wires = _wires("edges", edges, len(points))
     sharp = _wires("creases", arguments.NO_EDGES if creases is None else creases, len(points))
     length = spacing_of(spacing, inner)
-    count = arguments.whole("threads", threads, 0)
-    arguments.whole("max_vertices", max_vertices, 0)
-    checks.callback(progress)
+    most, threads = arguments.whole("max_vertices", max_vertices, 0), arguments.whole("threads", threads, 0)
+    watch = Watch(checks.callback(progress))
     if not isinstance(closed, (bool, np.bool_)):
         raise ValueError(f"closed: True or False is needed, not {closed!r}")
     _check(wires, points)
-    if not (wires[:, None] == sharp).all(axis=2).any(axis=0).all():
+    if (arguments.places_of(sharp, wires) < 0).any():
         raise ValueError("creases: some of them are none of `edges`")
-    watch = Watch(progress)
-    cells = _Cells(*_core.wire_cells(wires, points, bool(closed)))
-    return _Task(points, cells, _Held.of(cells, wires, sharp), length, max_vertices, count).filled(watch)
+    # Loops with their surface on the left, all of a network wound alike, and the normal of each (l, 3); what is no
+    # cell, and edges (r, 2) around openings that are closed.
+    cells, normals, left_open, rims = _core.wire_cells(wires, points, bool(closed))
+    used = np.bincount(arguments.places_of(np.concatenate([*map(sides_of, cells)]), wires), minlength=len(wires))
+    bent = np.unique(np.sort(np.concatenate([sharp, rims]), axis=1), axis=0)  # the surface may bend there
+    held = np.unique(wires[used > 0])
+    free = np.intersect1d(np.concatenate([wires[used == 1], bent]), held).astype(np.int32)  # slopes on either side
+    smooth = np.setdiff1d(held, free).astype(np.int32)  # one slope on both
+    # A soap film in each cell; normals are told, as all wires are, but do not count.
+    rows = [np.tile(normal, (len(loop), 1)) for loop, normal in zip(cells, normals, strict=True)]
+    films = _core.fill_loops(points, cells, rows, False, "soap_film", watch.part(0.0, 0.2))
+    first = Patch(
+        np.concatenate([points, films["vertices"]]), films["triangles"], held, np.tile(normals[:1], (len(held), 1))
+    )
+    options: dict[str, Any] = {"creases": free, "threads": threads}
+    options |= {"equation": "soap_film", "start": "outline"}  # each cell by itself
+    if len(smooth):
+        first = _bent(first, free, threads, watch.part(0.2, 0.3))
+        options |= {"equation": "least_variation", "smooth_curves": smooth, "start": "given"}
+    watch.lap("first")
+    _core.refuse_large(first.expected_new(length), first.expected_new(Spacing(0.0, False)), most, held)
+    parts = watch.part(0.3, 0.4), watch.part(0.4, 1.0)
+    every = {"creases": held, "threads": threads}
+    new = first.remeshed(len(points), arguments.NO_EDGES, length, every, parts[0])[0]
+    watch.lap("mesh")
+    report = new.faired(options, parts[1])
+    values = report_fields(report, len(points))
+    if not report.converged and len(smooth):
+        values.update(_plate(new, len(points)))
+    values["seconds"] = {**values["seconds"], **watch.seconds}
+    return FromCurvesResult(
+        **values,
+        triangles=new.triangles,
+        cells=tuple(map(read_only, cells)),
+        cell=_core.cells_of_triangles(new.triangles, cells, len(new.vertices)),
+        left_open=tuple(map(read_only, left_open)),
+        creases=read_only(bent),
+    )
 
 
-@dataclass(frozen=True, eq=False)
-class _Cells:
-    """Loops with their surface on the left, all of a network wound alike, and the normal of each (l, 3)."""
-
-    loops: list[IntArray]
-    normals: FloatArray
-    left_open: list[IntArray]
-    rims: IntArray
-    """(r, 2) edges around openings that are closed."""
-
-
-@dataclass(frozen=True)
-class _Held:
-    """Vertices of wires, all fixed: those where the surface finds a slope on either side, and one on both."""
-
-    creases: IntArray
-    smooth: IntArray
-    bent: IntArray
-    """(c, 2) the edges over which it may bend."""
-
-    @classmethod
-    def of(cls, cells: _Cells, wires: IntArray, sharp: IntArray) -> _Held:
-        """Free slopes are at the edges over which the surface may bend, and at wires with one cell."""
-        sides = np.concatenate([np.column_stack([loop, np.roll(loop, -1)]) for loop in cells.loops])
-        used = np.bincount(arguments.places_of(sides, wires), minlength=len(wires))
-        bent = np.unique(np.sort(np.concatenate([sharp, cells.rims]), axis=1), axis=0)
-        creases = np.intersect1d(np.concatenate([wires[used == 1], bent]), wires[used > 0]).astype(np.int32)
-        return cls(creases, np.setdiff1d(wires[used > 0], creases).astype(np.int32), bent)
-
-    @property
-    def all(self) -> IntArray:
-        return np.union1d(self.creases, self.smooth)
+def _plate(new: Patch, count: int) -> dict[str, Any]:
+    """The fields that differ where the equation has no surface: the plate itself stands in."""
+    curvature = _core.mean_curvature(new.vertices, new.triangles, new.fixed, None, "averaged")
+    crossing = self_intersections(new.vertices, new.triangles)
+    text = "no surface of least variation was found through these wires: a thin plate stands in, which bends more"
+    assert new.fixed is not None
+    found = [Diagnostic("NO_SOLUTION", text, new.fixed, "vertex", {"plate": 1.0})]
+    if len(crossing):
+        text = "the thin plate through the wires passes through itself: divide large cells by more wires"
+        figures = {"triangles": float(len(crossing))}
+        found.append(Diagnostic("SELF_INTERSECTION", text, crossing, "triangle", figures))
+    return {
+        "vertices": read_only(new.vertices[count:]), "mean_curvature": read_only(curvature[count:]),
+        "equation": "bilaplacian", "provenance": "first_surface", "warnings": tuple(found),
+    }  # fmt: skip
 
 
-@dataclass(frozen=True, eq=False)
-class _Task:
-    points: FloatArray
-    cells: _Cells
-    held: _Held
-    length: Spacing
-    max_vertices: Any
-    threads: int
+def _bent(films: Patch, creases: IntArray, threads: int, progress: Progress | None) -> Patch:
+    """The films without their kinks at smooth wires: a thin plate, near the surface of least variation."""
 
-    def filled(self, watch: Watch) -> FromCurvesResult:
-        first = self._bent(self._films(watch.part(0.0, 0.2)), watch.part(0.2, 0.3))
-        watch.lap("first")
-        usual = first.expected_new(Spacing(0.0, False))
-        refuse_large(first.expected_new(self.length), usual, self.max_vertices, self.held.all)
-        options = {"creases": self.held.all, "threads": self.threads}
-        new = first.remeshed(len(self.points), arguments.NO_EDGES, self.length, options, watch.part(0.3, 0.4))[0]
-        watch.lap("mesh")
-        report = solved(
-            new.vertices, new.triangles, Boundary(new.fixed, new.normals), self._options, watch.part(0.4, 1.0),
-            self.threads,
-        )  # fmt: skip
-        values = report_fields(report, len(self.points))
-        if not report.converged and len(self.held.smooth):
-            values.update(self._plate(new))
-        values["seconds"] = {**values["seconds"], **watch.seconds}
-        return FromCurvesResult(
-            **values,
-            triangles=new.triangles,
-            cells=tuple(map(read_only, self.cells.loops)),
-            cell=_core.cells_of_triangles(new.triangles, self.cells.loops, len(new.vertices)),
-            left_open=tuple(map(read_only, self.cells.left_open)),
-            creases=read_only(self.held.bent),
-        )
+    def sizes(placed: FloatArray, edges: IntArray, names: IntArray, _: float) -> FloatArray:
+        return np.where(np.isin(names, creases), 0.0, _STIFF * edges_around(placed, edges))
 
-    def _plate(self, new: Patch) -> dict[str, Any]:
-        """The fields that differ where the equation has no surface: the plate itself stands in."""
-        count = len(self.points)
-        curvature = _core.mean_curvature(new.vertices, new.triangles, new.fixed, None, "averaged")
-        crossing = self_intersections(new.vertices, new.triangles)
-        text = "no surface of least variation was found through these wires: a thin plate stands in, which bends more"
-        found = [Diagnostic("NO_SOLUTION", text, self.held.all, "vertex", {"plate": 1.0})]
-        if len(crossing):
-            text = "the thin plate through the wires passes through itself: divide large cells by more wires"
-            found.append(
-                Diagnostic("SELF_INTERSECTION", text, crossing, "triangle", {"triangles": float(len(crossing))})
-            )
-        return {
-            "vertices": read_only(new.vertices[count:]), "mean_curvature": read_only(curvature[count:]),
-            "equation": "bilaplacian", "provenance": "first_surface", "warnings": tuple(found),
-        }  # fmt: skip
-
-    @property
-    def _options(self) -> Options:
-        if not len(self.held.smooth):  # each cell by itself
-            return Options.of(equation="soap_film", creases=self.held.creases, inner_fairness="conformal")
-        return Options.of(
-            equation="least_variation", creases=self.held.creases, smooth_curves=self.held.smooth,
-            inner_fairness="conformal", start="given",
-        )  # fmt: skip
-
-    def _films(self, progress: Progress | None) -> Patch:
-        """A soap film in each cell. The normals are told, as all wires are, but do not count."""
-        loops, normals = self.cells.loops, self.cells.normals
-        rows = [np.tile(normal, (len(loop), 1)) for loop, normal in zip(loops, normals, strict=True)]
-        found = _core.fill_loops(self.points, loops, rows, False, "soap_film", progress)
-        fixed = self.held.all
-        return Patch(
-            np.concatenate([self.points, found["vertices"]]), found["triangles"], fixed,
-            np.tile(normals[:1], (len(fixed), 1)),
-        )  # fmt: skip
-
-    def _bent(self, films: Patch, progress: Progress | None) -> Patch:
-        """The films without their kinks at smooth wires: a thin plate, near the surface of least variation."""
-        if not len(self.held.smooth):
-            return films
-        numbers, local = np.unique(films.triangles, return_inverse=True)
-        local = local.reshape(-1, 3).astype(np.int32)
-        low = films.vertices[numbers].min(axis=0)
-        placed = films.vertices[numbers] - low
-        unit = float(placed.max())
-        placed /= unit
-        sizes = _STIFF * edges_around(placed, edges_with_uses(local)[0])
-        sizes[np.isin(numbers, self.held.creases)] = 0.0
-        fixed = np.isin(numbers, self.held.all)
-        bent = _core.denoised(
-            placed, local, np.flatnonzero(fixed).astype(np.int32), sizes, self.threads, progress
-        )  # fmt: skip
-        vertices = films.vertices.copy()
-        vertices[numbers[~fixed]] = low + unit * bent[~fixed]
-        return Patch(vertices, films.triangles, films.fixed, films.normals)
+    assert films.fixed is not None
+    move = denoised(films.vertices, films.triangles, films.fixed, sizes, threads, progress)
+    return Patch(films.vertices + move, films.triangles, films.fixed, films.normals)
 
 
 def _wires(name: str, value: npt.ArrayLike, count: int) -> IntArray:
@@ -231,11 +163,8 @@ def _wires(name: str, value: npt.ArrayLike, count: int) -> IntArray:
 def _check(wires: IntArray, points: FloatArray) -> None:
     """MeshError for what no surface can begin with."""
     if not len(wires):
-        _refuse("NO_CELL", "there are no wires: edges without a face are needed", wires)
-    used = np.unique(wires)
-    broken = used[~np.isfinite(points[used]).all(axis=1)]
-    if len(broken):
-        _refuse("NONFINITE", f"coordinates are not finite at {arguments.listed(broken)}", broken)
+        raise _refused("NO_CELL", "there are no wires: edges without a face are needed", wires)
+    arguments.refuse_not_finite(points, np.unique(wires))
     on_edges, pairs = _core.touching_edges(wires, points)
     short = wires[(points[wires[:, 0]] == points[wires[:, 1]]).all(axis=1)]
     where = np.unique(np.concatenate([short.ravel(), pairs.ravel(), on_edges.ravel()]))
@@ -243,9 +172,9 @@ def _check(wires: IntArray, points: FloatArray) -> None:
         where = np.unique(_core.crossing_edges(wires, points))
     if len(where):
         text = f"wires cross, or lie on each other, at {arguments.listed(where)}: "
-        _refuse("WIRES_CROSS", text + "give them one common vertex, or move them apart", where)
+        raise _refused("WIRES_CROSS", text + "give them one common vertex, or move them apart", where)
 
 
-def _refuse(code: str, text: str, where: IntArray) -> NoReturn:
+def _refused(code: str, text: str, where: IntArray) -> MeshError:
     elements = where.astype(np.int32).ravel()
-    raise MeshError(Diagnostic(code, text, elements, "vertex", {"vertices": float(len(elements))}))
+    return MeshError(Diagnostic(code, text, elements, "vertex", {"vertices": float(len(elements))}))

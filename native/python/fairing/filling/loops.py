@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
-from itertools import combinations
+from dataclasses import dataclass
 
 import numpy as np
 
-from fairing.options.arguments import listed
+from fairing.filling.ends import Links, links_of, paths_between, sides_of
+from fairing.options.arguments import listed, places_of
 from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
 
 
@@ -23,16 +22,9 @@ class Tree:
     """The vertices from each leaf to the next one, and from the last to the first, both ends included."""
 
 
-@dataclass(frozen=True, eq=False)
-class CutOutline:
-    """Loops without curves across them, the new surface on their left."""
-
-    loops: tuple[IntArray, ...]
-    normals: tuple[FloatArray, ...]
-    """For each loop (k, 3): one side's, at curves a mean between their ends'."""
-
-
 Places = Callable[[IntArray], FloatArray]
+Piece = tuple[IntArray, FloatArray, IntArray]
+"""Vertices of a loop, normals (k, 3), and places in the loop that was there first, −1 on curves."""
 
 
 def gap(tree: Tree, place: int) -> int:
@@ -51,52 +43,34 @@ def crosses(trees: Sequence[Tree]) -> set[int]:
     return found
 
 
-def cut(loop: IntArray, normals: FloatArray, sides: FloatArray, trees: Sequence[Tree], places_of: Places) -> CutOutline:
-    """The loops that trees leave of one; none of them cross.
+def cut(
+    loop: IntArray, normals: FloatArray, sides: FloatArray, trees: Sequence[Tree], places: Places
+) -> tuple[list[IntArray], list[FloatArray]]:
+    """The loops that trees leave of one, the new surface on their left, and their normals; none of the trees cross.
 
-    normals: (k, 3) at its vertices; sides: (k, 3) of the triangle outside at the edge to the next one; places_of gives
-    (k, 3) for vertices.
+    normals: (k, 3) at its vertices; sides: (k, 3) of the triangle outside at the edge to the next one; places gives
+    (k, 3) for vertices. Each loop has one side's normals, at curves a mean between their ends'.
     """
-    pieces = [_Piece(loop, normals, np.arange(len(loop)))]
+    pieces = [(loop, normals, np.arange(len(loop), dtype=np.int32))]
     for tree in trees:
-        whole = next(piece for piece in pieces if set(tree.leaves) <= set(piece.places.tolist()))
-        pieces.remove(whole)
-        pieces += _parted(whole, tree, sides, places_of)
-    return CutOutline(tuple(piece.loop for piece in pieces), tuple(piece.normals for piece in pieces))
+        k = next(k for k, piece in enumerate(pieces) if np.isin(tree.leaves, piece[2]).all())
+        pieces += _parted(pieces.pop(k), tree, sides, places)
+    return [piece[0] for piece in pieces], [piece[1] for piece in pieces]
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    loop: IntArray
-    normals: FloatArray
-    places: IntArray
-    """In the loop that was there first; −1 on curves."""
-
-    def between(self, first: int, last: int) -> _Piece:
-        """From one place to another, both included."""
-        begin, end = (int(np.flatnonzero(self.places == place)[0]) for place in (first, last))
-        there = (begin + np.arange((end - begin) % len(self.loop) + 1)) % len(self.loop)
-        return _Piece(self.loop[there], self.normals[there].copy(), self.places[there])
-
-
-def _parted(whole: _Piece, tree: Tree, sides: FloatArray, places_of: Places) -> list[_Piece]:
-    order = sorted(tree.leaves, key=lambda leaf: int(np.flatnonzero(whole.places == leaf)[0]))
-    turn = tree.leaves.index(order[0])
-    paths = tree.paths[turn:] + tree.paths[:turn]
-    result = []
-    for leaf, after, path in zip(order, order[1:] + order[:1], paths, strict=True):
-        part = whole.between(leaf, after)
-        part.normals[0], part.normals[-1] = sides[leaf], sides[after - 1]
-        back = path[::-1]
-        along = _along(places_of(back), part.normals[-1], part.normals[0])[1:-1]
-        result.append(
-            replace(
-                part,
-                loop=np.concatenate([part.loop, back[1:-1]]),
-                normals=np.concatenate([part.normals, along]),
-                places=np.concatenate([part.places, np.full(len(back) - 2, -1)]),
-            )
-        )
+def _parted(whole: Piece, tree: Tree, sides: FloatArray, places: Places) -> list[Piece]:
+    at = [int(np.flatnonzero(whole[2] == leaf)[0]) for leaf in tree.leaves]
+    count, result = len(tree.leaves), []
+    for k in (int(np.argmin(at)) + np.arange(count)) % count:
+        leaf, after, back = tree.leaves[k], tree.leaves[(k + 1) % count], tree.paths[k][::-1]
+        there = (at[k] + np.arange((at[(k + 1) % count] - at[k]) % len(whole[0]) + 1)) % len(whole[0])
+        own = whole[1][there].copy()
+        own[0], own[-1] = sides[leaf], sides[after - 1]
+        along = _along(places(back), own[-1], own[0])[1:-1]
+        new = np.full(len(back) - 2, -1, np.int32)
+        parts = zip((whole[0][there], own, whole[2][there]), (back[1:-1], along, new), strict=True)
+        loop, normals, old = (np.concatenate(part) for part in parts)
+        result.append((loop, normals, old))
     return result
 
 
@@ -105,24 +79,23 @@ def _along(points: FloatArray, first: FloatArray, last: FloatArray) -> FloatArra
     lengths = np.concatenate([[0.0], np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()])
     share = (lengths / max(lengths[-1], 1e-300))[:, None]
     normals = (1.0 - share) * first + share * last
-    tangents = np.gradient(points, axis=0) if len(points) > 1 else np.zeros_like(points)
+    tangents = np.gradient(points, axis=0)
     tangents /= np.maximum(np.linalg.norm(tangents, axis=1), 1e-300)[:, None]
     normals -= (normals * tangents).sum(axis=1)[:, None] * tangents
     sizes = np.linalg.norm(normals, axis=1)[:, None]
-    unit: FloatArray = np.where(sizes > 1e-6, normals / np.maximum(sizes, 1e-300), first)
-    return unit
+    return np.where(sizes > 1e-6, normals / np.maximum(sizes, 1e-300), first)
 
 
 def outside_normals(loop: IntArray, vertices: FloatArray, triangles: IntArray) -> FloatArray:
     """(k, 3) unit normals of the triangles at each edge to the next vertex; zero where there is none."""
-    edges = zip(loop.tolist(), np.roll(loop, -1).tolist(), strict=True)
-    places = {frozenset(ends): at for at, ends in enumerate(edges)}
+    near = triangles[np.isin(triangles, loop).sum(axis=1) > 1]
+    a, b, c = vertices[near].transpose(1, 0, 2)
+    normals = np.cross(b - a, c - a)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
     result = np.zeros((len(loop), 3))
-    for row in triangles[np.isin(triangles, loop).sum(axis=1) > 1].tolist():
-        for at in {places.get(frozenset(pair)) for pair in combinations(row, 2)} - {None}:
-            p, q, r = vertices[row]
-            normal = np.cross(q - p, r - p)
-            result[at] = normal / max(float(np.linalg.norm(normal)), 1e-300)
+    for k in range(3):
+        at = places_of(near[:, [k, (k + 1) % 3]], sides_of(loop))
+        result[at[at >= 0]] = normals[at >= 0]
     return result
 
 
@@ -135,12 +108,6 @@ class Drawn:
     reached: frozenset[int] = frozenset()
     """Vertices of the loop where wires end."""
 
-    @property
-    def vertices(self) -> IntArray:
-        """All of theirs, ascending."""
-        found: IntArray = np.unique(np.concatenate([np.empty(0, np.int32), *self.curves])).astype(np.int32)
-        return found
-
 
 def drawn(loop: IntArray, wires: IntArray) -> Drawn:
     """Wires (w, 2) that join vertices of the loop, or that meet between them.
@@ -148,21 +115,18 @@ def drawn(loop: IntArray, wires: IntArray) -> Drawn:
     MeshError: NONMANIFOLD_EDGE where wires cross, or enclose a place of their own. Loose ends are left alone.
     """
     places = {vertex: at for at, vertex in enumerate(loop.tolist())}
-    joined: dict[int, set[int]] = defaultdict(set)
-    for a, b in wires.tolist():
-        if not _is_edge_of(places, a, b, len(loop)):
-            joined[a].add(b)
-            joined[b].add(a)
     trees, curves = [], []
-    for links in _components(places, joined):
+    for links in _components(places, links_of(wires[places_of(wires, sides_of(loop)) < 0])):
         leaves = sorted(places[v] for v in links if v in places)
         if len(leaves) < 2:
             continue
-        _refuse_rings(links)
+        if sum(map(len, links.values())) // 2 >= len(links):
+            raise refusal("enclose a place of their own", np.array(sorted(links)), "remove one")
         ends = [int(loop[leaf]) for leaf in leaves]
         paths = [_path(a, b, links) for a, b in zip(ends, ends[1:] + ends[:1], strict=True)]
         trees.append(Tree(tuple(leaves), tuple(np.array(path, dtype=np.int32) for path in paths)))
-        curves += _branches(links, places)
+        nodes = {v for v in links if v in places or len(links[v]) != 2}
+        curves += [np.array(path, dtype=np.int32) for path in paths_between(nodes, links)]
     wrong = crosses(trees)
     if wrong:
         where = np.unique(np.concatenate([path for k in wrong for path in trees[k].paths]))
@@ -171,32 +135,23 @@ def drawn(loop: IntArray, wires: IntArray) -> Drawn:
     return Drawn(tuple(trees), tuple(curves), reached)
 
 
-def _is_edge_of(places: dict[int, int], a: int, b: int, count: int) -> bool:
-    return a in places and b in places and (places[a] - places[b]) % count in (1, count - 1)
-
-
-Links = dict[int, set[int]]
-
-
 def _components(places: dict[int, int], joined: Links) -> list[Links]:
     """Wires that hang together inside the loop, without loose ends; a vertex of the loop parts them."""
     seen: set[tuple[int, int]] = set()
     found = []
     for begin in sorted(v for v in joined if v in places):
-        for first in sorted(joined[begin]):
-            links: Links = defaultdict(set)
-            stack = [(begin, first)]
+        for first in joined[begin]:
+            stack, edges = [(begin, first)], []
             while stack:
                 a, b = stack.pop()
                 if (a, b) in seen:
                     continue
                 seen |= {(a, b), (b, a)}
-                links[a].add(b)
-                links[b].add(a)
+                edges.append((a, b))
                 if b not in places:
                     stack += [(b, c) for c in joined[b]]
-            if links:
-                found.append(_without_loose_ends(links, places))
+            if edges:
+                found.append(_without_loose_ends(links_of(np.array(edges)), places))
     return found
 
 
@@ -204,18 +159,12 @@ def _without_loose_ends(links: Links, places: dict[int, int]) -> Links:
     while loose := [v for v in links if len(links[v]) < 2 and v not in places]:
         for v in loose:
             for other in links.pop(v):
-                links[other].discard(v)
+                links[other].remove(v)
     return {v: others for v, others in links.items() if others}
 
 
-def _refuse_rings(links: Links) -> None:
-    if sum(map(len, links.values())) // 2 >= len(links):
-        where = np.array(sorted(links), dtype=np.int32)
-        raise refusal("enclose a place of their own", where, "remove one")
-
-
 def _path(begin: int, end: int, links: Links) -> list[int]:
-    """The way from leaf to leaf in a tree."""
+    """From leaf to leaf in a tree."""
     before = {begin: begin}
     stack = [begin]
     while stack:
@@ -228,20 +177,6 @@ def _path(begin: int, end: int, links: Links) -> list[int]:
     while path[-1] != begin:
         path.append(before[path[-1]])
     return path[::-1]
-
-
-def _branches(links: Links, places: dict[int, int]) -> list[IntArray]:
-    """The tree in curves between leaves and branchings."""
-    nodes = {v for v in links if v in places or len(links[v]) != 2}
-    found = []
-    for node in sorted(nodes):
-        for first in sorted(links[node]):
-            path = [node, first]
-            while path[-1] not in nodes:
-                path.append(next(v for v in links[path[-1]] if v != path[-2]))
-            if path[0] < path[-1]:
-                found.append(np.array(path, dtype=np.int32))
-    return found
 
 
 def refusal(what: str, where: IntArray, advice: str) -> MeshError:

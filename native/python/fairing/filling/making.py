@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from fairing import _core
-from fairing.filling import loops
 from fairing.filling.ends import EdgeEnd, Joint
 from fairing.filling.loops import Tree
 from fairing.results import FloatArray, IntArray
@@ -40,35 +40,25 @@ class Band:
 def bands_at(loop: IntArray, vertices: FloatArray, normals: FloatArray) -> list[Band]:
     """The bands across a loop with the hole on its left, in its order; normals: (k, 3) unit."""
     points = vertices[loop]
-    edges = np.roll(points, -1, axis=0) - points
+    lengths = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
     turns = 2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(np.roll(normals, -1, axis=0) - normals, axis=1), 0.0, 1.0))
-    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    widest = _NARROW * float(np.linalg.norm(np.ptp(points, axis=0)))
     found: list[Band] = []
-    for run in _runs(turns, np.linalg.norm(edges, axis=1), _NARROW * size):
+    for run in _runs(turns / np.maximum(lengths, _TINY) > np.radians(_LEAST_TURN) / widest):
         band = _band(run, points, normals, turns, len(found))
         if band is not None:
             found.append(band)
     return found
 
 
-def _runs(turns: FloatArray, lengths: FloatArray, widest: float) -> list[IntArray]:
-    """Runs of edges that turn by far more than their like: the narrowest that hold nearly all of a turn."""
-    count = len(turns)
-    bend = turns / np.maximum(lengths, _TINY)
-    strong = bend > np.radians(_LEAST_TURN) / widest
+def _runs(strong: npt.NDArray[np.bool_]) -> list[IntArray]:
+    """Runs of edges that turn by far more than their like; one edge along the band, which does not, parts none."""
     calm = np.flatnonzero(~strong & ~np.roll(strong, 1))
-    if not len(calm) or not strong.any():
+    if not len(calm):
         return []
-    start = int(calm[0])
-    runs: list[list[int]] = []
-    for k in range(start, start + count):
-        if not strong[k % count]:
-            continue
-        if runs and k - runs[-1][-1] <= 2:  # an edge along the band turns by nothing
-            runs[-1] += range(runs[-1][-1] + 1, k + 1)
-        else:
-            runs.append([k])
-    return [np.array(run) for run in runs]
+    places = calm[0] + np.flatnonzero(np.roll(strong, -calm[0]))
+    parts = np.split(places, np.flatnonzero(np.diff(places) > 2) + 1)
+    return [np.arange(part[0], part[-1] + 1) for part in parts if len(part)]
 
 
 def _band(run: IntArray, points: FloatArray, normals: FloatArray, turns: FloatArray, number: int) -> Band | None:
@@ -126,18 +116,13 @@ def _furthest_inside(
 
 def _beside(run: IntArray, turns: FloatArray, points: FloatArray, width: float, axis: FloatArray) -> float:
     """By how many radians the normal turns within a band's width beside it, the larger of both sides."""
-    count = len(turns)
-    most = 0.0
+    count, most = len(turns), 0.0
     for begin, step in ((int(run[-1]) + 1, 1), (int(run[0]) - 1, -1)):
-        k, total = begin, 0.0
-        origin = points[(begin + (step < 0)) % count]
-        for _ in range(count - len(run)):
-            way = points[(k + (step > 0)) % count] - origin
-            total += float(turns[k % count])
-            if np.linalg.norm(way - (way @ axis) * axis) > width:
-                break
-            k += step
-        most = max(most, total)
+        edges = begin + step * np.arange(count - len(run))
+        away = points[(edges + (step > 0)) % count] - points[(begin + (step < 0)) % count]
+        beyond = np.flatnonzero(np.linalg.norm(away - np.outer(away @ axis, axis), axis=1) > width)
+        near = edges[: beyond[0] + 1] if len(beyond) else edges
+        most = max(most, float(turns[near % count].sum()))
     return most
 
 
@@ -159,24 +144,18 @@ def pairs_across(one: Band, other: Band) -> list[tuple[int, int]]:
     return [(b, last - a) if swapped else (a, last - b) for a, b in enumerate(chosen)]
 
 
-_LONGEST_IN_BAND = 2.0  # rows across it: longer edges along it would make needles
-
-
-@dataclass(frozen=True, eq=False)
-class Wanted:
-    """How long the edges of curves are to be."""
-
-    length: float
-    """0: ``factor`` times as long as the loop's edges at the curve's ends."""
-    factor: float
+_LONGEST_IN_BAND = 2.0  # rows across it: longer edges along it would make slivers
 
 
 class Making:
-    """Collects curves, and new vertices on them."""
+    """Collects curves, and new vertices on them.
 
-    def __init__(self, vertices: FloatArray, wanted: Wanted) -> None:
-        self._vertices = vertices
-        self._wanted = wanted
+    length: of their edges; 0: ``factor`` times as long as the loop's edges at the curve's ends.
+    """
+
+    def __init__(self, vertices: FloatArray, length: float, factor: float) -> None:
+        self.vertices = vertices
+        self._wanted = length, factor
         self._added: list[FloatArray] = []
         self.curves: list[IntArray] = []
         self.rows: list[IntArray] = []
@@ -190,24 +169,22 @@ class Making:
 
     def at(self, numbers: IntArray) -> FloatArray:
         """(k, 3) where vertices are, given and new ones."""
-        is_new = numbers >= len(self._vertices)
-        places: FloatArray = self._vertices[np.where(is_new, 0, numbers)]
-        places[is_new] = self.added[numbers[is_new] - len(self._vertices)]
+        is_new = numbers >= len(self.vertices)
+        places: FloatArray = self.vertices[np.where(is_new, 0, numbers)]
+        places[is_new] = self.added[numbers[is_new] - len(self.vertices)]
         return places
 
     def _new(self, places: FloatArray) -> IntArray:
-        first = len(self._vertices) + sum(map(len, self._added))
+        first = len(self.vertices) + sum(map(len, self._added))
         self._added.append(places)
         return np.arange(first, first + len(places), dtype=np.int32)
 
     def _curve(self, begin: EdgeEnd, end: tuple[FloatArray, FloatArray], lengths: tuple[float, float]) -> FloatArray:
-        """Places of new vertices on the way from the end of an edge to a place with its direction, without both."""
-        places, ways = np.array([begin.place, end[0]]), np.array([begin.direction, end[1]])
-        dense = np.linspace(0.0, 1.0, 65)
-        whole = _core.fair_curve(places, ways, dense.tolist())
+        """Places of new vertices from the end of an edge to a place with its direction, without both."""
+        places, directions = np.array([begin.place, end[0]]), np.array([begin.direction, end[1]])
+        whole = _core.fair_curve(places, directions, np.linspace(0.0, 1.0, 65))
         length = float(np.linalg.norm(np.diff(whole, axis=0), axis=1).sum())
-        inner: FloatArray = _core.fair_curve(places, ways, _shares(length, lengths, self._wanted).tolist())
-        return inner
+        return _core.fair_curve(places, directions, _shares(length, lengths, *self._wanted))
 
     def joined(self, loop: IntArray, joint: Joint, ends: Sequence[EdgeEnd], lengths: FloatArray) -> Tree:
         """The curves of one joint; lengths: (k,) of the loop's edges at each vertex."""
@@ -218,7 +195,7 @@ class Making:
             a, b = mine
             inner = self._new(self._curve(a, (b.place, -b.direction), (lengths[a.at], lengths[b.at])))
             path = np.concatenate([loop[[a.at]], inner, loop[[b.at]]]).astype(np.int32)
-            self._keep(path, is_marked)
+            self.keep(path, is_marked)
             return Tree(leaves, (path, path[::-1].copy()))
         centre = self._new(joint.centre[None])
         mean = float(np.mean([lengths[end.at] for end in mine]))
@@ -226,7 +203,7 @@ class Making:
         for end in mine:
             inner = self._new(self._curve(end, (joint.centre, np.zeros(3)), (lengths[end.at], mean)))
             arms.append(np.concatenate([loop[[end.at]], inner, centre]).astype(np.int32))
-            self._keep(arms[-1], end.marked)
+            self.keep(arms[-1], end.marked)
         return Tree(
             leaves, tuple(np.concatenate([a, b[-2::-1]]) for a, b in zip(arms, arms[1:] + arms[:1], strict=True))
         )
@@ -247,36 +224,28 @@ class Making:
         self.bands.append(tuple(tree.paths[0] for tree in trees))
         return trees
 
-    def drawn(self, found: loops.Drawn, marked: set[int]) -> None:
-        """Curves that are there as wires; marked: where marked hard edges come to the loop."""
-        for curve in found.curves:
-            ends = {int(curve[0]), int(curve[-1])} & found.reached
-            self._keep(curve, ends <= marked)
-
-    def _keep(self, curve: IntArray, is_marked: bool) -> None:
+    def keep(self, curve: IntArray, is_marked: bool) -> None:
         self.curves.append(curve)
         self.marked.append(is_marked)
 
 
-def _shares(length: float, ends: tuple[float, float], wanted: Wanted) -> FloatArray:
+def _shares(length: float, ends: tuple[float, float], wanted: float, factor: float) -> FloatArray:
     """Shares of a curve's length at which its inner vertices lie: edges as long as at the ends, and as wanted between.
 
-    As for all new edges lengths grow or shrink by half of the distance on the way there.
+    As for all new edges lengths grow or shrink by half of the distance.
     """
     along = np.linspace(0.0, length, 1025)
     here = ends[0] + (ends[1] - ends[0]) * along / length
-    goal = np.full_like(along, wanted.length) if wanted.length else wanted.factor * here
+    goal = np.full_like(along, wanted) if wanted else factor * here
     away = 0.5 * np.minimum(along, length - along)
     edges = np.clip(goal, here - away, here + away)
     edges = np.maximum(edges, 1e-3 * min(ends))
     count = np.concatenate([[0.0], np.cumsum(0.5 * (1.0 / edges[1:] + 1.0 / edges[:-1]) * np.diff(along))])
     whole = max(1, round(float(count[-1])))
-    result: FloatArray = np.interp(np.arange(1, whole) / whole * count[-1], count, along) / length
-    return result
+    return np.interp(np.arange(1, whole) / whole * count[-1], count, along) / length
 
 
 def lengths_at(points: FloatArray) -> FloatArray:
     """(k,) the mean length of the two edges at each vertex of a loop."""
     edges = np.linalg.norm(np.roll(points, -1, axis=0) - points, axis=1)
-    mean: FloatArray = 0.5 * (edges + np.roll(edges, 1))
-    return mean
+    return 0.5 * (edges + np.roll(edges, 1))

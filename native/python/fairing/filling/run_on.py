@@ -8,13 +8,12 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from fairing import _core
 from fairing.filling import loops
-from fairing.filling.ends import EdgeEnd, Matching, ends_at, matched
+from fairing.filling.ends import EdgeEnd, ends_at, matched, sides_of
 from fairing.filling.loops import Tree, crosses, gap
-from fairing.filling.making import Making, Wanted, bands_at, lengths_at
+from fairing.filling.making import Making, bands_at, lengths_at
 from fairing.measure import hard_edges
 from fairing.options import arguments
 from fairing.options.arguments import listed
@@ -25,15 +24,15 @@ EDGES = ("run_on", "ignored")
 
 @dataclass(frozen=True, eq=False)
 class Curves:
-    """What runs through one loop, and along it: None of ``cut`` where all is left alone."""
+    """What runs through one loop, and along it."""
 
     loop: IntArray
-    normals: FloatArray
     making: Making
     trees: list[Tree]
     along: list[range]
     warnings: list[Diagnostic]
-    cut: loops.CutOutline | None = None
+    cut: tuple[list[IntArray], list[FloatArray]] | None = None
+    """The loops that are left, and their normals; None where all is left alone."""
 
     def left_alone(self) -> tuple[Diagnostic, ...]:
         """The warnings where no surface holds the edges."""
@@ -47,8 +46,7 @@ class Curves:
     def vertices(self) -> IntArray:
         """All whose slope each side finds: on curves, along bands and on hard edges of the loop, ascending."""
         rim = self.loop[sorted({place % len(self.loop) for run in self.along for place in run})]
-        found: IntArray = np.unique(np.concatenate([rim, *self.making.rows, *self.making.curves])).astype(np.int32)
-        return found
+        return np.unique(np.concatenate([rim, *self.making.rows, *self.making.curves])).astype(np.int32)
 
     @property
     def for_engine(self) -> tuple[FloatArray, list[IntArray], list[FloatArray], IntArray, IntArray] | None:
@@ -58,16 +56,16 @@ class Curves:
         chains = [*self.making.curves, *(row for band in self.making.bands for row in band)]
         edges = [np.column_stack([chain[:-1], chain[1:]]) for chain in chains]
         kept = np.concatenate([arguments.NO_EDGES, *edges]).astype(np.int32)
-        return self.making.added, list(self.cut.loops), list(self.cut.normals), self.vertices, kept
+        return self.making.added, *self.cut, self.vertices, kept
 
-    def parted(self, points: FloatArray, triangles: IntArray) -> Curves:
-        """With the loop cut, where anything runs through it or along it."""
+    def parted(self, normals: FloatArray, points: FloatArray, triangles: IntArray) -> Curves:
+        """With the loop cut, where anything runs through it or along it; normals: (k, 3) at its vertices."""
         if not self.trees and not self.along:
             return self
         sides = loops.outside_normals(self.loop, points, triangles)
         missing = ~sides.any(axis=1)
-        sides[missing] = self.normals[missing]
-        normals = self.normals.copy()
+        sides[missing] = normals[missing]
+        normals = normals.copy()
         for run in self.along:
             _take_other_side(run, sides, normals)
         return replace(self, cut=loops.cut(self.loop, normals, sides, self.trees, self.making.at))
@@ -78,133 +76,100 @@ class Edges:
     """What may run through holes: hard edges around them, those among these that were marked, and wires."""
 
     hard: IntArray
-    marked: set[tuple[int, int]]
+    marked: IntArray
     wires: IntArray
-    run_through: bool = True
-    """Whether anything may: bands, too."""
+    spacing: tuple[float, bool]
+    """A length or 0, and whether it is the same everywhere."""
 
     @classmethod
-    def of(cls, mesh: tuple[FloatArray, IntArray], given: tuple[Any, Any, Any], bridge: bool) -> Edges:
-        """mesh: vertices and triangles around; given: ``edges``, ``wires`` and ``marked`` of :func:`fairing.fill`."""
+    def of(
+        cls, mesh: tuple[FloatArray, IntArray], wires: Any, marked: Any, spacing: tuple[float, bool], *, runs: bool
+    ) -> Edges:
+        """mesh: vertices and triangles around; wires, marked: of :func:`fairing.fill`; runs: whether any edge does."""
         points, around = mesh
-        edges, wires, marked = given
         drawn, marks = (
             arguments.vertices_of(name, value, len(points), 2) for name, value in (("wires", wires), ("marked", marked))
         )
-        if arguments.choice("edges", edges, EDGES) == "ignored" or bridge:
-            return cls(arguments.NO_EDGES, set(), arguments.NO_EDGES, False)
-        pairs = {(min(pair), max(pair)) for pair in marks.tolist()}
-        return cls(hard_edges(points, around, marked=marks), pairs, drawn)
+        hard = hard_edges(points, around, marked=marks) if runs else arguments.NO_EDGES
+        return cls(hard, marks, drawn, spacing)
 
-    def through(
-        self, holes: _core.Holes, points: FloatArray, spacing: tuple[float, bool]
-    ) -> list[Curves | Diagnostic | None]:
-        """What runs through each hole, found by what is around it alone, or why it can't be filled.
-
-        spacing: a length or 0, and whether it is the same everywhere.
-        """
-        if not self.run_through:
-            return []
-        loops, slopes = [loops[0] for loops in holes.loops], holes.slopes(spacing[0])
-        near = _touched(loops, np.concatenate([self.hard, self.wires]), len(points))
-        near |= [bool(bands_at(loop, points, normals)) for loop, (normals, _) in zip(loops, slopes, strict=True)]
-        found: list[Curves | Diagnostic | None] = [None] * len(loops)
-        for k in np.flatnonzero(near).tolist():
-            if not slopes[k][1]:
+    def through(self, holes: _core.Holes, points: FloatArray) -> list[Curves | Diagnostic | None]:
+        """What runs through each hole, found by what is around it alone, or why it can't be filled."""
+        at = np.zeros(len(points), dtype=bool)
+        at[self.hard] = at[self.wires] = True
+        found: list[Curves | Diagnostic | None] = []
+        for k, ((loop, *_), (normals, may)) in enumerate(zip(holes.loops, holes.slopes(self.spacing[0]), strict=True)):
+            found.append(None)
+            if not may or not (at[loop].any() or bands_at(loop, points, normals)):
                 continue
             names, triangles = holes.around(k)
-            near_by = np.isin(self.hard, np.append(names, self.wires)).all(axis=1)
-            local = replace(self, hard=self.hard[near_by])
+            local = replace(self, hard=self.hard[np.isin(self.hard, np.append(names, self.wires)).all(axis=1)])
             try:
-                found[k] = local.run_on(loops[k], slopes[k][0], (points, names[triangles]), spacing)
+                curves = local.run_on(loop, normals, (points, names[triangles]))
             except MeshError as error:
                 found[k] = error.diagnostic
+            else:
+                found[k] = curves if curves.cut is not None or curves.warnings else None
         return found
 
-    def run_on(
-        self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray], spacing: tuple[float, bool]
-    ) -> Curves | None:
-        """The curves through a loop with its normals (k, 3); None where nothing runs through it or is left alone."""
-        points = mesh[0]
-        mean = float(np.linalg.norm(np.roll(points[loop], -1, axis=0) - points[loop], axis=1).mean())
-        length, even = spacing
-        wanted = Wanted((length or mean) if even else 0.0, (length or mean) / mean)
-        found = _Finder(loop, normals, mesh, self, wanted).found()
-        return found if found.cut is not None or found.warnings else None
+    def run_on(self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray]) -> Curves:
+        """The curves through a loop with its normals (k, 3).
 
-
-def _touched(loops: Sequence[IntArray], edges: IntArray, count: int) -> npt.NDArray[np.bool_]:
-    """(l,) the loops with a vertex at which one of the edges ends."""
-    at = np.zeros(count, dtype=bool)
-    at[edges] = True
-    return np.array([at[loop].any() for loop in loops], dtype=bool)
-
-
-@dataclass(frozen=True, eq=False)
-class _Finder:
-    """Looks at one loop."""
-
-    loop: IntArray
-    normals: FloatArray
-    mesh: tuple[FloatArray, IntArray]
-    edges: Edges
-    wanted: Wanted
-
-    def found(self) -> Curves:
-        """Where curves meet the boundary or each other, bands are left out, and then all but drawn edges."""
-        vertices, triangles = self.mesh
-        drawn = loops.drawn(self.loop, self.edges.wires)
-        there = ends_at(self.loop, vertices, triangles, self.edges.hard, self.edges.marked)
-        free = [end for end in there.ends if end.vertex not in drawn.reached]
-        marked = {end.vertex for end in there.ends if end.marked}
-        for ends, with_bands in ((free, self.edges.run_through), (free, False), ([], False)):
-            making = Making(vertices, self.wanted)
-            making.drawn(drawn, marked)
-            trees, warnings = self._edges(ends, drawn.trees, making)
+        Where they meet the boundary or each other, bands are left out, and then all but drawn edges.
+        """
+        points, triangles = mesh
+        lengths, (length, even) = lengths_at(points[loop]), self.spacing
+        mean = float(lengths.mean())
+        drawn = loops.drawn(loop, self.wires)
+        all_ends, runs = ends_at(loop, points, triangles, self.hard, self.marked)
+        free = [end for end in all_ends if end.vertex not in drawn.reached]
+        marked = {end.vertex for end in all_ends if end.marked}
+        for ends, with_bands in ((free, True), (free, False), ([], False)):
+            making = Making(points, (length or mean) if even else 0.0, (length or mean) / mean)
+            for curve in drawn.curves:
+                making.keep(curve, {int(curve[0]), int(curve[-1])} & drawn.reached <= marked)
+            trees, warnings = list(drawn.trees), []
+            for group in _apart(ends, drawn.trees):
+                joints, left = matched(group)
+                warnings += [each for why, which in left.items() for each in _left(group, which, why)]
+                trees += [making.joined(loop, joint, group, lengths) for joint in joints]
             if with_bands:
-                warnings = self._bands(trees, warnings, making)
+                warnings = _bands(loop, normals, trees, warnings, making)
             if len(ends) < len(free):
-                warnings = _told(free, range(len(free)), "crossing", "the way on crosses the outline")
+                warnings = _left(free, range(len(free)), "crossing")
             leaves = {leaf for tree in trees for leaf in tree.leaves}
-            along = there.along + [end.run for end in ends if end.at in leaves and len(end.run)]
-            found = Curves(self.loop, self.normals, making, trees, along, warnings)
+            along = runs + [end.run for end in ends if end.at in leaves and len(end.run)]
+            found = Curves(loop, making, trees, along, warnings)
             if not crosses(trees):
-                found = found.parted(vertices, triangles)
-            if not trees if found.cut is None else not _is_tangled(found.cut, making):
+                found = found.parted(normals, points, triangles)
+            if not trees if found.cut is None else not _is_tangled(found.cut[0], making):
                 return found
-        raise loops.refusal("meet its boundary or each other", drawn.vertices, "move them apart")
-
-    def _edges(self, ends: list[EdgeEnd], drawn: Sequence[Tree], making: Making) -> tuple[list[Tree], list[Diagnostic]]:
-        lengths = lengths_at(self.mesh[0][self.loop])
-        trees, warnings = list(drawn), []
-        for group in _apart(ends, drawn):
-            matching = matched(group)
-            warnings += _warnings(group, matching)
-            trees += [making.joined(self.loop, joint, group, lengths) for joint in matching.joints]
-        return trees, warnings
-
-    def _bands(self, trees: list[Tree], warnings: list[Diagnostic], making: Making) -> list[Diagnostic]:
-        """Add curves along bands that no hard edge runs in, and return the warnings about ends in none of them."""
-        points = self.mesh[0][self.loop]
-        leaves = {leaf for tree in trees for leaf in tree.leaves}
-        bands = [each for each in bands_at(self.loop, self.mesh[0], self.normals) if not leaves & each.covered]
-        mean = float(lengths_at(points).mean())
-        inside: set[int] = set()
-        for joint in matched([band.end for band in bands]).joints:
-            if joint.centre is None:
-                one, other = (bands[k] for k in joint.ends)
-                if one.covered & other.covered:  # beside each other: nothing lies between
-                    continue
-                trees += making.band(self.loop, one, other, mean)
-                inside |= set(self.loop[sorted(one.covered | other.covered)].tolist())
-        return [each for each in warnings if not inside >= set(each.elements.tolist())]
+        where = np.unique(np.concatenate([arguments.NO_EDGES.ravel(), *drawn.curves]))
+        raise loops.refusal("meet its boundary or each other", where, "move them apart")
 
 
-def _is_tangled(cut: loops.CutOutline, making: Making) -> bool:
+def _bands(
+    loop: IntArray, normals: FloatArray, trees: list[Tree], warnings: list[Diagnostic], making: Making
+) -> list[Diagnostic]:
+    """Add curves along bands that no hard edge runs in, and return the warnings about ends in none of them."""
+    leaves = {leaf for tree in trees for leaf in tree.leaves}
+    bands = [each for each in bands_at(loop, making.vertices, normals) if not leaves & each.covered]
+    inside: set[int] = set()
+    for joint in matched([band.end for band in bands])[0]:
+        if joint.centre is None:
+            one, other = (bands[k] for k in joint.ends)
+            if one.covered & other.covered:  # adjacent: nothing lies between
+                continue
+            trees += making.band(loop, one, other, float(lengths_at(making.vertices[loop]).mean()))
+            inside |= set(loop[sorted(one.covered | other.covered)].tolist())
+    return [each for each in warnings if not inside >= set(each.elements.tolist())]
+
+
+def _is_tangled(parts: list[IntArray], making: Making) -> bool:
     """Whether a part crosses or touches itself, or bounds nothing."""
-    for loop in cut.loops:
+    for loop in parts:
         names, place = np.unique(loop, return_inverse=True)
-        around, points = np.column_stack([place, np.roll(place, -1)]).astype(np.int32), making.at(names)
+        around, points = sides_of(place.astype(np.int32)), making.at(names)
         if (
             len(loop) < 3
             or len(_core.crossing_edges(around, points))
@@ -231,19 +196,19 @@ def _apart(ends: Sequence[EdgeEnd], trees: Sequence[Tree]) -> list[list[EdgeEnd]
     return list(groups.values())
 
 
-def _warnings(ends: Sequence[EdgeEnd], matching: Matching) -> list[Diagnostic]:
-    """Name the ends that are left alone."""
-    return [
-        *_told(ends, matching.lonely, "lonely", "no other one goes on from there"),
-        *_told(ends, matching.ambiguous, "ambiguous", "they may be joined in several ways"),
-        *_told(ends, matching.too_many, "too_many", "they are too many to be joined"),
-    ]
+_WHY = {
+    "lonely": "no other one goes on from there",
+    "ambiguous": "they may be joined in several ways",
+    "too_many": "they are too many to be joined",
+    "crossing": "their paths onward cross the outline",
+}
 
 
-def _told(ends: Sequence[EdgeEnd], which: Sequence[int], figure: str, why: str) -> list[Diagnostic]:
+def _left(ends: Sequence[EdgeEnd], which: Sequence[int], why: str) -> list[Diagnostic]:
+    """Name the ends that are left alone, if there are any."""
     if not which:
         return []
     where = np.sort(np.array([ends[k].vertex for k in which], dtype=np.int32))
     what = "1 hard edge ends" if len(where) == 1 else f"{len(where)} hard edges end"
-    text = f"{what} at a hole, at {listed(where)}: {why}"
-    return [Diagnostic("EDGES_LEFT_ALONE", text, where, "vertex", {"ends": float(len(where)), figure: 1.0})]
+    text = f"{what} at a hole, at {listed(where)}: {_WHY[why]}"
+    return [Diagnostic("EDGES_LEFT_ALONE", text, where, "vertex", {"ends": float(len(where)), why: 1.0})]

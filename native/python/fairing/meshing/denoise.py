@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
 
 from fairing import _core
-from fairing.filleting import fillet
 from fairing.measure import edges_with_uses
 from fairing.options import arguments, checks
 from fairing.results import FloatArray, IntArray, Progress
@@ -58,60 +57,57 @@ def denoise(
     ValueError, Cancelled, SolverError
         As for :func:`fairing.fair`.
     """
-    points, faces = arguments.mesh(vertices, triangles)
-    fillet.check_finite(points, faces)
-    length = arguments.finite("size", size)
-    if length < 0:
-        raise ValueError(f"size: a length, or 0 for {EDGES:g} mean edges, is needed, not {size!r}")
+    points, faces = arguments.finite_mesh(vertices, triangles)
+    length = arguments.length("size", size, f"{EDGES:g} mean edges")
     share = arguments.share("amount", amount)
     count = arguments.whole("threads", threads, 0)
     held = arguments.vertices_of("fixed", fixed, len(points))
-    part = _part(faces, held, arguments.edges_of("edges", edges, faces), len(points))
-    result = points.copy()
-    if not len(part.free) or share == 0.0:
-        return result
-    numbers, local = np.unique(part.triangles, return_inverse=True)
-    local = local.reshape(-1, 3).astype(np.int32)
-    low = points[numbers].min(axis=0)
-    unit = float(np.ptp(points[numbers], axis=0).max()) or 1.0
-    placed = (points[numbers] - low) / unit
-    around = edges_around(placed, np.searchsorted(numbers, part.edges))
-    sizes = np.full(len(placed), length / unit) if length else EDGES * around
-    sizes[np.isin(numbers, part.loose)] = 0.0
-    moved = np.isin(numbers, part.free)
-    stays = np.flatnonzero(~moved).astype(np.int32)
-    smooth = _core.denoised(placed, local, stays, sizes, count, checks.callback(progress))
-    # The move is scaled, not the place: what does not move keeps its bits.
-    result[numbers[moved]] += share * unit * (smooth[moved] - placed[moved])
-    return result
-
-
-@dataclass(frozen=True)
-class _Part:
-    """Vertices that move, those over which the surface may bend, and what either depends on."""
-
-    free: IntArray
-    loose: IntArray
-    triangles: IntArray
-    edges: npt.NDArray[np.int64]  # (e, 2) of the triangles
-
-
-def _part(faces: IntArray, fixed: IntArray, edges: IntArray, count: int) -> _Part:
-    moves = np.zeros(count, dtype=bool)
+    lines = arguments.edges_of("edges", edges, faces)
+    moves = np.zeros(len(points), dtype=bool)
     moves[faces] = True
-    moves[fixed] = False
+    moves[held] = False
     # The curvature at the neighbours of what moves counts, and needs all triangles there.
-    near = np.zeros(count, dtype=bool)
+    near = np.zeros(len(points), dtype=bool)
     near[faces[moves[faces].any(axis=1)]] = True
     around = faces[near[faces].any(axis=1)]
     sides, uses = edges_with_uses(around)
     border = sides[(uses == 1) & near[sides].any(axis=1)]
-    loose = np.unique(np.concatenate([border.ravel(), edges.ravel()]))
+    loose = np.unique(np.concatenate([border.ravel(), lines.ravel()]))  # the surface may bend there
     moves[loose] = False
-    return _Part(np.flatnonzero(moves), loose, around, sides)
+    if not moves.any() or share == 0.0:
+        return points.copy()
+
+    def sizes(placed: FloatArray, edges: IntArray, names: IntArray, unit: float) -> FloatArray:
+        wanted = np.full(len(placed), length / unit) if length else EDGES * edges_around(placed, edges)
+        return np.where(np.isin(names, loose), 0.0, wanted)
+
+    # The move is scaled, not the place: what does not move keeps its bits.
+    stays = np.flatnonzero(~moves).astype(np.int32)
+    return points + share * denoised(points, around, stays, sizes, count, checks.callback(progress))
 
 
-def edges_around(points: FloatArray, edges: npt.NDArray[np.intp]) -> FloatArray:
+def denoised(
+    points: FloatArray, triangles: IntArray, fixed: IntArray,
+    sizes: Callable[[FloatArray, IntArray, IntArray, float], FloatArray], threads: int, progress: Progress | None,
+) -> FloatArray:  # fmt: skip
+    """(n, 3) the moves of vertices that are not fixed, solved in a box of size 1.
+
+    sizes: of the places (k, 3) there, their edges (e, 2), the vertices (k,) and the box's size: (k,) wavelengths.
+    """
+    names, local = np.unique(triangles, return_inverse=True)
+    local = local.reshape(-1, 3).astype(np.int32)
+    low = points[names].min(axis=0)
+    unit = float(np.ptp(points[names], axis=0).max()) or 1.0
+    placed = (points[names] - low) / unit
+    stays = np.isin(names, fixed)
+    wanted = sizes(placed, edges_with_uses(local)[0].astype(np.int32), names, unit)
+    smooth = _core.denoised(placed, local, np.flatnonzero(stays).astype(np.int32), wanted, threads, progress)
+    moves = np.zeros_like(points)
+    moves[names[~stays]] = unit * (smooth - placed)[~stays]
+    return moves
+
+
+def edges_around(points: FloatArray, edges: IntArray) -> FloatArray:
     """(n,) the mean length of the edges around each vertex."""
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
     both, count = edges.ravel(), len(points)

@@ -13,18 +13,16 @@ from fairing import _core
 from fairing.options import arguments, checks
 from fairing.options.groups import Boundary, Options
 from fairing.results import (
-    Diagnostic,
     FairResult,
     FloatArray,
     IntArray,
-    MeshError,
     Origin,
     PairedQuads,
     Progress,
     RemeshResult,
     read_only,
 )  # fmt: skip
-from fairing.solving import slopes, surroundings
+from fairing.solving import surroundings
 from fairing.solving.fair import solved
 
 FACES = ("triangles", "quads")
@@ -49,25 +47,6 @@ class Watch:
         if progress is None:
             return None
         return lambda fraction, stage: progress(begin + (end - begin) * fraction, stage)
-
-
-PROPORTION = 20.0  # times as many as over flat surfaces, or over the old one: more are refused
-_ALWAYS = 50_000  # new vertices, which take some two seconds: never refused
-_NEVER = 4_000_000  # new vertices: a slip in the spacing, rather than a wish
-
-
-def refuse_large(count: float, flat: float, max_vertices: int, elements: IntArray) -> None:
-    """MeshError (OUT_OF_PROPORTION) where so many new vertices would be too many; ``elements``: vertices around.
-
-    ``flat``: about how many there would be over flat surfaces, or over the old one. ``max_vertices``: the caller's; 0:
-    twenty times ``flat``, within bounds.
-    """
-    most = float(max_vertices or min(max(_ALWAYS, PROPORTION * flat), _NEVER))
-    if count > most:
-        text = f"the surface would take about {count:.2g} new vertices, and {most:.2g} are accepted"
-        text += ": raise `spacing`, or allow more by `max_vertices`"
-        figures = {"count": float(count), "limit": most, "flat": flat}
-        raise MeshError(Diagnostic("OUT_OF_PROPORTION", text, np.unique(elements).astype(np.int32), "vertex", figures))
 
 
 INNER = ("outline", "even")
@@ -124,11 +103,11 @@ class Patch:
         return new, (mesh["triangle"], mesh["weights"]), mesh["old"]
 
     def faired(self, options: dict[str, Any], progress: Progress | None) -> FairResult:
-        """Begun at these vertices."""
-        chosen = {"inner_fairness": "conformal", **options}
+        """Begun at these vertices, if not told otherwise."""
+        chosen = {"inner_fairness": "conformal", "start": "given", **options}
         threads = chosen.pop("threads", 0)
         boundary = Boundary(self.fixed, self.normals, chosen.pop("fixed_curvatures", None))
-        return solved(self.vertices, self.triangles, boundary, Options.of(**chosen, start="given"), progress, threads)
+        return solved(self.vertices, self.triangles, boundary, Options.of(**chosen), progress, threads)
 
 
 _MADE_HERE = ("reference", "neighbours", "outline", "start")
@@ -163,17 +142,15 @@ def own_mesh_options(chosen: Options, threads: int) -> _core.Options:
 
 
 def spacing_of(value: Any, inner: str | None) -> Spacing:
-    if arguments.finite("spacing", value) < 0:
-        raise ValueError(f"spacing: a length, or 0 for that of the boundary's edges, is needed, not {value!r}")
+    length = arguments.length("spacing", value, "that of the boundary's edges")
     chosen = ("even" if value else "outline") if inner is None else inner
-    return Spacing(float(value), arguments.choice("inner", chosen, INNER) == "even")
+    return Spacing(length, arguments.choice("inner", chosen, INNER) == "even")
 
 
 def halves_of(points: FloatArray, quads: IntArray) -> IntArray:
     """(2 q, 3) the first triangles of all quads, then the second ones."""
     turned = _turned(points, quads)
-    halves: IntArray = np.concatenate([turned[:, [0, 1, 3]], turned[:, [2, 3, 1]]])
-    return halves
+    return np.concatenate([turned[:, [0, 1, 3]], turned[:, [2, 3, 1]]])
 
 
 def _turned(points: FloatArray, quads: IntArray) -> IntArray:
@@ -181,8 +158,7 @@ def _turned(points: FloatArray, quads: IntArray) -> IntArray:
     corners = points[quads]
     lengths = np.linalg.norm(corners[:, [0, 1]] - corners[:, [2, 3]], axis=2)
     is_shorter = lengths[:, 0] < (1 - 1e-6) * lengths[:, 1]
-    result: IntArray = np.where(is_shorter[:, None], np.roll(quads, -1, axis=1), quads)
-    return result
+    return np.where(is_shorter[:, None], np.roll(quads, -1, axis=1), quads)
 
 
 def quads_of(triangles: IntArray, pairs: IntArray) -> PairedQuads:
@@ -249,7 +225,7 @@ def remesh(
     beside = surroundings.Surroundings.of(points, corners, held, around.outside)
     joined = surroundings.Boundary(points, held, given_normals)
     if chosen.surface.continuity == "G2":
-        joined = slopes.with_curvatures(joined, beside, around.curvatures, around.continuity)
+        joined = surroundings.with_curvatures(joined, beside, around.curvatures, around.continuity)
     outside = beside.outside if around.outside is not None else corners[:0]
     patch = points, corners, joined.fixed, given_normals, joined.curvatures, outside
     values = _core.new_patch(patch, lines.tolist(), engine, (length.length, length.even, in_rows, most), progress)

@@ -21,7 +21,7 @@ from fairing.objects.seams import filled, rounded, with_normals
 from fairing.options import arguments
 from fairing.results import Diagnostic, FairResult, FilletResult, FillResult, IntArray, NewMeshResult
 from fairing.solving.fair import fair
-from fairing.solving.slopes import boundary_normals
+from fairing.solving.surroundings import boundary_normals
 
 Result = TypeVar("Result", FairResult, FillResult, FilletResult)
 log = logging.getLogger(__name__.partition(".")[0])
@@ -159,8 +159,7 @@ def _wound_alike(parts: Parts) -> tuple[Parts, tuple[Diagnostic, ...]]:
 
 def _edges(parts: Parts, faces: npt.NDArray[np.bool_]) -> IntArray:
     """(e, 2) the edges of some faces, those between two of them once."""
-    found: IntArray = np.unique(np.sort(parts.same[parts.faces.sides(faces)], axis=1), axis=0)
-    return found
+    return np.unique(np.sort(parts.same[parts.faces.sides(faces)], axis=1), axis=0)
 
 
 def _selection(selected: Any, parts: Parts) -> IntArray:
@@ -169,17 +168,14 @@ def _selection(selected: Any, parts: Parts) -> IntArray:
         if selected not in parts.face_data:
             raise ValueError(f"selected: no data at faces is called {selected!r}; there are {sorted(parts.face_data)}")
         selected = np.asarray(parts.face_data[selected]) != 0
-    array = np.asarray(selected)
-    count = len(parts.faces.sizes)
+    array, count = np.asarray(selected), len(parts.faces.sizes)
     if array.dtype == bool:
         if array.shape != (count,):
             raise ValueError(f"selected: a mask of {count} faces is needed, not one of shape {array.shape}")
         array = np.flatnonzero(array)
-    faces = arguments.integers("selected", array, None)
+    faces = arguments.rows_within("selected", array, count, "face")
     if not len(faces):
         raise ValueError("selected: no face is selected")
-    if faces.min() < 0 or faces.max() >= count:
-        raise ValueError(f"selected: names a face that is not one of 0 … {count - 1}")
     return faces
 
 

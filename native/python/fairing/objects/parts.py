@@ -52,14 +52,12 @@ class Polygons:
     @cached_property
     def first(self) -> IntArray:
         """(m,) where in ``corners`` each face begins."""
-        begins: IntArray = np.cumsum(self.sizes) - self.sizes
-        return begins
+        return np.cumsum(self.sizes) - self.sizes
 
     @cached_property
     def face_of(self) -> IntArray:
         """(t,) the face of each triangle."""
-        faces: IntArray = np.repeat(np.arange(len(self.sizes), dtype=np.int32), self.sizes - 2)
-        return faces
+        return np.repeat(np.arange(len(self.sizes), dtype=np.int32), self.sizes - 2)
 
     def sides(self, faces: npt.NDArray[Any]) -> IntArray:
         """(Σ k, 2) the sides of some faces, each as its face runs along it."""

@@ -261,8 +261,7 @@ def _normals(points: FloatArray, triangles: IntArray) -> FloatArray:
     a, b, c = points[triangles].transpose(1, 0, 2)
     sums = np.zeros_like(points)
     np.add.at(sums, triangles, np.cross(b - a, c - a)[:, None])
-    unit: FloatArray = sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), np.finfo(float).tiny)
-    return unit
+    return sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), np.finfo(float).tiny)
 
 
 def is_normal(name: str, values: Array) -> bool:

@@ -84,18 +84,23 @@ def boundary(
     return held, floats("fixed_normals", fixed_normals, held.shape[0])
 
 
+def numbers(name: str, value: npt.ArrayLike, shape: tuple[int, ...], *, may_miss: bool = False) -> FloatArray:
+    """Finite float64 of that shape, −1: any, in C order, or ValueError; ``may_miss``: NaN is one that is not known."""
+    array = _array(name, value)
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name}: numbers are needed, not {array.dtype}")
+    if array.ndim != len(shape) or any(size not in (-1, own) for size, own in zip(shape, array.shape, strict=True)):
+        raise ValueError(f"{name}: shape {shape} is needed, not {array.shape}".replace("-1", "c"))
+    if (np.isinf(array) if may_miss else ~np.isfinite(array)).any():
+        raise ValueError(f"{name}: finite numbers are needed{', or NaN where one is not known' * may_miss}")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
 def curvatures(value: npt.ArrayLike, held: IntArray | None) -> FloatArray:
     """``fixed_curvatures`` as (k,) float64, NaN where it is not known, or ValueError."""
     if held is None:
         raise ValueError("fixed_curvatures: needs `fixed`, whose order it follows")
-    array = _array("fixed_curvatures", value)
-    if array.dtype.kind not in "fiu":
-        raise ValueError(f"fixed_curvatures: numbers are needed, not {array.dtype}")
-    if array.shape != held.shape:
-        raise ValueError(f"fixed_curvatures: shape {held.shape} is needed, not {array.shape}")
-    if np.isinf(array).any():
-        raise ValueError("fixed_curvatures: finite numbers are needed, or NaN where the curvature is not known")
-    return np.ascontiguousarray(array, dtype=np.float64)
+    return numbers("fixed_curvatures", value, held.shape, may_miss=True)
 
 
 def indices_within(name: str, array: IntArray, count: int) -> IntArray:
@@ -135,6 +140,21 @@ def mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[FloatArray,
     return points, triangles_within(triangles, len(points))
 
 
+def finite_mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
+    """The same, and MeshError NONFINITE where a triangle names a vertex that is NaN or infinite."""
+    points, faces = mesh(vertices, triangles)
+    refuse_not_finite(points, np.unique(faces))
+    return points, faces
+
+
+def refuse_not_finite(points: FloatArray, used: IntArray) -> None:
+    """MeshError NONFINITE where one of the vertices used is NaN or infinite."""
+    bad = used[~np.isfinite(points[used]).all(axis=1)].astype(np.int32)
+    if len(bad):
+        text = f"vertices: {len(bad)} of them are NaN or infinite, first {bad[0]}"
+        raise MeshError(Diagnostic("NONFINITE", text, bad, "vertex", {"vertices": float(len(bad))}))
+
+
 def held_mesh(
     vertices: npt.ArrayLike, triangles: npt.ArrayLike, fixed: npt.ArrayLike | None
 ) -> tuple[FloatArray, IntArray, IntArray | None]:
@@ -144,23 +164,15 @@ def held_mesh(
 
 def finite_triangles(points: FloatArray, triangles: IntArray) -> IntArray:
     """Those without a corner that is NaN or infinite."""
-    finite: IntArray = triangles[np.isfinite(points[triangles]).all(axis=(1, 2))]
-    return finite
+    return triangles[np.isfinite(points[triangles]).all(axis=(1, 2))]
 
 
-def triangles_as_given(value: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
-    """The same; an array of wide integers itself: a large one has no room for another beside it."""
-    array = _array("triangles", value)
-    checked = triangles_within(array, count)
-    return array if array.dtype == np.int64 and array.shape == checked.shape else checked
-
-
-def rows_within(name: str, value: npt.ArrayLike, count: int) -> IntArray:
-    """(k,) numbers of ``count`` triangles, or ValueError."""
+def rows_within(name: str, value: npt.ArrayLike, count: int, what: str) -> IntArray:
+    """(k,) numbers of ``count`` faces or triangles, or ValueError."""
     numbers = integers(name, value, None)
     outside = numbers[(numbers < 0) | (numbers >= count)]
     if len(outside):
-        raise ValueError(f"{name}: there is no triangle {outside[0]}; there are {count}, counted from 0")
+        raise ValueError(f"{name}: there is no {what} {outside[0]}; there are {count}, counted from 0")
     return numbers
 
 
@@ -211,6 +223,13 @@ def positive(name: str, value: Any) -> float:
     """A finite number above zero."""
     if finite(name, value) <= 0:
         raise ValueError(f"{name}: a positive number is needed, not {value!r}")
+    return float(value)
+
+
+def length(name: str, value: Any, otherwise: str) -> float:
+    """A finite number, 0 or more; ``otherwise``: what 0 stands for."""
+    if finite(name, value) < 0:
+        raise ValueError(f"{name}: a length, or 0 for {otherwise}, is needed, not {value!r}")
     return float(value)
 
 

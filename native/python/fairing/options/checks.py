@@ -32,7 +32,8 @@ def by_parts(boundary: Boundary, options: Options) -> tuple[Boundary, Options]:
             "variation, and curvatures are met by the harmonic equation"
         )
     if loose.any():
-        given = arguments.integers("creases", _or_none(options.curves.creases), None)
+        creases = options.curves.creases
+        given = arguments.integers("creases", [] if creases is None else creases, None)
         options = options.changed(creases=np.union1d(given, fixed[loose]).astype(np.int32))
     if not curved.any():
         if options.surface.continuity == "G2":  # the words along the boundary say more
@@ -46,10 +47,6 @@ def where_met(curvatures: FloatArray, kinds: Any) -> FloatArray:
     return curvatures if kinds is None else np.where(kinds == "G2", curvatures, np.inf)
 
 
-def _or_none(value: npt.ArrayLike | None) -> npt.ArrayLike:
-    return np.empty(0, dtype=np.int32) if value is None else value
-
-
 def checked(value: Any, vertices: Any) -> npt.NDArray[np.str_]:
     """The (k,) words of ``continuity``; raises ValueError for others, or another shape than that of ``vertices``."""
     if vertices is None:
@@ -58,10 +55,8 @@ def checked(value: Any, vertices: Any) -> npt.NDArray[np.str_]:
     count = len(np.asarray(vertices))
     if kinds.shape != (count,):
         raise ValueError(f"continuity: shape ({count},) is needed, one word for each vertex, not {kinds.shape}")
-    unknown = kinds[~np.isin(kinds, KINDS)]
-    if len(unknown):
-        listed = ", ".join(repr(kind) for kind in KINDS)
-        raise ValueError(f"continuity: {unknown[0]!r} is not accepted; accepted are {listed}")
+    for kind in np.unique(kinds).tolist():
+        arguments.choice("continuity", kind, KINDS)
     return kinds
 
 

@@ -100,28 +100,24 @@ class Surface:
 
     equation: str = _word("harmonic", _core.WORDS["equation"])
     """One of "harmonic" | "constant" | "minimal_energy" | "soap_film" | "least_variation" | "automatic": Δ_B H = 0,
-    Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1), or H = 0 with positions met only (G0). See
-    §7.5. "least_variation": the surface whose normal curvatures vary least (G1), which exists between boundary loops
-    that no harmonic surface joins; docs/least_variation.md. "automatic", decided for each component by its boundary
-    alone: "least_variation" between two loops that face each other along a tube of more than 2 mean radii, where
-    harmonic surfaces have waists and balloons; "harmonic" elsewhere, with "G2", and with ``method`` "paper"."""
+    Δ_B H = ``load`` or Δ_B H = −2H(H² − K) with tangent planes met (G1, §7.5), or H = 0 with positions met only (G0).
+    "least_variation": the surface whose normal curvatures vary least (G1; docs/least_variation.md). "automatic", for
+    each component by its boundary: "least_variation" between two loops that face each other along a tube of more than
+    2 mean radii, where harmonic surfaces have waists; "harmonic" elsewhere, with "G2", and with ``method`` "paper"."""
 
     otherwise: str = _word("least_variation", _core.WORDS["otherwise"])
     """One of "least_variation" | "stop": What stands in where no surface of ``equation`` is accepted (method "global",
-    all but "soap_film"); one that is accepted is always returned. The default is the surface of least variation. Where
-    several boundary loops have none either, the shape of ``reference`` is smoothed as far as it goes, or a loft joins
-    them where no such shape is known; it may leave the tangent planes given (docs/least_variation.md).
-    ``result.equation`` and the warning NO_SOLUTION report the stand-in. "stop": the best surface found, not
-    ``converged``. A solve that ran out of fewer than 200 ``max_iterations``, or has part of its load, is never
-    replaced."""
+    all but "soap_film"): the surface of least variation; where several boundary loops have none either, the shape of
+    ``reference``, smoothed, or a loft, which may leave the tangent planes given (docs/least_variation.md). Reported by
+    ``result.equation`` and NO_SOLUTION. "stop": the best surface found, not ``converged``. A solve that ran out of
+    fewer than 200 ``max_iterations``, or has part of its load, is never replaced."""
 
     load: float = _checked(0.0, arguments.finite)
     """float. Of "constant", in length⁻³; positive bulges along the normals."""
 
     bulge: float = _checked(0.0, arguments.finite)
-    """float. Of "constant", by the boundary's own size: adds 8 ``bulge`` / a³ to ``load``, for each component (see
-    :func:`fairing.components`) with a the RMS distance of its boundary from the boundary's centroid. 1 lifts a flat
-    disc by about a quarter of its radius, whatever its size."""
+    """float. Of "constant", by the boundary's own size: adds 8 ``bulge`` / a³ to ``load``, for each component with a
+    the RMS distance of its boundary from the boundary's centroid. 1 lifts a flat disc by a quarter of its radius."""
 
     continuity: str = "G1"
     """One of "G1" | "G2": "G2": the surface continues the curvature of its surroundings, too, and Δ_B² H = 0
@@ -130,9 +126,8 @@ class Surface:
 
     outline: str = "given"
     """One of "given" | "mended": "mended": a noisy boundary is first moved onto the fit of its surroundings, with the
-    two rings outside, as far as these leave it; the normals there are the fit's. ``moved`` names what moved.
-    Where the fitted boundary gives folds, no solution, or a worst ``join`` above 12° that is larger than with the given
-    one, both are solved and the given one is kept (warning OUTLINE_KEPT)."""
+    two rings outside; the normals there are the fit's, and ``moved`` names what moved. Where that gives folds, no
+    solution, or a larger visible kink, the given one is kept (warning OUTLINE_KEPT)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,11 +153,10 @@ class Skin:
     """What stays of the old skin, and how the change fades out (docs/detail.md)."""
 
     detail: float = _checked(0.0, arguments.share)
-    """float. 0 … 1: how much of the detail of ``reference`` is put back on the fair surface. The old patch is split
-    into a smooth base and what is left, its detail, which the new surface takes over, turned as the base turns.
-    Vertices then sit conformally to the old base, whatever ``inner_fairness`` says. With triangles ``outside`` both
-    bases meet the boundary that these would have without their detail, so that ``result.base`` does not pass through
-    noise. Given normals that differ from those of the triangles outside are kept. docs/detail.md."""
+    """float. 0 … 1: how much of the detail of ``reference``, what is left of it without a smooth base, is put back on
+    the fair surface, turned as the base turns. Vertices then sit conformally to the old base, whatever
+    ``inner_fairness`` says. With triangles ``outside`` both bases meet the boundary without its detail. Given normals
+    that differ from those of the triangles outside are kept."""
 
     detail_size: float = _checked(0.0, arguments.share)
     """float. Shape that repeats within less than this counts as detail: a wavelength as a share of D. 0: twelve mean
@@ -170,9 +164,8 @@ class Skin:
 
     feather: float = 0.0
     """float. Width of a band outside the patch in which the change fades out, as a share of D. The join becomes round:
-    the base loses all that repeats within less than two widths (D/2 at most) at the old boundary, less on both sides of
-    it, and nothing at a width's distance. Detail that ``detail`` leaves out fades in likewise. Needs the triangles
-    ``outside``. ``moved`` names the band's vertices; all others keep their bits. docs/detail.md."""
+    the base loses what repeats within less than two widths at the old boundary, and nothing at a width's distance.
+    Needs the triangles ``outside``. ``moved`` names the band's vertices; all others keep their bits."""
 
     weights: npt.ArrayLike | None = None
     """(n,) float. In place of ``feather``: each vertex's share of its move, 0 … 1, inside too. The band is where
@@ -185,9 +178,8 @@ class Curves:
 
     creases: npt.ArrayLike | None = field(default=None, metadata={"check": _vertices})
     """(c,) int. Some of the fixed vertices, those at which a crease ends on the boundary among them: position only,
-    whatever ``fixed_normals`` says there. Each side of a curve of them finds a slope of its own. A component with such
-    a curve is solved as "least_variation", one that is bounded by a single loop of them as "soap_film", as
-    ``result.equation`` reports. docs/curves.md."""
+    whatever ``fixed_normals`` says. Each side of a curve of them finds a slope of its own. A component with such a
+    curve is solved as "least_variation", one within a single loop of them as "soap_film"."""
 
     smooth_curves: npt.ArrayLike | None = field(default=None, metadata={"check": _vertices})
     """(s,) int. Some of the fixed vertices: position only, and curves of them are not cut. The surface, one of
@@ -199,8 +191,7 @@ class Curves:
 
     pin_radius: float = _checked(0.1, arguments.share)
     """float. Over which length, as a share of D, a pin lifts or holds the surface: the standard deviation of a
-    Gaussian. 0: in a point, which leaves a dent that sharpens with the mesh. For the harmonic equations and "G1". Where
-    no surface is found with the radius, the pins act in a point, with the warning PINS_NOT_SPREAD."""
+    Gaussian. 0, and where no surface is found (PINS_NOT_SPREAD): in a point. For the harmonic equations and "G1"."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,25 +205,21 @@ class Solving:
     """int. 0: from coarse to fine where that is faster; 1: on the mesh alone; of "paper" also more, at most so many."""
 
     tolerance: float = _checked(1e-6, arguments.positive)
-    """float. "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or when the next one
-    would move none by more than half of it, judged by how the steps shrink. "paper": where the changes still to
-    come, estimated from the last ones, are that small."""
+    """float. "global": stop when an iteration moves no vertex by more than ``tolerance`` × D, or the next one would
+    move none by more than half of it. "paper": where the changes still to come are that small, by the last ones."""
 
     max_iterations: int = _checked(200, lambda name, value: arguments.whole(name, value, 1))
-    """int. "global": steps of each single iteration on one mesh. A solve consists of several: coarser levels, other
-    initial surfaces, and the engine's own mesh where the one given fails. A small number may therefore take longer;
-    only ``progress`` bounds the time. "paper": updates of the finest mesh; coarser ones may take more."""
+    """int. "global": steps of each single iteration on one mesh. A solve consists of several, so a small number may
+    take longer; only ``progress`` bounds the time. "paper": updates of the finest mesh."""
 
     normals: str = _word("fitted", _core.WORDS["normals"])
     """One of "fitted" | "averaged": Vertex normal behind H. "paper" always averages."""
 
     start: str = _word("outline", ("outline", "given", "least_variation", "loft", "smoothed"))
     """One of "outline" | "given" | "least_variation" | "loft" | "smoothed": "given": the initial surface is the
-    vertices given, which lie near the solution. Where a few steps do not lead there without folds, the boundary alone
-    decides as always. For all equations but "soap_film", and "global". Vertices move along the normals only where
-    conformal weights are those of these same vertices. "least_variation" (from the vertices given), "loft", "smoothed":
-    begin with that stand-in, where another solve has shown that the equation has no surface. Where it is not accepted
-    the boundary alone decides."""
+    vertices given, which lie near the solution (all equations but "soap_film", and "global"). "least_variation" (from
+    the vertices given), "loft", "smoothed": begin with that stand-in, where another solve has shown that the equation
+    has no surface. Where these fail, and by "outline", the boundary alone decides."""
 
     paper: PaperOptions | None = None
     """PaperOptions. What only "paper" has: damping, sweeps, acceleration, … (see :class:`fairing.PaperOptions`)."""

@@ -13,7 +13,7 @@ from fairing.options import arguments, checks
 from fairing.options.checks import given
 from fairing.options.groups import Boundary, Options
 from fairing.results import FairResult, FloatArray, Progress
-from fairing.solving import feather, slopes, surroundings
+from fairing.solving import feather, surroundings
 
 Preview = Callable[[FloatArray], object]
 
@@ -94,7 +94,7 @@ def solved(
     surface, skin, curves = chosen.surface, chosen.skin, chosen.curves
     points = arguments.floats("vertices", vertices)
     count = points.shape[0]
-    faces = arguments.triangles_as_given(triangles, count)
+    faces = arguments.triangles_within(triangles, count)
     fixed, normals = arguments.boundary(boundary.vertices, boundary.normals)
     reference = chosen.layout.reference
     m0 = None if reference is None else arguments.floats("reference", reference, count)
@@ -107,7 +107,7 @@ def solved(
     if not joins and boundary.curvatures is not None:
         raise ValueError("fixed_curvatures: accepted with continuity 'G2' only")
     if joins:
-        as_given = slopes.with_curvatures(as_given, around, boundary.curvatures, boundary.continuity)
+        as_given = surroundings.with_curvatures(as_given, around, boundary.curvatures, boundary.continuity)
 
     def call(held: surroundings.Boundary) -> dict[str, Any]:
         return _core.fair(
@@ -119,10 +119,9 @@ def solved(
     if fitted:
         surroundings.refuse_creases(curves.creases, around)
     refused = {"reference": m0 is not None, "outline": fitted, "continuity": joins}
-    fade = feather.fade_of(skin, refused, count, threads, progress)
-    if fade is not None:
+    if feather.is_wanted(skin, refused, count):
         engine.detail = 1.0
-        return FairResult(**feather.solve_feathered(call, as_given, around, fade))
+        return FairResult(**feather.solve_feathered(call, as_given, around, skin, (threads, progress)))
     answer = surroundings.solve_fitted(call, as_given, faces, around) if fitted else call(as_given)
     return FairResult(**surroundings.with_join(answer, around))
 

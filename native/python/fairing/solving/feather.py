@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,28 +13,10 @@ from fairing.measure import edges_with_uses, hard_edges
 from fairing.options import arguments
 from fairing.options.groups import Skin
 from fairing.results import Diagnostic, FloatArray, IntArray, MeshError, Progress
-from fairing.solving import surroundings
-from fairing.solving.slopes import boundary_normals
-from fairing.solving.surroundings import Answer, Boundary, Surroundings, marked
+from fairing.solving.surroundings import Answer, Boundary, Surroundings, boundary_normals, marked, with_join
 
 Marks = npt.NDArray[np.bool_]
-Call = Callable[[Boundary], Answer]
 LEAST_RINGS = 6  # of triangles around a band that its low-pass surface rests on: half of what counts as detail
-
-
-@dataclass(frozen=True)
-class Fade:
-    """How a change fades out.
-
-    detail: the part of it that is shown; detail_size: what counts as detail, a share of D, 0: chosen; how: the width of
-    the band as a share of D, or the weights (n,) themselves.
-    """
-
-    detail: float
-    detail_size: float
-    how: float | FloatArray
-    threads: int
-    progress: Progress | None
 
 
 @dataclass(frozen=True)
@@ -49,75 +29,75 @@ class Band:
     weights: FloatArray
 
 
-def fade_of(skin: Skin, refused: dict[str, bool], count: int, threads: int, progress: Any) -> Fade | None:
-    """How a change fades out, checked; None where it does not.
-
-    ``refused``: arguments beside which it does not, with whether they are there.
-    """
-    share = arguments.finite("feather", skin.feather)
-    if share < 0.0:
+def is_wanted(skin: Skin, refused: dict[str, bool], count: int) -> bool:
+    """Whether a change fades out, checked; ``refused``: arguments beside which it does not, if they are there."""
+    if arguments.finite("feather", skin.feather) < 0.0:
         raise ValueError(f"feather: 0 or a positive number is needed, not {skin.feather!r}")
-    if skin.weights is None and share == 0.0:
-        return None
-    weights = None if skin.weights is None else np.array(skin.weights, dtype=np.float64)
-    if weights is not None and (weights.shape != (count,) or not ((weights >= 0) & (weights <= 1)).all()):
-        raise ValueError(f"weights: {count} numbers from 0 to 1 are needed, one for each vertex")
-    if weights is not None and share > 0.0:
-        raise ValueError("feather: is not accepted beside `weights`, which take its place")
+    if skin.weights is not None:
+        weights = np.asarray(skin.weights, dtype=np.float64)
+        if weights.shape != (count,) or not ((weights >= 0) & (weights <= 1)).all():
+            raise ValueError(f"weights: {count} numbers from 0 to 1 are needed, one for each vertex")
+        if skin.feather > 0.0:
+            raise ValueError("feather: is not accepted beside `weights`, which take its place")
+    elif skin.feather == 0.0:
+        return False
     for name, given in refused.items():
         if given:
             raise ValueError(f"{name}: this value is not accepted with `feather` or `weights`; leave it out")
-    return Fade(skin.detail, skin.detail_size, share if weights is None else weights, threads, progress)
+    return True
 
 
-def solve_feathered(call: Call, given: Boundary, around: Surroundings, fade: Fade) -> Answer:
+def solve_feathered(
+    call: Callable[[Boundary], Answer], given: Boundary, around: Surroundings, skin: Skin,
+    run: tuple[int, Progress | None],
+) -> Answer:  # fmt: skip
     """Solve the patch, round its join with the surroundings, and let the change fade out.
 
     ``call`` puts back all of the detail. Vertices of the band move by what the rounding asks for, those inside by the
-    whole change, both times their weights.
+    whole change, both times their weights. ``run``: threads and progress.
     """
-    if isinstance(fade.how, float) and not len(around.rim):
+    if skin.weights is not None:
+        weights = np.array(skin.weights, dtype=np.float64)
+    elif not len(around.rim):
         raise ValueError(
             "feather: a band needs the triangles outside: pass them as `outside`, or among the triangles with all "
             "their vertices in `fixed`"
         )
-    weights = _faded(given, around, fade.how) if isinstance(fade.how, float) else fade.how
+    else:
+        weights = _faded(given, around, skin.feather)
     band = _band(given, around, weights)
     answer = call(given)
-    full, base = _rounded(answer, around, band, fade)
+    full, base = _rounded(answer, around, band, skin.detail_size, run)
     moving = (band.faired | band.freed) & (weights > 0.0)
     detail = answer["vertices"] - base
-    for name, shown in (("vertices", fade.detail), ("base", 0.0)):
+    for name, shown in (("vertices", skin.detail), ("base", 0.0)):
         there = full - (1.0 - shown) * detail
         moved = given.vertices + weights[:, None] * (there - given.vertices)
         answer[name] = np.where(moving[:, None], moved, given.vertices)
         answer[name].flags.writeable = False
     answer["moved"] = np.flatnonzero(band.freed).astype(np.int32)
-    return surroundings.with_join(answer, around)
+    return with_join(answer, around)
 
 
-def _rounded(answer: Answer, around: Surroundings, band: Band, fade: Fade) -> tuple[FloatArray, FloatArray]:
+def _rounded(
+    answer: Answer, around: Surroundings, band: Band, detail_size: float, run: tuple[int, Progress | None]
+) -> tuple[FloatArray, FloatArray]:
     """The faired mesh (n, 3), its detail included, with round joins; and its base without that.
 
     Patches whose bands meet are rounded together, with what lies around them. MeshError where nothing would stay.
     """
-    points = answer["vertices"]
+    points, (threads, progress) = answer["vertices"], run
     full, base = points.copy(), np.where(band.faired[:, None], answer["base"], points)
-    ask = None if fade.progress is None else partial(_ask, fade.progress)
+    ask = None if progress is None else lambda *_: progress(1.0, "detail")  # nearly all is done
     for inside, outside, fixed in _parts(len(points), around, band):
         diameter, width = _sizes(points, inside, outside, band.weights)
-        triangles, sizes = np.concatenate([inside, outside]), (fade.detail_size, diameter, width)
-        fair, soft = _core.soft_base(points, triangles, fixed, answer["base"], band.faired, sizes, fade.threads, ask)
+        triangles, sizes = np.concatenate([inside, outside]), (detail_size, diameter, width)
+        fair, soft = _core.soft_base(points, triangles, fixed, answer["base"], band.faired, sizes, threads, ask)
         near = _core.feather_weights(points, outside, inside, width, fixed[:0])
         free = np.setdiff1d(triangles, fixed)
         base[free] = fair[free]
         full[free] += near[free, None] * (soft - fair)[free]
     return full, base
-
-
-def _ask(progress: Progress, _fraction: float, _stage: str) -> bool | None:
-    """Whether to go on; nearly all is done."""
-    return progress(1.0, "detail")
 
 
 def feather_weights(
@@ -142,17 +122,18 @@ def feather_weights(
     return _faded(Boundary(points, held, None), around, share, edges)
 
 
-def _hard(points: FloatArray, around: Surroundings, creases: IntArray) -> IntArray:
+def _hard(points: FloatArray, around: Surroundings, creases: IntArray) -> Marks:
     """Vertices at which bands end: on hard edges outside, and where the boundary is one that belongs to the patch."""
     outside = hard_edges(points, around.outside, marked=creases)
     own = boundary_normals(points, around.inside, around.rim, outside=around.outside, creases=creases)
-    return np.union1d(outside, around.rim[own.from_inside]).astype(np.int32)
+    return marked(np.append(outside, around.rim[own.from_inside]), len(points))
 
 
 def _faded(given: Boundary, around: Surroundings, share: float, creases: IntArray = arguments.NO_EDGES) -> FloatArray:
     """Weights of bands, each as wide as its component asks for."""
     points = given.vertices
-    stops = _hard(points, around, creases)
+    hard = _hard(points, around, creases)
+    stops = np.flatnonzero(hard).astype(np.int32)
     component = _core.components(around.inside, given.fixed, len(points))
     weights = marked(around.inside, len(points)).astype(np.float64)
     for number in range(component.max(initial=-1) + 1):
@@ -161,8 +142,7 @@ def _faded(given: Boundary, around: Surroundings, share: float, creases: IntArra
         if len(rim):
             faded = _core.feather_weights(points, inside, around.outside, share * _diameter(rim), stops)
             np.maximum(weights, faded, out=weights)
-    weights[stops] = 0.0
-    return weights
+    return np.where(hard, 0.0, weights)
 
 
 def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
@@ -171,13 +151,13 @@ def _band(given: Boundary, around: Surroundings, weights: FloatArray) -> Band:
     Those on the mesh border or at edges with more than two triangles stay, as do pins and curves inside the patch, and
     hard edges at which the band ends.
     """
-    count = len(given.vertices)
-    beyond = marked(around.outside, count)
+    count = len(weights)
+    inside, beyond = marked(around.inside, count), marked(around.outside, count)
     fixed = marked(around.rim if given.fixed is None else given.fixed, count)
     edges, uses = edges_with_uses(np.concatenate([around.inside, around.outside]))
-    ends = marked(_hard(given.vertices, around, arguments.NO_EDGES), count) & (weights == 0.0)
+    ends = _hard(given.vertices, around, arguments.NO_EDGES) & (weights == 0.0)
     held = marked(edges[uses != 2], count) | (fixed & ~beyond) | ends
-    return Band(marked(around.inside, count) & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
+    return Band(inside & ~fixed & ~held, beyond & (weights > 0.0) & ~held, held, weights)
 
 
 def _parts(count: int, around: Surroundings, band: Band) -> Iterator[tuple[IntArray, IntArray, IntArray]]:
@@ -204,19 +184,23 @@ def _parts(count: int, around: Surroundings, band: Band) -> Iterator[tuple[IntAr
 
 def _around_band(around: Surroundings, band: Band) -> Marks:
     """Marks (o,) of the triangles outside in the band, and in as many rings beyond, LEAST_RINGS or more."""
-    reached = marked(around.rim, len(band.weights))
-    left = band.freed & ~reached
-    rings = 0
-    while left.any():
-        reached |= marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
-        if not (left & reached).any():
+    count, outside = len(band.weights), around.outside
+
+    def grown(marks: Marks) -> Marks:
+        return marks | marked(outside[marks[outside].any(axis=1)], count)
+
+    reached, rings = marked(around.rim, count), 0
+    left = int((band.freed & ~reached).sum())
+    while left:
+        reached = grown(reached)
+        before, left = left, int((band.freed & ~reached).sum())
+        if left == before:
             break
-        left &= ~reached
         rings += 1
     reached |= band.freed
     for _ in range(max(rings, LEAST_RINGS)):
-        reached |= marked(around.outside[reached[around.outside].any(axis=1)], len(reached))
-    return np.asarray(reached[around.outside].all(axis=1))
+        reached = grown(reached)
+    return np.asarray(reached[outside].all(axis=1))
 
 
 def _sizes(points: FloatArray, inside: IntArray, outside: IntArray, weights: FloatArray) -> tuple[float, float]:
