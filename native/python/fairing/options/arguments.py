@@ -131,7 +131,7 @@ def vertices_of(name: str, value: npt.ArrayLike | None, count: int, columns: int
 
 def triangles_within(value: npt.ArrayLike, count: int) -> IntArray:
     """Triangles of ``count`` vertices, (m, 3); ValueError, or MeshError INDEX_RANGE."""
-    return vertices_of("triangles", value, count, 3)
+    return indices_within("triangles", integers("triangles", value, 3), count)
 
 
 def mesh(vertices: npt.ArrayLike, triangles: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
