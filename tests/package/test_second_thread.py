@@ -38,6 +38,7 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "conformal_map": (POINTS, FACES, FIXED, FLAT),
     "cotan_laplacian": (POINTS, FACES),
     "crossing_edges": (EDGES, POINTS),
+    "curvatures_around": (POINTS, TOP, RIM, LINE, None),
     "denoised": (POINTS, FACES, FIXED, 0.1 * VALUES, 1, None),
     "drawn_to": (POINTS, FACES, FIXED, POINTS, VALUES),
     "expected_count": (POINTS, FACES, None, None, (0.0, False, False)),
@@ -68,10 +69,10 @@ CALLS: dict[str, tuple[Any, ...]] = {
     "vertex_normals": (POINTS, FACES, "fitted"),
     "visible_join": (POINTS, TOP, RIM, LINE),
 }
-# They need more than a cap, and are bound in the same way.
+# They need more than a cap, or take no time, and are bound in the same way.
 ELSEWHERE = {
     "fair", "cut_fillet", "fillet_rows", "on_wrong_side", "seam_room", "new_patch", "first_mesh", "wire_cells",
-    "cells_of_triangles", "hard_ways",
+    "cells_of_triangles", "hard_ways", "refuse_large",
 }  # fmt: skip
 
 
