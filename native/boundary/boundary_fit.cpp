@@ -75,7 +75,7 @@ BoundaryNormals boundary_normals(const Surroundings& given, const Indices& verti
     SidedFits outside(points, beyond, vertices, creases);
     take(outside, vertices, all, fit);
     const bool is_automatic = rule == SideRule::automatic;
-    const Walls walls = is_automatic ? walls_of(mesh, {vertices, fit.fits, outside.hard()}) : Walls{boundary, points};
+    const Walls walls = is_automatic ? walls_of(mesh, vertices, outside.hard()) : Walls{boundary, points};
     BoundaryNormals result;
     result.from_inside.assign(vertices.size(), 0);
     if (!walls.edges.empty()) {

@@ -16,15 +16,15 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
     return direction(area_vector(points, triangles.col(side / 3)));
 }
 
-// Means over a part of the boundary, by length. Angles lie across the edges, in degrees from the tangent of the
-// surroundings towards their back.
+// Means over a part of the boundary, by length. Angles lie across the edges, in degrees from the first row
+// outside towards its back.
 struct Means {
     Eigen::Vector2d patch = Eigen::Vector2d::Zero();  // cosine and sine of the angle of its own triangles
     Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise; between several loops of the way to the next one
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
-    double bend = 0.0;                                // curvature across the edges times distance to the loop's middle
-    double rows_bend = 0.0;                           // likewise, of that arc
-    double cut_bend = 0.0;                            // likewise, of an arc over half of that distance, times
+    double rows_bend = 0.0;                           // its curvature times distance to the loop's middle
+    Eigen::Vector2d cut = Eigen::Vector2d::Zero();    // likewise, of an arc over half of that distance, times
+    double cut_bend = 0.0;                            // likewise, its curvature
     double cut_weight = 0.0;                          // the arc's squared length: short ones are noisy
     Vector3 rulings = Vector3::Zero();                // of edges without one: where their only row goes
     double length = 0.0;
@@ -33,66 +33,60 @@ struct Means {
 
 double angle_of(const Eigen::Vector2d& sum) { return std::atan2(sum.y(), sum.x()) / degree; }
 
-constexpr double flat = 1.0;         // degrees: the two triangles of a quad
-constexpr double explained = 0.25;   // of the dip: balls .8 to 1.1, ellipsoids .35 to 2, boxes and cans 0 to .05
-constexpr double parallel = 0.996;   // cosine: 5 degrees, the tilt of a draft; more is a ball's row
-constexpr double rounder = 1.25;     // bend of which there is no ball: it has 1 at most
-constexpr double far_rounder = 3.0;  // times the dip
+constexpr double flat = 1.0;          // degrees: the two triangles of a quad
+constexpr double explained = 0.25;    // of the dip: balls .8 to 1.1, ellipsoids .35 to 2, boxes and cans 0 to .05
+constexpr double noise_margin = 3.0;  // as of hard edges: bends to the other side come from noise
+constexpr double parallel = 0.996;    // cosine: 5 degrees, the tilt of a draft; more is a ball's row
+constexpr double rounder = 1.25;      // bend of which there is no ball: it has 1 at most
+constexpr double far_rounder = 3.0;   // times the dip
 // Of a loop: real meshes have single edges like walls everywhere.
 constexpr double shortest_row = 0.125;
 
+// Degrees, from where the arc across goes on.
+double off_cut(const Means& part, const Eigen::Vector2d& sum) { return angle_of(sum) - angle_of(part.cut); }
+
 bool may_be_wall(const Means& part) {
-    const double own = std::abs(angle_of(part.patch));
-    const double bend = std::max(own > 1.0 ? std::abs(part.bend) : 0.0, part.rows_bend);
-    return own > fading_bend || bend > rounder * part.length;
+    return std::abs(off_cut(part, part.patch)) > fading_bend || part.rows_bend > rounder * part.length;
 }
 
-// What fits or the first two rows say bends more than any ball, and goes on in the film. Fits look beyond few rows, or
-// see one of them alone; they count where the patch is as near to the film, rows where they are nearer to it than fits.
+// What the first two rows say bends more than any ball, and goes on in the film.
 bool is_bevel(const Means& part) {
-    const double film = std::abs(angle_of(part.film));
-    const double off_patch = std::abs(angle_of(part.film) - angle_of(part.patch));
     const double off_rows = std::abs(angle_of(part.film) - angle_of(part.rows));
-    const auto goes_on = [&](double bend, double off) {
-        return bend > std::max(rounder, far_rounder * std::sin(off * degree)) * part.length;
-    };
-    return (goes_on(part.rows_bend, off_rows) && off_rows < 0.5 * film) ||
-           (goes_on(std::abs(part.bend), film) && off_patch < 0.5 * film);
+    const double least = std::max(rounder, far_rounder * std::sin(off_rows * degree));
+    return part.rows_bend > least * part.length && off_rows < 0.5 * std::abs(off_cut(part, part.film));
 }
 
 bool is_wall(const Means& part) {
-    const double film = angle_of(part.film);
-    const double dip = part.film.y();
-    const bool bends_away = std::min(film, angle_of(part.patch)) > part.least;
-    const bool bends_back = std::max(film, angle_of(part.patch)) < -part.least;
-    const double row = part.rulings.norm() < parallel * part.length ? part.bend : 0.0;
-    const double cut = part.cut_weight > 0.0 ? part.cut_bend * part.length / part.cut_weight : row;
-    const bool is_unexplained = cut * dip < explained * dip * dip;
+    const double film = off_cut(part, part.film);
+    const double patch = off_cut(part, part.patch);
+    const double dip = std::sin(film * degree);
+    const double row = part.rulings.norm() < parallel * part.length ? dip : 0.0;
+    const double bend = part.cut_weight > 0.0 ? part.cut_bend / part.cut_weight : row;
+    const bool is_unexplained = bend * dip < explained * dip * dip;
+    const bool bends_away = std::min(film, patch) > part.least;
+    const bool bends_back = std::max(film, patch) < -part.least;
     return (is_unexplained && (bends_away || bends_back)) || is_bevel(part);
 }
 
 class Rim {
 public:
-    Rim(const PatchInMesh& mesh, const RimFits& rim)
+    Rim(const PatchInMesh& mesh, const VertexPairs& hard)
         : mesh_(mesh),
-          rim_(rim),
           outside_(make_edges(mesh.outside, static_cast<int>(mesh.points.cols()))),
           edges_(meetings(make_edges(mesh.inside, static_cast<int>(mesh.points.cols())), outside_)),
-          place_(static_cast<std::size_t>(mesh.points.cols()), none),
-          parts_(place_.size(), 0) {
-        for (std::size_t k = 0; k < rim.vertices.size(); ++k) place_[rim.vertices[k]] = static_cast<int>(k);
-        for (const auto& ends : rim.hard) parts_[ends[0]] = parts_[ends[1]] = 1;
+          parts_(static_cast<std::size_t>(mesh.points.cols()), 0) {
+        for (const auto& ends : hard) parts_[ends[0]] = parts_[ends[1]] = 1;
     }
 
-    [[nodiscard]] Walls walls() const {
+    [[nodiscard]] Walls walls(const Indices& still) const {
         UnionFind loops = joined([](int) { return true; });
         UnionFind parts = joined([&](int v) { return parts_[v] == 0; });
         const std::vector<Vector3> middles = middles_of(loops);
         std::vector<Means> means(edges_.size());
         for (int k = 0; k < size(); ++k) add(edges_[k], middles[loops.root(k)], means[parts.root(k)]);
         if (std::none_of(means.begin(), means.end(), may_be_wall)) return {};
-        std::vector<char> held(place_.size(), 0);
-        for (int v : rim_.vertices) held[v] = 1;
+        std::vector<char> held(parts_.size(), 0);
+        for (int v : still) held[v] = 1;
         Walls result{{}, closing_surface(mesh_.points, mesh_.whole, held)};
         const std::vector<Place> places = places_of(loops);
         for (int k = 0; k < size(); ++k)
@@ -152,14 +146,6 @@ private:
         return middles;
     }
 
-    // Not where hard edges end, as a fit there sees both of their sides, nor where it knows little.
-    [[nodiscard]] const SlopeFit* fit_at(int v) const {
-        constexpr double most_uncertain = 0.1;  // radians
-        if (parts_[v] != 0 || place_[v] == none) return nullptr;
-        const auto& fit = rim_.fits[place_[v]];
-        return fit && fit->error < most_uncertain ? &*fit : nullptr;
-    }
-
     // 1, or -1 where the triangles outside are wound against those inside.
     [[nodiscard]] double winding(const Meeting& edge) const {
         return side_tail(mesh_.inside, edge.inside) == side_tail(mesh_.outside, edge.outside) ? -1.0 : 1.0;
@@ -171,15 +157,9 @@ private:
         return (turned ? -1.0 : 1.0) * direction(between(edge));
     }
 
-    // Of the surroundings at the edge, wound as the patch.
+    // Of the first row outside, wound as the patch.
     [[nodiscard]] Vector3 normal_at(const Meeting& edge) const {
-        Vector3 sum = Vector3::Zero();
-        for (int v : edge.ends) {
-            if (const SlopeFit* fit = fit_at(v)) sum += fit->normal;
-        }
-        if (sum.isZero()) sum = normal_of(mesh_.points, mesh_.outside, edge.outside);
-        const Vector3 t = along(edge);
-        return winding(edge) * direction(sum - sum.dot(t) * t);
+        return winding(edge) * normal_of(mesh_.points, mesh_.outside, edge.outside);
     }
 
     // Cosine and sine of the angle of the patch's triangle with these points, times the edge's length.
@@ -213,7 +193,7 @@ private:
     };
 
     [[nodiscard]] std::vector<Place> places_of(UnionFind& loops) const {
-        UnionFind pieces(static_cast<int>(place_.size()));
+        UnionFind pieces(static_cast<int>(parts_.size()));
         for (const auto& corners : mesh_.whole.colwise()) {
             for (int c : {1, 2}) pieces.join(corners[0], corners[c]);
         }
@@ -249,6 +229,8 @@ private:
         const Vector3 from = middle(edge);
         const Vector3 t = direction(between(edge));
         const auto height = [&](int v) { return t.dot(mesh_.points.col(v) - from); };
+        double most_up = 0.0;
+        double most_down = 0.0;
         Cut cut;
         for (int side = edge.outside, k = 0; k < most_faces; ++k) {
             const int corner = side % 3;
@@ -258,15 +240,20 @@ private:
             const int e = outside_.edge_of_side[exit];
             if (outside_.side_count(e) != 2) break;
             const int other = outside_.side(e, outside_.side(e, 0) == exit ? 1 : 0);
-            const double bend =
-                degrees_between(normal_of(mesh_.points, all, exit), normal_of(mesh_.points, all, other));
+            const int beyond = all((other % 3 + 2) % 3, other / 3);
+            const double angle = dihedral_angle(normal_of(mesh_.points, all, exit), normal_of(mesh_.points, all, other),
+                                                mesh_.points.col(side_tail(all, exit)), mesh_.points.col(beyond));
+            const double bend = std::abs(angle);
+            double& most = angle > 0.0 ? most_up : most_down;
+            most = std::max(most, bend);
+            const bool is_hard = bend - noise_margin * std::min(most_up, most_down) > hard_bend;
             const double a = height(side_tail(all, exit));
             const double b = height(side_head(all, exit));
             const Vector3 tail = mesh_.points.col(side_tail(all, exit));
             cut.ends.emplace_back(tail + a / (a - b) * (mesh_.points.col(side_head(all, exit)) - tail) - from);
             if (bend > flat) cut.rows.push_back(cut.ends.size() - 1);
             const bool is_far = cut.rows.size() > 1 && cut.ends.back().norm() > reach;
-            if (cut.near == 0 && (bend > hard_bend || is_far)) cut.near = cut.ends.size();
+            if (cut.near == 0 && (is_hard || is_far)) cut.near = cut.ends.size();
             if (cut.near > 0 && cut.rows.size() > 1) break;
             side = other;
         }
@@ -282,54 +269,43 @@ private:
         const auto plane = [&](std::size_t k) {
             return Eigen::Vector2d(onwards.dot(cut.ends[k]), -normal.dot(cut.ends[k]));
         };
-        const auto curvature = [&](std::size_t near, std::size_t far) {
+        // Curvature, and where the arc goes on inside.
+        const auto arc = [&](std::size_t near, std::size_t far) -> std::pair<double, Eigen::Vector2d> {
             const Eigen::Vector2d last = -plane(near);
             const Eigen::Vector2d first = -plane(far) - last;
             const double turn = first.x() * last.y() - first.y() * last.x();
             const double found = 2.0 * turn / (first.norm() * last.norm() * (first + last).norm());
-            return std::isfinite(found) ? found : 0.0;
+            const double bend = std::isfinite(found) ? found : 0.0;
+            const double rest = std::asin(std::clamp(0.5 * bend * last.norm(), -1.0, 1.0));
+            return {bend, Eigen::Rotation2Dd(rest) * last.normalized()};
         };
         const double length = between(edge).norm();
         if (cut.near > 1) {
             const double weight = length * cut.ends[cut.near - 1].squaredNorm();
-            means.cut_bend += weight * reach * curvature(cut.near / 2 - 1, cut.near - 1);
+            const auto [bend, onward] = arc(cut.near / 2 - 1, cut.near - 1);
+            means.cut += weight * onward;
+            means.cut_bend += weight * reach * bend;
             means.cut_weight += weight;
         } else if (cut.near == 1) {
             means.rulings += length * direction(cut.ends[0]);
         }
         if (cut.rows.size() < 2) return;
-        const double bend = curvature(cut.rows[0], cut.rows[1]);
-        const Eigen::Vector2d last = -plane(cut.rows[0]);
-        const double rest = std::asin(std::clamp(0.5 * bend * last.norm(), -1.0, 1.0));
-        means.rows += length * (Eigen::Rotation2Dd(rest) * last.normalized());
+        const auto [bend, onward] = arc(cut.rows[0], cut.rows[1]);
+        means.rows += length * onward;
         means.rows_bend += length * bend * reach;
     }
 
     void add(const Meeting& edge, const Vector3& loop_middle, Means& means) const {
-        const double length = between(edge).norm();
         const Vector3 t = along(edge);
-        const Vector3 onwards = normal_at(edge).cross(t);
         const Vector3 reach = loop_middle - middle(edge);
-        double curvature = 0.0;
-        int count = 0;
-        for (int v : edge.ends) {
-            const SlopeFit* fit = fit_at(v);
-            if (!fit) continue;
-            curvature -= winding(edge) * onwards.dot(fit->bending * onwards);
-            ++count;
-        }
         means.patch += turn(edge, mesh_.points);
-        const double distance = (reach - reach.dot(t) * t).norm();
-        means.bend += length * curvature / std::max(count, 1) * distance;
-        add_rows(edge, distance, means);
-        means.length += length;
+        add_rows(edge, (reach - reach.dot(t) * t).norm(), means);
+        means.length += between(edge).norm();
     }
 
     const PatchInMesh& mesh_;
-    const RimFits& rim_;
     EdgeTable outside_;
     std::vector<Meeting> edges_;
-    Indices place_;            // of each vertex in rim_.vertices
     std::vector<char> parts_;  // vertices at which a hard edge outside ends
 };
 
@@ -343,6 +319,8 @@ VertexPairs boundary_edges(const PatchInMesh& mesh) {
     return result;
 }
 
-Walls walls_of(const PatchInMesh& mesh, const RimFits& rim) { return Rim(mesh, rim).walls(); }
+Walls walls_of(const PatchInMesh& mesh, const Indices& still, const VertexPairs& hard) {
+    return Rim(mesh, hard).walls(still);
+}
 
 }  // namespace fairing

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "geometry/hard_edges.h"
-#include "geometry/slope_fit.h"
 
 namespace fairing {
 
@@ -17,13 +16,6 @@ struct PatchInMesh {
 // All edges with one triangle on either side, smaller index first, ascending.
 VertexPairs boundary_edges(const PatchInMesh& mesh);
 
-// What the triangles outside say along a boundary.
-struct RimFits {
-    const Indices& vertices;  // that don't move
-    const std::vector<std::optional<SlopeFit>>& fits;
-    const VertexPairs& hard;  // edges outside
-};
-
 struct Walls {
     VertexPairs edges;
     Points film;  // closing_surface over the vertices that don't move; empty without any wall
@@ -33,11 +25,12 @@ struct Walls {
 // their curvature does not explain it: on a ball, curvature times distance to the loop's middle is the sine of the dip,
 // on the sides of boxes, cans and cones it is nearly nothing; of a single row up to a border nobody knows it, and the
 // row of a wall goes one way all along. Or their first two rows lie on an arc that curves more than any ball that spans
-// the loop, and goes on in the film: a bevel. Between several loops the way to the next one takes the film's place,
-// which has a waist where a tube goes on, and `hard_bend` that of half of it. A boundary is parted where hard edges
-// outside end at it, and each part decides as a whole; walls shorter than an eighth of their loop don't count. The
-// patch counts in its mean alone, so that noise does not: a part is no wall where the patch's own triangles go on along
-// the surroundings, as at the end of a finger; along a bevel it doesn't count at all.
-Walls walls_of(const PatchInMesh& mesh, const RimFits& rim);
+// the loop, and goes on in the film: a bevel. Tangents and curvatures are those of cuts across the edges: no fits, as
+// any three rows lie on a ball or a strip. Between several loops the way to the next one takes the film's place, which
+// has a waist where a tube goes on, and `hard_bend` that of half of it. A boundary is parted where `hard` edges outside
+// end at it, and each part decides as a whole; walls shorter than an eighth of their loop don't count. The patch counts
+// in its mean alone, so that noise does not: a part is no wall where the patch's own triangles go on along the
+// surroundings, as at the end of a finger; along a bevel it doesn't count at all. `still`: vertices that don't move.
+Walls walls_of(const PatchInMesh& mesh, const Indices& still, const VertexPairs& hard);
 
 }  // namespace fairing
