@@ -23,7 +23,7 @@ constexpr double runs_on = 0.25;     // cosine of the turn at which a chain goes
 constexpr double rows = 3.0;
 constexpr double own_share = 0.35;  // of their bend; above a third: of three equal bends none is an edge
 constexpr int chain_length = 4;     // edges: noise has shorter ones
-constexpr int corner_edges = 2;     // other hard edges at a corner where a chain ends
+constexpr int corner_edges = 2;     // other hard edges at a corner where a chain ends; between plane faces one
 
 enum Hardness : char { soft, fading, hard };
 
@@ -155,7 +155,7 @@ private:
             if (is_marked[other] || chains.root(other) == chains.root(edge)) return true;
             others += hardness_[other] == hard ? 1 : 0;
         }
-        return others >= corner_edges;
+        return others >= (between_planes_[edge] ? 1 : corner_edges);
     }
 
     std::vector<char> in_chains(const std::vector<char>& is_marked) {

@@ -78,6 +78,11 @@ def with_new(vertices: FloatArray, triangles: IntArray, result: Any) -> Surface:
     return np.concatenate([vertices, result.vertices]), np.concatenate([kept, result.triangles])
 
 
+def areas(vertices: FloatArray, triangles: IntArray) -> FloatArray:
+    a, b, c = (vertices[triangles[:, k]] for k in range(3))
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
+
+
 def euler_number(triangles: IntArray) -> int:
     """χ = V − E + F of the vertices that triangles use."""
     return len(np.unique(triangles)) - len(edges(triangles)) + len(triangles)

@@ -12,7 +12,7 @@ import solids
 import wedges
 from fairing import _core
 from grids import halves, numbered
-from measures import with_new
+from measures import areas, with_new
 from wedges import FloatArray, IntArray
 
 WIDTH = 0.3
@@ -21,11 +21,6 @@ WIDTH = 0.3
 def middle(result: fairing.results.FilletResult, reach: float = 0.7) -> FloatArray:
     """The new vertices beside the middle of a wedge's edge, where its ends are not felt."""
     return result.vertices[np.abs(result.vertices[:, 2]) < reach]
-
-
-def areas(vertices: FloatArray, triangles: IntArray) -> FloatArray:
-    a, b, c = (vertices[triangles[:, k]] for k in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
 
 
 @pytest.mark.parametrize("rows", [1, 7])
@@ -245,21 +240,28 @@ def test_clamped_widths_taper() -> None:
     assert abs(np.diff(reach) / np.diff(along)).max() < 0.3
 
 
+def parted(count: int, sides: int) -> tuple[FloatArray, IntArray, IntArray, list[int]]:
+    """A box with some vertices in one place of an edge, on one of its sides or both, its edges in that line, and these
+    vertices in the order of a triangle there."""
+    vertices, triangles = solids.box(2)
+    edge = measures.edges(triangles)
+    along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
+    a, b = along[0].tolist()
+    chain = [a, *range(len(vertices), len(vertices) + count), b]
+    more = np.concatenate([vertices, [vertices[a] + 0.3 * (vertices[b] - vertices[a])] * count])
+    beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))[:sides]
+    parts = []
+    for t in triangles[beside].tolist():
+        apex = next(v for v in t if v not in (a, b))
+        ordered = chain if t[t.index(a) - 2] == b else chain[::-1]
+        parts += [[u, v, apex] for u, v in pairwise(ordered)]
+    return more, np.concatenate([np.delete(triangles, beside, axis=0), parts]), along, ordered
+
+
 def test_a_vertex_on_an_edge_is_named() -> None:
-    """One of a box's edges has a vertex in its middle, on one side only: it has two triangles nowhere."""
-    vertices, triangles = solids.box(1)
-    row = next(k for k, t in enumerate(triangles) if np.ptp(vertices[t], axis=0)[0] == 0)
-    a, b, c = next(
-        x
-        for x in (np.roll(triangles[row], k) for k in range(3))
-        if np.count_nonzero(np.ptp(vertices[x[:2]], axis=0)) == 1
-    )
-    split = np.array([(a, len(vertices), c), (len(vertices), b, c)])
-    vertices = np.concatenate([vertices, [vertices[[a, b]].mean(axis=0)]])
-    where = refused(
-        "NONMANIFOLD_VERTEX", vertices, np.concatenate([np.delete(triangles, row, axis=0), split]), width=0.1
-    )
-    assert set(where.tolist()) == {a, b, len(vertices) - 1}
+    """One of a box's edges has a vertex in it, on one side only: it has two triangles nowhere."""
+    vertices, triangles, _, ordered = parted(1, 1)
+    assert set(refused("NONMANIFOLD_VERTEX", vertices, triangles, width=0.1).tolist()) == set(ordered)
 
 
 def test_other_bad_seams_are_refused_with_their_places() -> None:
@@ -336,22 +338,11 @@ def is_round(vertices: FloatArray, triangles: IntArray, result: fairing.results.
 def test_what_booleans_leave_in_a_seam_is_got_over(count: int) -> None:
     """Edges without length, whose points of the line lie in one place and seemed to be before each other for ever; or a
     vertex on one side only, and so a triangle without area in the seam."""
-    vertices, triangles = solids.box(2)
-    edge, one_sided = measures.edges(triangles), count == 1
-    along = edge[(np.abs(vertices[edge][:, :, :2] - 1).max(axis=(1, 2)) < 1e-9)]
-    a, b = along[0].tolist()
-    chain = [a, *range(len(vertices), len(vertices) + count), b]
-    more = np.concatenate([vertices, [vertices[a] + 0.3 * (vertices[b] - vertices[a])] * count])
-    beside = np.flatnonzero((triangles == a).any(axis=1) & (triangles == b).any(axis=1))[: 1 if one_sided else 2]
-    parts = []
-    for t in triangles[beside].tolist():
-        apex = next(v for v in t if v not in (a, b))
-        ordered = chain if t[t.index(a) - 2] == b else chain[::-1]
-        parts += [[u, v, apex] for u, v in pairwise(ordered)]
-        parts += [[ordered[0], ordered[2], ordered[1]]] if one_sided else []
-    cut = np.concatenate([np.delete(triangles, beside, axis=0), parts])
-    seam = np.concatenate([along[0 if one_sided else 1 :], list(pairwise(chain))])
-    is_round(more, cut, fairing.fillet(more, cut, seam, width=0.2))
+    vertices, triangles, along, ordered = parted(count, min(count, 2))
+    if count == 1:
+        triangles = np.concatenate([triangles, [[ordered[0], ordered[2], ordered[1]]]])
+    seam = np.concatenate([along[min(count - 1, 1) :], list(pairwise(ordered))])
+    is_round(vertices, triangles, fairing.fillet(vertices, triangles, seam, width=0.2))
 
 
 def test_a_short_edge_of_a_seam_is_not_closed_where_a_triangle_would_lie_on_the_seam() -> None:

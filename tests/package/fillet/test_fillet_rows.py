@@ -11,7 +11,7 @@ import measures
 import solids
 import wedges
 from fairing import _core
-from measures import with_new
+from measures import areas, with_new
 from wedges import FloatArray, IntArray
 
 WIDTH = 0.3
@@ -145,15 +145,12 @@ def test_diagonals_get_no_vertices() -> None:
         points, faces = with_new(vertices, triangles, result)
         off = np.linalg.norm(np.cross(points[np.unique(result.line)][:, None] - start, way), axis=2)
         crossings.append((off < 1e-9).any(axis=1).sum())
-        corners = points[result.triangles[: result.outside]]
-        area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1) / 2
-        assert area.min() > 1e-6
+        assert areas(points, result.triangles[: result.outside]).min() > 1e-6
         assert fairing.boundary_loops(faces) == []
         outside = np.concatenate([np.delete(triangles, result.gone, axis=0), result.triangles[: result.outside]])
-        sides = points[outside]
-        normals = np.cross(sides[:, 1] - sides[:, 0], sides[:, 2] - sides[:, 0])
-        sizes = np.linalg.norm(normals, axis=1)
-        assert abs(sizes.sum() / 2 - 4 * (2 * (1 - WIDTH) + np.sqrt(2)) - 2 * 0.5) < 1e-9  # the sides, and both ends
+        assert (
+            abs(areas(points, outside).sum() - 4 * (2 * (1 - WIDTH) + np.sqrt(2)) - 2 * 0.5) < 1e-9
+        )  # the sides, and both ends
     assert crossings == [0, 6]
 
 

@@ -28,6 +28,13 @@ def test_a_box_has_its_twelve_edges(n: int) -> None:
     assert ((np.abs(vertices[edges].mean(axis=1)) > 1 - 1e-9).sum(axis=1) == 2).all()
 
 
+def test_a_notched_wedge_has_its_convex_edges() -> None:
+    """As booleans leave it: edges that end at corners of two, and triangles of all shapes."""
+    places = np.array([int(digit, 13) for digit in "000010309319810814c00870874c70"], dtype=float).reshape(-1, 3)
+    faces = np.array([int(v) for v in "014021062231253046265647956967985978415513457758"]).reshape(-1, 3)
+    assert len(fairing.hard_edges(places, faces)) == 14
+
+
 @pytest.mark.parametrize("sides", [5, 6, 8, 12, 32])
 @pytest.mark.parametrize(("rows", "height"), [(1, 0.2), (1, 10.0), (4, 2.0), (20, 2.0)])
 def test_a_cylinder_has_its_two_rims(sides: int, rows: int, height: float) -> None:
