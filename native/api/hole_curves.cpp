@@ -1,7 +1,6 @@
 
 #include "api/hole_job.h"
 #include "api/remesh.h"
-#include "base/stopwatch.h"
 #include "fill/short_edges.h"
 
 namespace fairing {
@@ -22,11 +21,9 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
     }
     SolverOptions film;
     film.equation = Equation::soap_film;
-    Stopwatch watch;
     const VertexPairs outer = taken();
     const NewSurface first =
         fill_loops({points, thin.loops, thin.normals, outer}, false, film, within(progress.range(0.0, 0.2)));
-    const double first_seconds = watch.lap();
     HolePatch patch{joined(points, first.vertices), thin.with_all(first.triangles), loops_[0].vertices, std::nullopt,
                     outer};
     const HeldInside held{numbers(through.creases), {}};
@@ -43,7 +40,6 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
     options.solver.equation = Equation::least_variation;
     options.solver.load = options.bulge = 0.0;
     MeshInput input = made.input(held);
-    const double mesh_seconds = watch.lap();
     SolvedHole result{made, fair(std::move(input), {}, options, within(progress.range(0.4, 1.0)))};
     if (!result.report.converged) return std::nullopt;
     result.patch.vertices = result.report.vertices;
@@ -51,8 +47,6 @@ std::optional<FilledHole> HoleJob::along(const CurvesThrough& through, const Pro
     for (std::size_t k = 0; k < result.report.fixed.size(); ++k) {
         if (result.report.fixed[k] >= here) result.report.join[static_cast<Eigen::Index>(k)] = 0.0;
     }
-    result.report.seconds["first"] = first_seconds;
-    result.report.seconds["mesh"] = mesh_seconds;
     if (options_.in_rows) {
         VertexPairs kept = through.edges;
         for (auto& [a, b] : kept) {

@@ -154,7 +154,10 @@ Holes named_loops(const HoledMesh& mesh, const NamedLoops& named, bool bridge, b
             loops.push_back(std::move(loop));
         }
     }
-    if (bridge) {
+    if (bridge) {  // in whatever order they are named
+        std::ranges::sort(loops, {}, [](const BoundaryLoop& loop) {
+            return loop.vertices.empty() ? none : std::ranges::min(loop.vertices);
+        });
         result.holes.push_back({std::move(loops)});
         return result;
     }

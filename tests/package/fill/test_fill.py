@@ -74,6 +74,7 @@ def test_two_boundaries_become_a_tube(place: Place, distance: Callable[[FloatArr
     assert abs(distance(result.vertices)).max() < 2e-4 * diameter
     _, joined = with_new(vertices, triangles, result)
     assert len(fairing.boundary_loops(joined)) == len(fairing.boundary_loops(triangles)) - 2
+    assert np.array_equal(fairing.fill(vertices, triangles, loops[::-1], bridge=True).vertices, result.vertices)
 
 
 def three_tubes() -> tuple[FloatArray, IntArray]:
@@ -168,8 +169,7 @@ def test_boundaries_that_pass_a_place_twice_are_refused() -> None:
     tear = np.concatenate([there, there[-2:0:-1]])
     refused("NONMANIFOLD_VERTEX", {*range(1, 7), *range(8, 14)}, tear, EMPTY, [np.arange(14)], normals=up[:14])
     circle = np.column_stack([np.cos(turn), np.sin(turn), 0 * turn])
-    shift = np.array([1.0, 0.0, 0.0])
-    both = np.concatenate([circle + shift, circle - shift])
+    both = (np.array([[[1, 0, 0]], [[-1, 0, 0]]]) + circle).reshape(-1, 3)
     both[24] = both[12]
     loops = [np.arange(24), np.arange(24, 48)]
     refused("NONMANIFOLD_VERTEX", {12, 24}, both, EMPTY, loops, normals=up, bridge=True)
