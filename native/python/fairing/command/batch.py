@@ -10,9 +10,11 @@ import sys
 from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from pathlib import Path
+from importlib.util import find_spec
+from pathlib import Path, PurePosixPath
 
 from fairing._core import __version__
+from fairing.command import cluster
 from fairing.command.work import GOOD, LOOK, SUFFIX, UNUSABLE, Report, done_with
 from fairing.results import Progress
 
@@ -37,27 +39,35 @@ def parsed(words: Sequence[str] | None) -> Namespace:
         parser.error("--output is for one file: use --into with several")
     if given.jobs < 1:
         parser.error("--jobs: 1 or more is needed")
+    if given.dask and find_spec("distributed") is None:
+        parser.error("--dask needs distributed: pip install 'intrinsic-fairing[dask]'")
+    if any(cluster.is_address(each) for each in given.files) and not given.dask:
+        parser.error("an address is read by the workers of --dask alone")
     return given
 
 
-def target_of(source: Path, given: Namespace) -> Path | None:
+def target_of(source: cluster.Place, given: Namespace) -> cluster.Place | None:
     """Where the result for a file goes; None for `measure`."""
     if given.command == "measure":
         return None
-    name = f"{source.stem}{SUFFIX[given.command]}{given.format or source.suffix}"
-    return given.output or Path(given.into or source.parent, name)
+    if given.output is not None:
+        return cluster.place(given.output)
+    at = PurePosixPath(str(source)) if cluster.is_address(source) else Path(source)
+    folder = str(given.into if given.into is not None else str(source)[: -len(at.name)] or ".")
+    return cluster.place(f"{folder.rstrip('/')}/{at.stem}{SUFFIX[given.command]}{given.format or at.suffix}")
 
 
 def _common(parser: ArgumentParser, writes: bool = True) -> None:
-    parser.add_argument("files", nargs="+", type=Path, metavar="FILE", help="a mesh")
+    parser.add_argument("files", nargs="+", type=cluster.place, metavar="FILE", help="a mesh")
     if writes:
         where = parser.add_mutually_exclusive_group()
-        where.add_argument("-o", "--output", type=Path, metavar="FILE", help="where the result of a single file goes")
+        where.add_argument("-o", "--output", metavar="FILE", help="where the result of a single file goes")
         where.add_argument("--into", metavar="FOLDER", help="where results go; else beside their files")
         parser.add_argument("--format", metavar=".EXT", help="the results' format; else that of their files")
         parser.add_argument("--accept-all", action="store_true", help="write results that can't be used, too")
         parser.add_argument("--threads", type=int, metavar="N", help="for one mesh; with --jobs: 1")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="files at once")
+    parser.add_argument("--dask", metavar="ADDRESS", help="the scheduler of a cluster that does the work (distributed)")
     parser.add_argument("--json", metavar="FILE", help="a report on each file; - for the standard output")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress bar, only what is not good")
     parser.add_argument("-v", "--verbose", action="store_true", help="the engine's log")
@@ -121,6 +131,9 @@ def main(words: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("interrupted", file=sys.stderr)
         return 130
+    except OSError as error:  # of a cluster that does not answer
+        print(error, file=sys.stderr)
+        return 2
     finally:  # what is done is done, interrupted or not
         _write_json(reports, given)
     return max(_STATUS[report["verdict"]] for report in reports)
@@ -128,28 +141,38 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def _done(given: Namespace) -> Iterator[Report]:
     """The reports, as files are done."""
-    if given.jobs > 1:
+    if given.dask or given.jobs > 1:
         yield from _several_at_once(given)
     else:
         for number, source in enumerate(given.files):
             bar = _bar(number, len(given.files), source.name, given)
-            yield done_with(source, target_of(source, given), given, bar)
+            yield done_with(*_paths((source, target_of(source, given))), given, bar)
             bar(1.0, "")
 
 
 def _several_at_once(given: Namespace) -> Iterator[Report]:
-    """The same in processes that go from file to file."""
+    """The same in processes that go from file to file, here or on a cluster."""
     if getattr(given, "threads", 1) is None:
         given.threads = 1
     each = Namespace(**{**vars(given), "files": ()})  # goes along with every file: without the list of all
+    jobs = [(source, target_of(source, given)) for source in given.files]
+    for number, report in enumerate((cluster.reports if given.dask else _in_processes)(jobs, each)):
+        bar = _bar(number, len(jobs), f"{number + 1} of {len(jobs)}", given)
+        bar(1.0, "done")
+        bar(1.0, "")
+        yield report
+
+
+def _paths(job: cluster.Job) -> tuple[Path, Path | None]:
+    return Path(job[0]), None if job[1] is None else Path(job[1])
+
+
+def _in_processes(jobs: list[cluster.Job], given: Namespace) -> Iterator[Report]:
     # Spawned: a forked engine would miss its threads.
     with ProcessPoolExecutor(given.jobs, multiprocessing.get_context("spawn"), _leave_interrupts) as pool:
-        tasks = [pool.submit(done_with, source, target_of(source, given), each, None) for source in given.files]
+        tasks = [pool.submit(done_with, *_paths(job), given, None) for job in jobs]
         try:
-            for number, task in enumerate(as_completed(tasks)):
-                bar = _bar(number, len(tasks), f"{number + 1} of {len(tasks)}", given)
-                bar(1.0, "done")
-                bar(1.0, "")
+            for task in as_completed(tasks):
                 yield task.result()
         finally:  # of an interrupt: files that are being worked on get done, no other begins
             pool.shutdown(cancel_futures=True)
