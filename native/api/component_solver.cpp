@@ -189,7 +189,7 @@ ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const Component
 
 Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress& progress) const {
     const Stopwatch watch;
-    Solution solution = solve_paper({problem, options_.paper}, progress);
+    Solution solution = solve_paper(problem, options_.paper, progress);
     solution.boundary_normals = one_sided_normals(patch_, solution.points);
     solution.strategies = {{"paper", watch.seconds()}};
     solution.flaw = flaw_of(problem, solution);

@@ -1,6 +1,5 @@
 #include "iteration/accelerated_iteration.h"
 
-#include "iteration/continuation.h"
 #include "linear/anderson.h"
 #include "linear/limits.h"
 #include "linear/shrinking_steps.h"
@@ -196,7 +195,6 @@ private:
         VectorX u = work_.normal->solve(outer_, accuracy());
         const double nearest = problem_.conduct.contracts ? near_led_surface : near_surface;
         const bool is_near = u.cwiseAbs().maxCoeff() < nearest;
-        if (is_near) add_reaction(problem_, state_, *work_.normal, work_.reaction, u);
         outer_.resize(0);  // the tangential step needs the room
         state_.stiffness = {};
         if (!is_near) return state_.moves(work_.tangential->displacement(state_.points, state_.normals), u);

@@ -184,9 +184,7 @@ private:
         progress.report(share_of_start, "refinement");
         work.normal = normal_operator(k, points);
         if (flipped_by_solution(problem.patch, points).size() > tolerated_folds(problem)) return {};
-        work.reaction = reaction_;
         Solution solution = iterate(problem, work, std::move(points), progress.range(share_of_start, 1.0));
-        reaction_ = work.reaction;
         work.normal.reset();  // the tangential step serves the finer levels
         return solution;
     }
@@ -195,7 +193,6 @@ private:
     const Traits& traits_;
     const Progress& progress_;
     const bool begins_small_;
-    double reaction_ = 0.0;  // of the level before
     Stopwatch watch_;
     Levels levels_;
     struct Operator {

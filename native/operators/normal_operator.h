@@ -65,7 +65,6 @@ struct Workspace {
     std::unique_ptr<TangentialStep> tangential;
     bool keeps_factor = false;  // `normal` holds the factor of a surface near the start, which the iteration leaves
     std::unique_ptr<Anderson> history = {};  // of the iterations with that factor; they add to it
-    double reaction = 0.0;  // by what share K's answers were too short on a coarser level (iteration/continuation)
 };
 
 }  // namespace fairing

@@ -5,24 +5,39 @@
 #include "multigrid/coarsening.h"
 #include "paper/factorised_iteration.h"
 #include "paper/level_update.h"
-#include "paper/start.h"
 #include "problem/surface_state.h"
+#include "start/clamped_fill.h"
+#include "start/globalisation.h"
 
 namespace fairing {
 
 namespace {
 
+// Positions of the level's vertices (3 × level vertices) from connectivity and boundary data alone: the clamped
+// bilaplacian's bulge of least Willmore energy, made fair by mixed finite elements; for minimal surfaces the membrane,
+// with descent of its area.
+Points start_of_level(const LevelProblem& level, const Points& fixed_points, const Progress& progress) {
+    const bool minimal = level.solver.equation == Equation::soap_film;
+    SolverOptions options = level.solver;
+    if (!minimal) options.equation = Equation::harmonic;  // the other equations are reached from its solution
+    const Problem problem{level.patch, fixed_points, level.fixed_normals, uniform_weights(level.patch), options};
+    Workspace work{make_normal_operator(problem),
+                   make_tangential_step(problem.patch, problem.weights, fixed_points, progress.here())};
+    if (minimal) return descend_area(problem, work, membrane(problem, work), progress);
+    return globalise(problem, work, best_fill(problem, work, progress.here()), progress);
+}
+
 class PaperSolver {
 public:
-    PaperSolver(const PaperProblem& pp, const Progress& progress)
-        : pp_(pp), problem_(pp.problem), options_(pp.problem.options), progress_(progress) {}
+    PaperSolver(const Problem& problem, const PaperOptions& paper, const Progress& progress)
+        : problem_(problem), paper_(paper), options_(problem.options), progress_(progress) {}
 
     Solution run() {
         Stopwatch watch;
         const auto coarsened = [&](const InnerWeights& edges) { return coarsen(problem_.patch, edges); };
         if (options_.nested) coarser_ = with_edges(problem_.patch, problem_.weights, coarsened);
-        if (pp_.paper.levels > 0 && coarser_.size() >= static_cast<std::size_t>(pp_.paper.levels))
-            coarser_.erase(coarser_.begin() + pp_.paper.levels - 1, coarser_.end());
+        if (paper_.levels > 0 && coarser_.size() >= static_cast<std::size_t>(paper_.levels))
+            coarser_.erase(coarser_.begin() + paper_.levels - 1, coarser_.end());
         solution_.seconds["hierarchy"] = watch.lap();
         for (auto k = static_cast<int>(coarser_.size()); k >= 0; --k) {
             const auto [begin, end] = share(k);
@@ -65,7 +80,7 @@ private:
     [[nodiscard]] LevelProblem level_problem(int level) const {
         const Patch& patch = patch_of(level);
         const auto made = [&](const InnerWeights& edges) { return RingMatrix(patch.vertex_count(), edges); };
-        return {patch, problem_.fixed_normals, options_, pp_.paper,
+        return {patch, problem_.fixed_normals, options_, paper_,
                 level == 0 ? with_edges(patch, problem_.weights, made)
                            : made(coarser_[static_cast<std::size_t>(level) - 1].weights)};
     }
@@ -74,11 +89,9 @@ private:
     // than they are inside, where without acceleration s above about ½ makes vertices alternate.
     [[nodiscard]] IterationLimits limits_of(int level) const {
         constexpr double coarse_damping = 0.55;  // of the caller's
-        const SolverOptions& options = options_;
-        const PaperOptions& paper = pp_.paper;
-        if (level == 0) return {options.tolerance, options.max_iterations, paper.damping};
-        return {std::max(options.tolerance, start_tolerance), std::clamp(2 * options.max_iterations, 100, 400),
-                paper.acceleration == Acceleration::plain ? coarse_damping * paper.damping : paper.damping};
+        if (level == 0) return {options_.tolerance, options_.max_iterations, paper_.damping};
+        return {std::max(options_.tolerance, start_tolerance), std::clamp(2 * options_.max_iterations, 100, 400),
+                paper_.acceleration == Acceleration::plain ? coarse_damping * paper_.damping : paper_.damping};
     }
 
     void fair(int level, const Progress& progress) {
@@ -136,8 +149,8 @@ private:
         solution_.residual = outcome.residual;
     }
 
-    const PaperProblem& pp_;
     const Problem& problem_;
+    const PaperOptions& paper_;
     SolverOptions options_;  // with as much of the load as there is a solution for
     const Progress& progress_;
     bool coarser_converged_ = false;
@@ -148,8 +161,8 @@ private:
 
 }  // namespace
 
-Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress) {
-    return PaperSolver(paper_problem, progress).run();
+Solution solve_paper(const Problem& problem, const PaperOptions& paper, const Progress& progress) {
+    return PaperSolver(problem, paper, progress).run();
 }
 
 }  // namespace fairing

@@ -8,13 +8,8 @@
 
 namespace fairing {
 
-struct PaperProblem {
-    const Problem& problem;
-    PaperOptions paper;
-};
-
 // Solves the outer equation from the boundary data; the interior given shapes λ alone.
 // Deterministic. Throws SolverError when the start breaks down, Cancelled.
-Solution solve_paper(const PaperProblem& paper_problem, const Progress& progress);
+Solution solve_paper(const Problem& problem, const PaperOptions& paper, const Progress& progress);
 
 }  // namespace fairing
