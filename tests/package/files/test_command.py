@@ -111,8 +111,8 @@ def test_several_files_at_once(scan: Path, tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"scan_filled.off", "closed_filled.off"}
 
 
-def _filled_or_dead(job: Any, *more: Any) -> Any:
-    """On a worker: the first time that a file of this name comes, the worker dies."""
+def _done_or_dead(job: Any, *more: Any) -> Any:
+    """On a worker, which dies the first time that a file of this name comes."""
     place = Path(job[0])  # of this machine, as the workers are
     if place.stem == "deadly" and not place.with_suffix(".died").exists():
         place.with_suffix(".died").touch()
@@ -124,31 +124,18 @@ _done = cluster._done
 
 
 def test_a_cluster_does_the_same(scan: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Two worker processes, one of which dies once."""
+    """Two worker processes, one of which dies once; by content, and by addresses of fsspec."""
     distributed = pytest.importorskip("distributed")
-    names = [shutil.copy(scan, tmp_path / f"{name}.ply") for name in ("a", "deadly", "b", "c")] + [tmp_path / "no.ply"]
-    words = ["fill", *names, "--longest", 20, "--into", tmp_path / "out"]
-    monkeypatch.setattr(cluster, "_done", _filled_or_dead)
+    names = [shutil.copy(scan, tmp_path / f"{name}.ply") for name in ("a", "deadly", "b")] + [tmp_path / "no.ply"]
+    monkeypatch.setattr(cluster, "_done", _done_or_dead)
     with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None) as two:
-        status, reports = report_of(tmp_path, *words, "--dask", two.scheduler_address)
-    assert (tmp_path / "deadly.died").exists()
-    assert (status, [report["verdict"] for report in reports]) == (3, [GOOD] * 4 + [UNUSABLE])
-    for report in reports[:-1]:
-        assert abs(radius(files.read(Path(report["written"]))[0].points) - 1).max() < 1e-4
-    assert "no.ply" in reports[-1]["reason"] and {path.suffix for path in (tmp_path / "out").iterdir()} == {".ply"}
-
-
-def test_addresses_are_read_and_written_by_the_cluster(scan: Path, tmp_path: Path) -> None:
-    fsspec = pytest.importorskip("fsspec")
-    distributed = pytest.importorskip("distributed")
-    fsspec.filesystem("memory").pipe_file("/in/scan.ply", scan.read_bytes())
-    with distributed.LocalCluster(n_workers=1, processes=False, dashboard_address=None) as one:
-        words = ["fill", "memory://in/scan.ply", "memory://in/none.ply", "--longest", 20, "--into", "memory://out"]
-        status, reports = report_of(tmp_path, *words, "--dask", one.scheduler_address)
-    assert (status, [report["verdict"] for report in reports]) == (3, [GOOD, UNUSABLE])
-    assert reports[0]["written"] == "memory://out/scan_filled.ply"
-    (tmp_path / "back.ply").write_bytes(fsspec.filesystem("memory").cat_file("/out/scan_filled.ply"))
-    assert abs(radius(files.read(tmp_path / "back.ply")[0].points) - 1).max() < 1e-4
+        for name in (tmp_path / "out", f"file://{tmp_path}/far"):
+            words = ["fill", *names, f"file://{scan}", "--longest", 20, "--into", name]
+            status, reports = report_of(tmp_path, *words, "--dask", two.scheduler_address)
+            assert (status, [report["verdict"] for report in reports]) == (3, [GOOD] * 3 + [UNUSABLE, GOOD])
+            assert (tmp_path / "deadly.died").exists() and "no.ply" in reports[3]["reason"]
+            places = [Path(report["written"].removeprefix("file://")) for report in reports if "written" in report]
+            assert all(abs(radius(files.read(place)[0].points) - 1).max() < 1e-4 for place in places)
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a console's interrupt can't be sent to one process alone")

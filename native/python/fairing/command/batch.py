@@ -11,7 +11,7 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from importlib.util import find_spec
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from fairing._core import __version__
 from fairing.command import cluster
@@ -41,27 +41,28 @@ def parsed(words: Sequence[str] | None) -> Namespace:
         parser.error("--jobs: 1 or more is needed")
     if given.dask and find_spec("distributed") is None:
         parser.error("--dask needs distributed: pip install 'intrinsic-fairing[dask]'")
-    if any(cluster.is_address(each) for each in given.files) and not given.dask:
+    if any("://" in each for each in given.files) and not given.dask:
         parser.error("an address is read by the workers of --dask alone")
     return given
 
 
-def target_of(source: cluster.Place, given: Namespace) -> cluster.Place | None:
-    """Where the result for a file goes; None for `measure`."""
-    if given.command == "measure":
-        return None
-    if given.output is not None:
-        return cluster.place(given.output)
-    at = PurePosixPath(str(source)) if cluster.is_address(source) else Path(source)
-    folder = str(given.into if given.into is not None else str(source)[: -len(at.name)] or ".")
-    return cluster.place(f"{folder.rstrip('/')}/{at.stem}{SUFFIX[given.command]}{given.format or at.suffix}")
+def target_of(source: str, given: Namespace) -> str | None:
+    """Where the result for a file or an address goes; None for `measure`."""
+    if given.command == "measure" or given.output is not None:
+        return getattr(given, "output", None)
+    folder, name = given.into or source[: -len(Path(source).name)] or ".", Path(source)
+    return f"{folder.rstrip('/')}/{name.stem}{SUFFIX[given.command]}{given.format or name.suffix}"
+
+
+def _place(word: str) -> str:
+    return word if "://" in word else str(Path(word))
 
 
 def _common(parser: ArgumentParser, writes: bool = True) -> None:
-    parser.add_argument("files", nargs="+", type=cluster.place, metavar="FILE", help="a mesh")
+    parser.add_argument("files", nargs="+", type=_place, metavar="FILE", help="a mesh")
     if writes:
         where = parser.add_mutually_exclusive_group()
-        where.add_argument("-o", "--output", metavar="FILE", help="where the result of a single file goes")
+        where.add_argument("-o", "--output", type=_place, metavar="FILE", help="where the result of a single file goes")
         where.add_argument("--into", metavar="FOLDER", help="where results go; else beside their files")
         parser.add_argument("--format", metavar=".EXT", help="the results' format; else that of their files")
         parser.add_argument("--accept-all", action="store_true", help="write results that can't be used, too")
@@ -145,8 +146,8 @@ def _done(given: Namespace) -> Iterator[Report]:
         yield from _several_at_once(given)
     else:
         for number, source in enumerate(given.files):
-            bar = _bar(number, len(given.files), source.name, given)
-            yield done_with(*_paths((source, target_of(source, given))), given, bar)
+            bar = _bar(number, len(given.files), Path(source).name, given)
+            yield done_with(source, target_of(source, given), given, bar)
             bar(1.0, "")
 
 
@@ -156,21 +157,17 @@ def _several_at_once(given: Namespace) -> Iterator[Report]:
         given.threads = 1
     each = Namespace(**{**vars(given), "files": ()})  # goes along with every file: without the list of all
     jobs = [(source, target_of(source, given)) for source in given.files]
-    for number, report in enumerate((cluster.reports if given.dask else _in_processes)(jobs, each)):
+    for number, report in enumerate(cluster.reports(jobs, each) if given.dask else _in_processes(jobs, each)):
         bar = _bar(number, len(jobs), f"{number + 1} of {len(jobs)}", given)
         bar(1.0, "done")
         bar(1.0, "")
         yield report
 
 
-def _paths(job: cluster.Job) -> tuple[Path, Path | None]:
-    return Path(job[0]), None if job[1] is None else Path(job[1])
-
-
 def _in_processes(jobs: list[cluster.Job], given: Namespace) -> Iterator[Report]:
     # Spawned: a forked engine would miss its threads.
     with ProcessPoolExecutor(given.jobs, multiprocessing.get_context("spawn"), _leave_interrupts) as pool:
-        tasks = [pool.submit(done_with, *_paths(job), given, None) for job in jobs]
+        tasks = [pool.submit(done_with, source, target, given, None) for source, target in jobs]
         try:
             for task in as_completed(tasks):
                 yield task.result()
@@ -215,7 +212,7 @@ def _print(report: Report, given: Namespace) -> None:
 def _write_json(reports: list[Report], given: Namespace) -> None:
     if given.json is None:
         return
-    place = {str(source): number for number, source in enumerate(given.files)}
+    place = {source: number for number, source in enumerate(given.files)}
     reports.sort(key=lambda report: place[report["file"]])
     text = json.dumps(reports, indent=2, ensure_ascii=False) + "\n"
     if given.json == "-":

@@ -1,4 +1,4 @@
-"""Many files on an existing Dask cluster (optional: distributed)."""
+"""Many files on an existing Dask cluster (optional: distributed), by their content or by addresses of fsspec."""
 
 from __future__ import annotations
 
@@ -6,21 +6,17 @@ import importlib
 import tempfile
 from argparse import Namespace
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from fairing.command.work import UNUSABLE, Report, done_with
 
-Place = Path | str  # an address that fsspec knows is a string
-Job = tuple[Place, Place | None]  # a file, and where its result goes
-Made = dict[str, bytes]  # files by their names
+Job = tuple[str, str | None]  # a file or an address, and where its result goes
 
 
-def is_address(place: object) -> bool:
-    return "://" in str(place)
-
-
-def place(word: str) -> Place:
-    return word if is_address(word) else Path(word)
+def _open(place: str, mode: str) -> Any:
+    return importlib.import_module("fsspec").open(place, mode, auto_mkdir=True)
 
 
 def reports(jobs: Sequence[Job], given: Namespace) -> Iterator[Report]:
@@ -32,55 +28,42 @@ def reports(jobs: Sequence[Job], given: Namespace) -> Iterator[Report]:
     with distributed.Client(given.dask) as client:
         tasks = {}
         for source, target in jobs:
-            content = None if is_address(source) or not Path(source).is_file() else Path(source).read_bytes()
+            content = Path(source).read_bytes() if Path(source).is_file() else None
             tasks[client.submit(_done, (source, target), given, content, pure=False)] = source, target
         for task in distributed.as_completed(tasks):
             source, target = tasks.pop(task)
             try:
                 report, made = task.result()
             except distributed.KilledWorker as error:
-                report, made = _unusable(source, f"each worker that had it died: {error}", "KilledWorker"), {}
-            _write(made, target)
+                reason, code = f"{source}: each worker that had it died: {error}", "KilledWorker"
+                report = {"file": source, "verdict": UNUSABLE, "reason": reason, "code": code, "seconds": 0.0}
+                made = None
+            if made is not None and target is not None:
+                _write(target, made)
             yield report
 
 
-def _unusable(source: Place, reason: str, code: str) -> Report:
-    return {"file": str(source), "verdict": UNUSABLE, "reason": reason, "code": code, "seconds": 0.0}
-
-
-def _done(job: Job, given: Namespace, content: bytes | None) -> tuple[Report, Made]:
+def _done(job: Job, given: Namespace, content: bytes | None) -> tuple[Report, bytes | None]:
     """On a worker: the report, and what is to be written on the machine that asks."""
     source, target = job
     with tempfile.TemporaryDirectory() as folder:
-        here = Path(folder, PurePosixPath(str(source)).name)
-        there = None if target is None else Path(folder, "out", PurePosixPath(str(target)).name)
-        try:
-            if is_address(source):
-                with importlib.import_module("fsspec").open(str(source), "rb") as file:
+        here = Path(folder, PurePosixPath(source).name)
+        there = None if target is None else Path(folder, "out", PurePosixPath(target).name)
+        with suppress(OSError, ValueError, ImportError):  # what can't be had is no file: the report says so
+            if content is None:
+                with _open(source, "rb") as file:
                     content = file.read()
-            if content is not None:
-                here.write_bytes(content)
-        except (OSError, ValueError, ImportError) as error:
-            return _unusable(source, f"{source}: {error}", type(error).__name__), {}
-        report = done_with(here, there, given, None) | {"file": str(source)}
-        made = {path.name: path.read_bytes() for path in Path(folder, "out").glob("*")}
-    if "reason" in report:
-        report["reason"] = report["reason"].replace(str(here), str(source))
-    if "written" in report:
-        report["written"] = str(target)
-    if is_address(target):
-        _write(made, target)
-        made = {}
+            here.write_bytes(content)
+        report = done_with(here, there, given, None) | {"file": source}
+        made = there.read_bytes() if there is not None and there.is_file() else None
+    said = {"reason": report["reason"].replace(str(here), source)} if "reason" in report else {}
+    report |= said | ({"written": target} if "written" in report else {})
+    if made is not None and target is not None and "://" in target:
+        _write(target, made)
+        made = None
     return report, made
 
 
-def _write(made: Made, target: Place | None) -> None:
-    """All files into the folder of the target."""
-    for name, content in made.items():
-        if is_address(target):
-            with importlib.import_module("fsspec").open(f"{str(target).rpartition('/')[0]}/{name}", "wb") as file:
-                file.write(content)
-        else:
-            here = Path(str(target)).with_name(name)
-            here.parent.mkdir(parents=True, exist_ok=True)
-            here.write_bytes(content)
+def _write(target: str, made: bytes) -> None:
+    with _open(target, "wb") as file:
+        file.write(made)

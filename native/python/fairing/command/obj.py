@@ -120,4 +120,6 @@ def _lines(word: str, rows: npt.NDArray[Any]) -> list[str]:
 
 def _from(folder: Path, place: Path) -> str:
     """How a file in the folder names another one."""
+    if not place.is_file():
+        return place.name
     return os.path.relpath(place, folder) if place.anchor == folder.anchor else str(place)

@@ -31,10 +31,11 @@ _OPTIONS = {
 }
 
 
-def done_with(source: Path, target: Path | None, given: Namespace, progress: Progress | None) -> Report:
+def done_with(file: Path | str, to: Path | str | None, given: Namespace, progress: Progress | None) -> Report:
     """Read the file, work, write; never raises but for a bug: what is wrong with a file is in its report."""
     begin = time.perf_counter()
-    report: Report = {"file": str(source)}
+    report: Report = {"file": str(file)}
+    source, target = Path(file), None if to is None else Path(to)
     try:
         with redirect_stdout(sys.stderr):  # libraries that read files print what they like
             parts, write = files.read(source)
