@@ -277,8 +277,8 @@ void EqualEdgeMesh::smooth(int sweeps) {
                     sum += weight / 3.0 * (point(v) + point(b) + point(c));
                     total += weight;
                 }
-                const Vector3 goal = total > 0.0 ? Vector3(sum / total) : point(v);
-                moved[k] = surface_->project(goal, where_[k].triangle);
+                const SurfacePoint found = total > 0.0 ? surface_->project(sum / total, where_[k].triangle) : where_[k];
+                moved[k] = found.weights.minCoeff() > 0.0 ? found : where_[k];  // not onto a border, over its vertices
             }
         });
         for (int k = 0; k < count; ++k) {

@@ -346,14 +346,19 @@ def test_what_booleans_leave_in_a_seam_is_got_over(count: int) -> None:
 
 
 def test_a_short_edge_of_a_seam_is_not_closed_where_a_triangle_would_lie_on_the_seam() -> None:
-    points = np.array([(-0.2, -0.2), (0, 0), (1, 0), (2, 0), (1, 2), (1, -2), (-2, 0)])
-    points = np.column_stack([points, np.zeros(7)])
-    triangles = np.array(
-        [(0, 1, 4), (1, 2, 4), (2, 3, 4), (0, 4, 6), (6, 5, 0), (0, 2, 1), (0, 3, 2), (0, 5, 3)], dtype=np.int32
-    )
+    points = np.pad([(-0.2, -0.2), (0, 0), (1, 0), (2, 0), (1, 2), (1, -2), (-2, 0)], ((0, 0), (0, 1)))
+    triangles = np.array([int(v) for v in "014124234046650021032053"], dtype=np.int32).reshape(-1, 3)
     _, _, made, _ = _core.first_mesh(points, triangles, [1] * 8, [(1, 0), (1, 2), (2, 3)], np.ones(7))
     assert len(made) == 6
     assert areas(points, made).min() > 0.05
+
+
+def test_no_new_vertex_comes_to_lie_over_one_of_the_border() -> None:
+    border = [(0.03, 0.32), (-0.37, 0.81), (-0.17, 0.22), (-0.66, 0.73), (-0.24, -0.06), (-0.05, -0.18), (0.47, -0.15)]
+    points = np.pad([*border, (0.0, 0.0)], ((0, 0), (0, 1)))
+    fan, up = np.array([(k, (k + 1) % 7, 7) for k in range(7)], dtype=np.int32), np.tile([0.0, 0.0, 1.0], (7, 1))
+    made = _core.remesh(points, fan, fan[:, 0], up, ([], []), [], (0.3, True, True), 0, None)
+    assert np.linalg.norm(made["vertices"][:, None] - points[:7], axis=2).min() > 1e-3
 
 
 def test_errors_name_vertices_of_the_mesh_given(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -375,20 +380,13 @@ def volume(vertices: FloatArray, triangles: IntArray) -> float:
     return float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6)
 
 
-def uprights(vertices: FloatArray, triangles: IntArray) -> IntArray:
-    """Vertical hard edges."""
-    hard = fairing.hard_edges(vertices, triangles)
-    upright: IntArray = hard[np.ptp(vertices[hard][:, :, :2], axis=1).max(axis=1) < 1e-9]
-    return upright
-
-
 @pytest.mark.parametrize("shear", [0.0, 0.3])
 def test_a_fillet_goes_on_through_the_faces_at_its_ends(shear: float) -> None:
     """The upright edges of a box: nothing of it leaves the planes at their ends, of which it takes the corners."""
     width = 0.2
     vertices, triangles = solids.box(1)
-    seam = uprights(vertices, triangles)
     hard = fairing.hard_edges(vertices, triangles)
+    seam = hard[np.ptp(vertices[hard][:, :, :2], axis=1).max(axis=1) < 1e-9]
     walls = hard[np.ptp(vertices[hard][:, :, 2], axis=1) < 1e-9]
     vertices = vertices + shear * vertices[:, 2:] * (1.0, 0.0, 0.0)
     result = fairing.fillet(vertices, triangles, seam, width=width, walls=walls)
