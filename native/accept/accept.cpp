@@ -32,7 +32,7 @@ bool is_behind(const Problem& problem, const Solution& solution) {
     return 2 * (angles.array() > turned_back).count() > (angles.array() > 0.0).count();
 }
 
-// Of some triangles those without fixed corners: a low-passed boundary lies beside the surface.
+// The triangles without fixed corners: a low-passed boundary lies off the surface.
 Indices inside(const Patch& patch, Indices triangles) {
     std::erase_if(triangles, [&](int t) { return patch.triangles.col(t).maxCoeff() >= patch.free_count; });
     return triangles;
@@ -43,7 +43,7 @@ bool keeps_shape(const Problem& problem, const Solution& solution) {
     return solution.provenance == Provenance::old_shape && problem.before->cols() == problem.patch.vertex_count();
 }
 
-// Of the triangles inside among each other.
+// Crossings of the triangles inside among each other.
 Indices crossings_inside(const Patch& patch, const Points& points) {
     Indices all(patch.triangle_count());
     std::iota(all.begin(), all.end(), 0);

@@ -125,14 +125,14 @@ bool has_collapsed_fan(const Patch& patch, const Points& points) {
 }
 
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings) {
-    constexpr double needle = 0.02;          // a right triangle of 90 : 1
+    constexpr double sliver = 0.02;          // a right triangle of 90 : 1
     constexpr double tolerated_share = 0.1;  // of the triangles: fewer hang on what is around them
     Indices bad = input_numbers(patch, flipped_triangles(patch, reference));
     for (int t = 0; t < patch.triangle_count(); ++t) {
         const auto corners = patch.triangles.col(t);
         const double shape =
             triangle_shape(reference.col(corners[0]), reference.col(corners[1]), reference.col(corners[2]));
-        if (!(shape >= needle)) bad.push_back(patch.input_triangle[t]);
+        if (!(shape >= sliver)) bad.push_back(patch.input_triangle[t]);
     }
     // A vertex whose whole neighbourhood is a point or a line hangs on nothing.
     const bool collapsed = has_collapsed_fan(patch, reference);

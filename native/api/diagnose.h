@@ -9,7 +9,7 @@
 namespace fairing {
 
 // Whether inner-fairness weights can be read off a reference mesh (3 × local vertices); warns REFERENCE_UNUSABLE where
-// more than a tenth of it is needles, collapsed or turned over, or the whole one-ring of a free vertex has no area.
+// more than a tenth of it is slivers, collapsed or turned over, or the whole one-ring of a free vertex has no area.
 bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostics& warnings);
 
 // Whether the triangles at some free vertex all lack area (3 × local vertices).

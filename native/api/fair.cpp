@@ -181,7 +181,7 @@ void prepare_for(const MeshInput& input, const FairOptions& options, std::unique
     prepared = prepare(input, options);
 }
 
-// What only repeated calls read again: a large mesh has no room for it during the solve.
+// Read again by repeated calls only: a large mesh has no room for it during the solve.
 void let_go(MeshInput& input, PreparedMesh& prepared) {
     input.triangles.resize(3, 0);
     if (prepared.is_all_patches) prepared.mesh.cut = {};

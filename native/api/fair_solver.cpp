@@ -10,7 +10,7 @@ namespace fairing {
 
 namespace {
 
-// Of the vertices that are named, if they are numbered without great gaps; each would take memory.
+// The number of vertices named, if they are numbered without great gaps; each would take memory.
 std::optional<int> vertex_count(const MeshInput& input) {
     constexpr std::int64_t widest_gap = 100;  // numbers for each that is named
     std::int64_t last = input.triangles.size() > 0 ? input.triangles.maxCoeff() : -1;

@@ -31,7 +31,7 @@ LevelLine fillet_line(PreparedFillet& made) {
 
 namespace {
 
-// Of the cut mesh.
+// Vertices of the cut mesh.
 Points all_points(const Points& old, const SplitMesh& cut) {
     Points points(3, old.cols() + cut.points.cols());
     points << old, cut.points;

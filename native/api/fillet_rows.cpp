@@ -76,7 +76,7 @@ private:
     std::vector<std::array<int, 2>> at_;  // of each triangle: its patch, and its number there
 };
 
-// Of each point of a line: whether an edge that counts comes to it, or a vertex is there.
+// For each point of a line: whether an edge that counts comes to it, or a vertex is there.
 std::vector<char> needed_outside(const SeamMesh& mesh, const LevelLine& line, const WantedRows& wanted) {
     std::map<int, VertexPair> ends;
     const auto sorted = [](int a, int b) { return VertexPair{std::min(a, b), std::max(a, b)}; };

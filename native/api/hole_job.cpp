@@ -34,7 +34,7 @@ Indices drawn(const CurvesThrough* through, const HoledMesh& mesh) {
     return vertices;
 }
 
-// Of the first surface: harmonic but for the equations that join what no harmonic surface does.
+// The first surface's equation: harmonic but for the equations that join what no harmonic surface does.
 Equation first_equation(const FillOptions& options) {
     const Equation asked = options.fair.solver.equation;
     const bool is_own = asked == Equation::least_variation || asked == Equation::soap_film;

@@ -90,7 +90,7 @@ double reach_at(int vertex, const std::vector<Indices>& loops, const Points& poi
 VectorX curvatures_around(const HolePatch& patch, const Triangles& around) {
     if (around.cols() == 0)
         throw std::invalid_argument(
-            "continuity: 'G2' needs the curvature at the outline: pass fixed_curvatures, or "
+            "continuity: 'G2' needs the curvature at the boundary: pass fixed_curvatures, or "
             "the triangles outside");
     const BoundaryNormals fits =
         boundary_normals({patch.vertices, patch.triangles, around}, patch.fixed, {}, SideRule::automatic);

@@ -109,7 +109,7 @@ void check_across(const Hole& hole) {
                                 "or of the loops as they were named?");
 }
 
-// One hole on its way: what is known about it, and what stops it.
+// One hole under work: what is known about it, and what stops it.
 class Candidate {
 public:
     Candidate(const HoledMesh& mesh, Hole& hole, const NamedLoops& named) : mesh_(mesh), hole_(hole), named_(named) {}

@@ -209,7 +209,7 @@ void warn_of_opposed_normals(const CheckedMesh& mesh, const FixedNormals& averag
               opposed, ElementKind::vertex, "vertices"));
 }
 
-// Of far more area than a flat one, by numbers that are neither too large nor too small for their squares.
+// Whether it has far more area than a flat one, by numbers neither too large nor too small for their squares.
 bool is_surely_broad(const Vector3& a, const Vector3& b, const Vector3& c) {
     const double longest = std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
     const double square = longest * longest;

@@ -141,7 +141,7 @@ Indices crossed(const Points& points, const Triangles& sheet, const Triangles& o
     return found;
 }
 
-// Of the surface's triangles those that pass through others, and did not before.
+// The surface's triangles that pass through others, and did not before.
 Indices pierced(const JudgedMesh& now, const std::optional<JudgedBefore>& before) {
     Eigen::AlignedBox3d box;
     for (const int v : now.surface.reshaped()) box.extend(now.points.col(v));

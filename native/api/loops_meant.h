@@ -1,4 +1,4 @@
-// The loops that a call means, on their way to be holes: in the right direction, and parted where they touch.
+// The loops that a call means, made into holes: in the right direction, and parted where they touch.
 #pragma once
 
 #include "api/holes.h"

@@ -36,7 +36,7 @@ Points normals_at_fixed(const Patch& patch, const Points& local, const FixedNorm
                                                      : one_sided_normals(patch, local);
 }
 
-// Of two: doubles end at 1023.
+// Exponent of two: doubles end at 1023.
 constexpr int largest_exponent = 1000;
 
 // The power of two by which lengths up to this one become about 1 without losing bits: their squares are numbers then.
@@ -87,7 +87,7 @@ Eigen::Matrix3Xd cotangents(const Points& points, const Triangles& triangles) {
     return faces.cotangents;
 }
 
-// Of `values` (a row for each vertex of the mesh), at these vertices.
+// Rows of `values` (one for each vertex of the mesh) at these vertices.
 Eigen::MatrixXd rows_at(const Eigen::MatrixXd& values, std::span<const int> vertices) {
     Eigen::MatrixXd result(static_cast<Eigen::Index>(vertices.size()), values.cols());
     for (std::size_t k = 0; k < vertices.size(); ++k)

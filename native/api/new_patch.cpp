@@ -106,7 +106,7 @@ public:
         NewPatch result;
         const HolePatch patch = meshed(solved, result);
         const double mesh_seconds = watch_.lap();
-        settle(solved, patch, result);
+        relax(solved, patch, result);
         result.report.seconds["first"] = first_seconds;
         result.report.seconds["mesh"] = mesh_seconds;
         result.report.seconds["total"] = watch_.seconds();
@@ -177,7 +177,7 @@ private:
         return patch;
     }
 
-    void settle(SolvedHole& solved, const HolePatch& patch, NewPatch& result) const {
+    void relax(SolvedHole& solved, const HolePatch& patch, NewPatch& result) const {
         const auto added = patch.vertices.cols() - old_count_;
         const std::set<int> used(triangles_.reshaped().begin(), triangles_.reshaped().end());
         const std::set<int> fixed(solved.report.fixed.begin(), solved.report.fixed.end());

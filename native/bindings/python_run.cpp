@@ -6,7 +6,7 @@
 
 namespace fairing::bindings {
 
-// The runs under way in this process.
+// The runs in progress in this process.
 class Runs {
 public:
     void enter(PythonRun& run) {

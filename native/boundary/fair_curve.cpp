@@ -27,12 +27,12 @@ Vector3 on_arc(const Vector3& tangent, const Vector3& end, double share) {
 Points fair_curve(const CurveEnd& begin, const CurveEnd& end, const VectorX& shares) {
     const Vector3 chord = end.place - begin.place;
     if (!(chord.norm() > 0.0)) throw std::invalid_argument("a curve needs two different ends");
-    const Vector3 way = chord.normalized();
+    const Vector3 along = chord.normalized();
     // The tangent at the beginning of the arc that ends along `direction`.
-    const auto mirrored = [&](const Vector3& direction) { return Vector3(2.0 * way.dot(direction) * way - direction); };
+    const auto mirrored = [&](const Vector3& d) { return Vector3(2.0 * along.dot(d) * along - d); };
     Vector3 first = begin.direction.normalized();
     Vector3 last = mirrored(end.direction.normalized());
-    if (first.isZero(0.0)) first = last.isZero(0.0) ? way : last;
+    if (first.isZero(0.0)) first = last.isZero(0.0) ? along : last;
     if (last.isZero(0.0)) last = first;
     const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(first, last);
     const auto at = [&](double t) { return on_arc(Eigen::Quaterniond::Identity().slerp(t, turn) * first, chord, t); };

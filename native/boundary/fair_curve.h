@@ -12,7 +12,7 @@ struct CurveEnd {
     Vector3 direction;
 };
 
-// Places on a curve between the ends, at `shares` (0 … 1) of its length: on the way from one to the other it changes
+// Places on a curve between the ends, at `shares` (0 … 1) of its length: from one to the other it changes
 // steadily from the circle through both along the first direction to that along the last one (C. H. Séquin, K. Lee,
 // J. Yen 2005). Straight lines and circles come back exactly; a helix to 3e-3 of its chord over a quarter turn. Its
 // curvature varies little more (a sixth in the median) than on the curve where that is least. Moves, turns and scales

@@ -85,7 +85,7 @@ constexpr double least_height = 0.3;    // edges
 constexpr double times_median = 4.0;    // what is usual along this boundary
 constexpr double largest_share = 0.15;  // of the boundary
 
-// Of the places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.
+// For places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.
 struct Doubts {
     Indices places;
     std::vector<double> errors;

@@ -20,7 +20,7 @@ Vector3 normal_of(const Points& points, const Triangles& triangles, int side) {
 // outside towards its back.
 struct Means {
     Eigen::Vector2d patch = Eigen::Vector2d::Zero();  // cosine and sine of the angle of its own triangles
-    Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise; between several loops of the way to the next one
+    Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise; between loops the path to the next one
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double rows_bend = 0.0;                           // its curvature times distance to the loop's middle
     Eigen::Vector2d cut = Eigen::Vector2d::Zero();    // likewise, of an arc over half of that distance, times
@@ -39,7 +39,7 @@ constexpr double noise_margin = 3.0;  // as of hard edges: bends to the other si
 constexpr double parallel = 0.996;    // cosine: 5 degrees, the tilt of a draft; more is a ball's row
 constexpr double rounder = 1.25;      // bend of which there is no ball: it has 1 at most
 constexpr double far_rounder = 3.0;   // times the dip
-// Of a loop: real meshes have single edges like walls everywhere.
+// Share of a loop: real meshes have single edges like walls everywhere.
 constexpr double shortest_row = 0.125;
 
 // Degrees, from where the arc across goes on.
@@ -128,7 +128,7 @@ private:
         return mesh_.points(Eigen::all, edge.ends).rowwise().mean();
     }
 
-    // Of each set of edges, at its root.
+    // For each set of edges, at its root.
     [[nodiscard]] std::vector<double> lengths_of(UnionFind& sets) const {
         std::vector<double> lengths(edges_.size(), 0.0);
         for (int k = 0; k < size(); ++k) lengths[sets.root(k)] += between(edges_[k]).norm();
@@ -167,7 +167,7 @@ private:
         return turn(edge, normal_of(points, mesh_.inside, edge.inside).cross(along(edge)));
     }
 
-    // Of a direction square to the edge.
+    // A direction square to the edge.
     [[nodiscard]] Eigen::Vector2d turn(const Meeting& edge, const Vector3& inwards) const {
         const Vector3 normal = normal_at(edge);
         return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(along(edge))), -inwards.dot(normal));

@@ -26,7 +26,7 @@ struct Walls {
 // on the sides of boxes, cans and cones it is nearly nothing; of a single row up to a border nobody knows it, and the
 // row of a wall goes one way all along. Or their first two rows lie on an arc that curves more than any ball that spans
 // the loop, and goes on in the film: a bevel. Tangents and curvatures are those of cuts across the edges: no fits, as
-// any three rows lie on a ball or a strip. Between several loops the way to the next one takes the film's place, which
+// any three rows lie on a ball or a strip. Between several loops the path to the next one takes the film's place, which
 // has a waist where a tube goes on, and `hard_bend` that of half of it. A boundary is parted where `hard` edges outside
 // end at it, and each part decides as a whole; walls shorter than an eighth of their loop don't count. The patch counts
 // in its mean alone, so that noise does not: a part is no wall where the patch's own triangles go on along the

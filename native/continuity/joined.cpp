@@ -69,7 +69,7 @@ std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvat
     return found;
 }
 
-// What holds for the surface that replaces the tangent join.
+// Conditions on the surface that replaces the tangent join.
 void inherit(Solution& found, Solution tangent, const KnownCurvature& known) {
     found.initial_residual = tangent.initial_residual;
     found.levels = std::move(tangent.levels);

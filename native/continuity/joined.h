@@ -10,7 +10,7 @@
 
 namespace fairing {
 
-// Of the squares of what the tangent join's curvature lacks, the least share in waves of twelve vertices and more. What
+// The least share of the squares of what the tangent join's curvature lacks in waves of twelve vertices and more. What
 // is rough comes from noise in the boundary or its surroundings, or from an boundary in steps, and a surface that
 // follows it is only wavier. With noise in the H of a torus, an ellipsoid and a cubic cylinder, errors shrank by a
 // quarter and more wherever the share was above a third, and grew in some cases below a quarter.

@@ -133,7 +133,7 @@ struct Mean {
     Vector3 normal;
 };
 
-// Of what the fits around a point say there, by certainty and nearness.
+// The mean of what the fits around a point say there, by certainty and nearness.
 std::optional<Mean> mean_at(const Vector3& here, const std::vector<Anchor>& anchors, double width) {
     Mean sum{Vector3::Zero(), Vector3::Zero()};
     double weights = 0.0;

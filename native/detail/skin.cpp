@@ -177,7 +177,7 @@ Eigen::Matrix3d turn_of_triangle(const Eigen::Matrix3d& from, const Eigen::Matri
     const Eigen::Matrix3d axes_to = axes_of(first_to, second_to);
     if (axes_from.isZero(0.0) || axes_to.isZero(0.0)) return Eigen::Matrix3d::Identity();
     const Eigen::Matrix2d map = flat(axes_to, first_to, second_to) * flat(axes_from, first_from, second_from).inverse();
-    // Of a plane map with positive determinant the polar rotation turns by this angle.
+    // The angle of the polar rotation of a plane map with positive determinant.
     const double angle = std::atan2(map(1, 0) - map(0, 1), map(0, 0) + map(1, 1));
     Eigen::Matrix3d within = Eigen::Matrix3d::Identity();
     within.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(angle).toRotationMatrix();

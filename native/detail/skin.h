@@ -41,7 +41,7 @@ private:
     double factorised_for_ = 0.0;  // this wavelength; 0: none
 };
 
-// Of the old patch itself. `wavelength`: of the slopes, too.
+// The skin of the old patch itself. `wavelength`: that of the slopes, too.
 std::optional<Points> old_base(const Patch& patch, const Stiffness& stiffness, const OldPatch& old, double wavelength,
                                const Progress& progress);
 
@@ -68,7 +68,7 @@ private:
     Skin(const Patch& patch, const Points& old);
     // False where the old patch has degenerated.
     [[nodiscard]] bool split(const OldPatch& old, double wavelength, const Progress& progress);
-    // Of triangle t: Σ cot (f_i − f_j) at its corners, the columns.
+    // Columns, for triangle t: Σ cot (f_i − f_j) at its corners, the columns.
     [[nodiscard]] Eigen::Matrix3d pull(int t, const Points& field) const;
     [[nodiscard]] Points sources(const Points& new_base, const Points& at_boundary) const;
 

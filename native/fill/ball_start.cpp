@@ -38,7 +38,7 @@ Vector3 apex_direction(const Points& points, const Indices& loop, const Ball& ba
     return std::copysign(1.0, ball.radius) * direction(area);
 }
 
-// Angle from the apex and distance from the centre, and the way back from there. The angle keeps its direction around
+// Angle from the apex and distance from the centre, and back from these. The angle keeps its direction around
 // the apex: what lies between two places has its place between theirs.
 class Spread {
 public:

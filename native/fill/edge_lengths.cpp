@@ -29,7 +29,7 @@ VectorX border_lengths(const Patch& patch, const Points& points, const KeptEdges
     return lengths.cwiseQuotient(counts.cwiseMax(1.0));
 }
 
-// Of the edges of the border; 0 without one.
+// The mean over the edges of the border; 0 without one.
 double mean_border_edge(const Patch& patch, const Points& points) {
     double length = 0.0;
     double count = 0.0;
@@ -74,8 +74,8 @@ void grade(const Patch& patch, const Points& points, double growth, double sign,
     lengths = sign * std::move(reached).take();
 }
 
-// The boundary's edges are what they are: where they are longer than wanted, lengths shrink inwards, and the other way
-// round.
+// The boundary's edges stay: where they are longer than wanted, lengths shrink inwards, and
+// grow where they are shorter.
 VectorX graded(const Patch& patch, const Points& points, double growth, const VectorX& border, const VectorX& inside) {
     VectorX lengths = inside;
     const auto hold = [&] {

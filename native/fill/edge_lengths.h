@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// Of a mesh of equilateral triangles, per square of its edge: 2 / √3.
+// Vertices of a mesh of equilateral triangles per square of its edge: 2 / √3.
 inline constexpr double vertices_per_square = 1.1547;
 
 // In proportion to the boundary's own edges, harmonic in between, or the same everywhere.

@@ -50,8 +50,8 @@ EqualEdgeMesh::EqualEdgeMesh(const Patch& patch, const Points& points, const Tar
     }
 }
 
-// Of the edge wanted between two vertices. Where lengths grow steadily from one to the other, their logarithmic mean
-// counts: by the mean of a long and a short one, the edge of a coarse boundary's corner would never be split.
+// Length of the edge wanted between two vertices. Where lengths grow steadily from one to the other, their logarithmic
+// mean counts: by the mean of a long and a short one, the edge of a coarse boundary's corner would never be split.
 double EqualEdgeMesh::wanted_between(Vertex one, Vertex other) const {
     const auto [low, high] = std::minmax(wanted_[one.idx()], wanted_[other.idx()]);
     const double more = high - low;
@@ -245,7 +245,7 @@ int EqualEdgeMesh::flip_edges() {
     return flips;
 }
 
-// Of the two triangles beside it.
+// The outer sides of the two triangles at an edge.
 std::array<EqualEdgeMesh::Edge, 4> EqualEdgeMesh::sides_around(Edge e) const {
     std::array<Edge, 4> sides;
     std::size_t count = 0;
@@ -293,10 +293,10 @@ void EqualEdgeMesh::smooth(int sweeps) {
 
 void EqualEdgeMesh::equalise() {
     constexpr int most_sweeps = 20;  // a bound: sweeps end when they change little
-    int settled = 0;
+    int calm_rounds = 0;
     const double most = most_per_expected * (expected_count(*patch_, *points_, *lengths_) + patch_->vertex_count());
     split_chords();
-    for (int round = 0; round < most_sweeps && settled < most_rounds; ++round) {
+    for (int round = 0; round < most_sweeps && calm_rounds < most_rounds; ++round) {
         const int before = static_cast<int>(mesh_.n_vertices());
         if (before > most) break;
         int changes = split_long();
@@ -305,7 +305,7 @@ void EqualEdgeMesh::equalise() {
         changes += split_chords();
         smooth(2);
         flip_edges();
-        if (20 * changes <= before) ++settled;
+        if (20 * changes <= before) ++calm_rounds;
     }
     smooth(3);
     flip_edges();

@@ -60,8 +60,8 @@ bool is_surface(const Triangles& triangles) {
     return true;
 }
 
-// Of least area. Where that closes a limb instead of going around it: the one that follows the normals, which a minimal
-// surface has none of.
+// The triangulation of least area. Where that closes a limb instead of going around it: the one that follows the
+// normals, which a minimal surface has none of.
 Triangles triangulated(const OpenBoundary& boundary, Equation equation) {
     constexpr double better = 0.25;  // of the mean cosine
     const Triangles least = joined_loops(boundary.points, boundary.loops);
@@ -171,7 +171,7 @@ FirstSurface on_equal_edges(const OpenBoundary& boundary, const FirstSurface& la
     std::optional<FirstSurface> found = near(boundary, equal, options, progress.range(0.0, 0.3));
     if (found) return std::move(*found);
     Problem problem = problem_on(boundary, equal.patch, options);
-    // What was sought in vain once, in 1 to 5 s, is not found on another mesh either.
+    // A search that failed once, in 1 to 5 s, fails on another mesh, too.
     if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
     Solution solution = solve(problem, 0.0, progress.range(0.3, 1.0));
     return {std::move(equal.patch), std::move(solution)};

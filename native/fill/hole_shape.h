@@ -9,7 +9,7 @@ namespace fairing {
 struct LoopShape {
     Points points;
     Points normals;  // unit
-    // Of the triangles' angles at each vertex, in radians, π less: how far the loop turns to the right there, seen from
+    // The triangles' angles at each vertex, in radians, less π: how far the loop turns to the right there, seen from
     // the mesh. Empty where no triangle holds it.
     VectorX angles = {};
 

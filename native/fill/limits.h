@@ -10,7 +10,7 @@ inline constexpr double bad_angle = 26.0;
 inline constexpr double sharp_corner = 75.0;
 // Flips, splits and collapses make none higher.
 inline constexpr int highest_valence = 8;
-// Of local changes over all of the mesh: later ones find next to nothing.
+// Rounds of local changes over all of the mesh: later ones find next to nothing.
 inline constexpr int most_rounds = 4;
 
 }  // namespace fairing

@@ -66,7 +66,7 @@ public:
             if (is_free(edges_.side(each.edge, 0) / 3) && is_free(edges_.side(each.edge, 1) / 3)) join(each.edge);
     }
 
-    // Until no path is found: one may open the way for others.
+    // Until no path is found: one may make others possible.
     void pair_more() {
         for (bool again = true; again;) {
             again = false;

@@ -11,7 +11,7 @@ namespace fairing {
 
 namespace {
 
-constexpr double settled = 0.999;  // of the penalty before, for a move or a flip
+constexpr double no_gain = 0.999;  // of the penalty before, for a move or a flip
 
 // Squared, or to the fourth power, where the smallest angle is to count alone.
 double powered_lack(double angle, bool worst_counts) {
@@ -101,7 +101,7 @@ int EqualEdgeMesh::relax_place(Vertex v) {
             const Vector3 goal = point(v) + step * (std::cos(turn) * along + std::sin(turn) * across);
             const int triangle = where_[v.idx()].triangle;
             const double reached = penalty_at(surface_->position(surface_->project(goal, triangle)));
-            if (reached >= settled * best) continue;
+            if (reached >= no_gain * best) continue;
             best = reached;
             put(v, goal, triangle);
             ++moves;
@@ -116,7 +116,7 @@ bool EqualEdgeMesh::improve_flip(Edge e) {
     const auto [a, b, c, d] = diagonal(e);
     const double before = powered_lack(std::min(least_angle(a, b, c), least_angle(b, a, d)), worst_counts_);
     const double after = powered_lack(std::min(least_angle(c, d, b), least_angle(d, c, a)), worst_counts_);
-    if (after >= settled * before || !may_flip(e)) return false;
+    if (after >= no_gain * before || !may_flip(e)) return false;
     mesh_.flip(e);
     return true;
 }
@@ -167,7 +167,7 @@ Indices EqualEdgeMesh::around_small_angles() const {
     return found;
 }
 
-// What flips and moves can do about small angles.
+// Flips and moves against small angles.
 void EqualEdgeMesh::improve() {
     for (int round = 0; round < most_rounds; ++round) {
         const Indices vertices = around_small_angles();

@@ -33,7 +33,7 @@ bool lies_on_another_edge(const LoopShape& loop, int k, double reach) {
 }  // namespace
 
 bool is_crack(const LoopShape& loop) {
-    constexpr double narrow = 0.1;  // of an edge: a mesh within would be of needles
+    constexpr double narrow = 0.1;  // of an edge: a mesh within would be of slivers
     const double reach = narrow * loop.perimeter() / loop.size();
     int apart = 0;
     for (int k = 0; k < loop.size() && apart <= 2; ++k) apart += lies_on_another_edge(loop, k, reach) ? 0 : 1;

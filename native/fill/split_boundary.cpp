@@ -10,7 +10,7 @@ namespace {
 
 constexpr double away = 0.1;  // of the shorter edge there: enough to tell two passes apart, too little for another edge
 
-// A short way into the surface at a place of a loop, half way between the edges there.
+// A short step into the surface at a place of a loop, half-way between the edges there.
 Vector3 into_surface(const LoopShape& loop, int k) {
     constexpr double tiny = 1e-300;  // no division by zero
     const Vector3 after = loop.edge(k);

@@ -9,7 +9,7 @@ namespace fairing {
 struct SplitBoundary {
     std::vector<Indices> loops;
     Points placed;   // n + c, as they are
-    Points parted;   // likewise; those passed several times lie a little way into the surface, so that its first mesh
+    Points parted;   // likewise; those passed several times lie a little into the surface, so that its first mesh
                      // has room between them
     Indices source;  // the vertex that each is
 

@@ -60,7 +60,7 @@ public:
         return sum;
     }
 
-    // Which way most of the normals look, seen from there.
+    // The direction in which most of the normals look, seen from there.
     [[nodiscard]] double volume(const Vector3& middle) const {
         double sum = 0.0;
         for (const int dart : darts_)
@@ -146,7 +146,7 @@ void refuse_pinched(const Indices& loop) {
     const Indices where(twice.begin(), twice.end());
     if (!where.empty())
         refuse_wires(Code::no_cell,
-                     "the outline of a cell passes " + listed(where) + " twice: add a wire that divides it", where,
+                     "the boundary of a cell passes " + listed(where) + " twice: add a wire that divides it", where,
                      "pinched");
 }
 
@@ -156,7 +156,7 @@ Vector3 middle_of(const WireNetwork& network, const View<Points>& points) {
     return points(Eigen::all, Indices(used.begin(), used.end())).rowwise().mean();
 }
 
-// Of a polygon's vector area, or of the plane nearest to it where it has none.
+// Direction of a polygon's vector area, or normal of the plane nearest to it where it has none.
 Vector3 normal_of_loop(const View<Points>& points, const Indices& loop) {
     constexpr double least = 1e-6;  // of the sum of squares: there is no area
     const Points corners = points(Eigen::all, loop);

@@ -33,7 +33,7 @@ public:
     }
 
 private:
-    // Of a loop: so many vertices with one label.
+    // A part of a loop: so many vertices with one label.
     struct Run {
         int loop, first, count;
         Label label;
@@ -155,7 +155,7 @@ private:
         }
     }
 
-    // Of a vertex at which the border leaves a band's side, or comes to it: that end.
+    // Adds the end of the band's side at each vertex where the border leaves it, or comes to it.
     void add_ends(std::map<int, BandEnd>& leaving, std::map<int, BandEnd>& coming) const {
         for (int b = 0; b < static_cast<int>(made_.bands.size()); ++b) {
             const Band& band = made_.bands[b];

@@ -132,7 +132,7 @@ private:
                                                const std::map<int, int>& local) const {
         std::vector<char> inside(pieces.triangles().size(), 2);
         Indices open;
-        const auto settle = [&](int piece, char side) {
+        const auto give_side = [&](int piece, char side) {
             if (piece == none || inside[piece] != 2) return;
             inside[piece] = side;
             open.push_back(piece);
@@ -140,10 +140,10 @@ private:
         for (const int s : segments_of_[t]) {
             const int a = local.at(number_[line_.segments[s].from]);
             const int b = local.at(number_[line_.segments[s].to]);
-            settle(pieces.at(a, b), 1);
-            settle(pieces.at(b, a), 0);
+            give_side(pieces.at(a, b), 1);
+            give_side(pieces.at(b, a), 0);
         }
-        if (open.empty()) settle(0, distance_.reaches(t) && distance_.value(t, middle()) < 0.0 ? 1 : 0);
+        if (open.empty()) give_side(0, distance_.reaches(t) && distance_.value(t, middle()) < 0.0 ? 1 : 0);
         while (!open.empty()) {
             const int piece = open.back();
             open.pop_back();
@@ -151,7 +151,7 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const int a = corners[k];
                 const int b = corners[(k + 1) % 3];
-                if (!pieces.is_held(a, b)) settle(pieces.at(b, a), inside[piece]);
+                if (!pieces.is_held(a, b)) give_side(pieces.at(b, a), inside[piece]);
             }
         }
         return inside;

@@ -4,7 +4,7 @@ namespace fairing {
 
 namespace {
 
-// Of an area, and of an edge's length squared: points on a line come within some 1e-14 of it.
+// Share of an area, and of an edge's length squared: points on a line come within some 1e-14 of it.
 constexpr double straight = 1e-12;
 
 std::array<int, 2> sorted_pair(int a, int b) { return {std::min(a, b), std::max(a, b)}; }

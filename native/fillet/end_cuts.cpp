@@ -129,7 +129,7 @@ private:
         sections.push_back(std::move(section));
     }
 
-    // Of the chain's length, at its vertices.
+    // Shares of the chain's length at its vertices.
     [[nodiscard]] static VectorX shares_along(const Chain& chain, const EndFaces& faces) {
         std::vector<double> lengths{0.0};
         for (std::size_t k = 1; k < chain.size(); ++k)

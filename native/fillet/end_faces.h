@@ -11,13 +11,13 @@ namespace fairing {
 class EndFaces {
 public:
     using Corners = std::array<int, 3>;
-    // Of the triangles given. Keeps references to both.
+    // The faces made of the triangles given. Keeps references to both.
     EndFaces(const Points& points, const Triangles& triangles, const SplitMesh& cut);
 
     [[nodiscard]] int at(int from, int to) const;  // the piece with that directed side, or `none`
     [[nodiscard]] int parent(int piece) const { return parent_[piece]; }
     [[nodiscard]] Vector3 place(int vertex) const;
-    // Of triangles given: whether the fillet takes nothing of it, its corners, and all vertices around it.
+    // For each triangle given: whether the fillet takes nothing of it, its corners, and all vertices around it.
     [[nodiscard]] bool is_whole(int given) const;
     [[nodiscard]] Corners corners_given(int given) const;
     [[nodiscard]] Indices border(int given) const;

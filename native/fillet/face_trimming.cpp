@@ -193,7 +193,7 @@ private:
         for (std::size_t k = 1; k < path.size(); ++k) {
             const int t = holder(0.5 * (at(path[k - 1].vertex) + at(path[k].vertex)));
             if (t == none) return false;
-            ways_[t].push_back({path[k - 1].vertex, path[k].vertex, s});
+            paths_[t].push_back({path[k - 1].vertex, path[k].vertex, s});
             held_.insert(sorted_pair(path[k - 1].vertex, path[k].vertex));
         }
         for (std::size_t k = 1; k + 1 < arcs_[s].size(); ++k) {
@@ -228,7 +228,7 @@ private:
             number.push_back(vertex);
         }
         if (number.size() > 3) pieces.make_delaunay();
-        for (const auto& [from, to, s] : ways_[t]) {
+        for (const auto& [from, to, s] : paths_[t]) {
             if (!local.contains(from) || !local.contains(to) || !pieces.add_edge(local.at(from), local.at(to)))
                 return s;
         }
@@ -280,7 +280,7 @@ private:
         return std::nullopt;
     }
 
-    struct Way {
+    struct Path {
         int from, to;
         std::size_t section;
     };
@@ -295,7 +295,7 @@ private:
     std::set<int> vertices_, passed_, bound_;  // of the face; on a section; of a section, on an edge
     std::set<VertexPair> edges_, held_;
     std::map<VertexPair, std::vector<std::pair<double, int>>> on_edge_;  // from its smaller vertex
-    std::map<int, std::vector<Way>> ways_;                               // of each triangle
+    std::map<int, std::vector<Path>> paths_;                             // of each triangle
     std::map<int, Indices> within_;
     FaceChange made_;
 };

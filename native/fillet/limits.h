@@ -7,9 +7,9 @@ namespace fairing {
 // more at one place, or from one point of a line to the next, they are of two sides.
 inline constexpr double straight_angle = 1e-3;
 inline constexpr double corner_angle = 0.35;
-// Of the spacing: beside longer edges the new mesh has needles.
+// In spacings: next to longer edges the new mesh has slivers.
 inline constexpr double longest_edge = 2.0;
-// Of the spacing: shorter edges and lower triangles bring thin ones for no gain, and stop a mesh that is made even.
+// In spacings: shorter edges and lower triangles bring thin ones for no gain, and stop a mesh that is made even.
 inline constexpr double snap = 0.02;
 
 }  // namespace fairing

@@ -27,7 +27,7 @@ LinePoint point_on(const SeamMesh& mesh, int h, double along) {
     return {mesh.place(h / 3, weights), none, mesh.edge[h], upward ? along : 1.0 - along, h / 3, weights};
 }
 
-// Of a half-edge, into edges whose lengths change with the widths along it.
+// Parts a half-edge into edges whose lengths change with the widths along it.
 struct Parts {
     Parts(const SeamMesh& mesh, const SeamDistance& distance, int h, double spacing) {
         const double first = distance.relative_width(h / 3, weights_along(h, 0.0));

@@ -28,7 +28,7 @@ public:
         for (std::size_t c = 0; c < corners_.size(); ++c) prepare(c);
     }
 
-    // What fails takes what it meets along, which then ends before it.
+    // A piece that fails takes the pieces that it meets along: these then end before it.
     RowMesh made() {
         for (bool changed = true; changed;) {
             changed = false;

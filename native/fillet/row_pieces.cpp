@@ -46,7 +46,7 @@ bool RowPieces::is_whole_wall(const Piece& piece, int which) const {
     return piece.ends[which] == RowEnd::wall && std::ssize(strip_.walls[which]) == sizes_.rows + 1;
 }
 
-// Of the first column and of the last one: away from where rows end, which is straight across.
+// The bounds at the first and the last column: away from where rows end, which is straight across.
 std::array<Pair, 2> RowPieces::bounds(Piece& piece) const {
     std::array<Pair, 2> found = piece.outer;
     const auto station = [&](std::size_t which, Side side) {

@@ -10,8 +10,8 @@ namespace fairing {
 
 namespace {
 
-// Of the bulge over a column's chord: where the surface leaves the quads between two columns by more, another one comes
-// between.
+// Share of the bulge over a column's chord: where the surface leaves the quads between two columns by more, another one
+// comes between.
 constexpr double bent = 0.6;         // where strips meet at corners it is up to .47, between vertices of a ring less
 constexpr double flat = 0.02;        // of the width: what bulges less is flat
 constexpr double shortest = 0.5;     // of the width: columns as near as that get none between them
@@ -31,7 +31,7 @@ double turn_at(const SeamMesh& mesh, const SeamArc& arc, std::size_t k) {
     return radians_between(chord(arc.half_edges[(k + count - 1) % count]), chord(arc.half_edges[k]));
 }
 
-// Of a closed seam: where it turns, or across from an edge outside.
+// Where the rows of a closed seam begin: where it turns, or across from an edge outside.
 double begin_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must) {
     for (std::size_t k = 0; k < band.arc.half_edges.size(); ++k) {
         if (turn_at(mesh, band.arc, k) >= corner_angle) return band.arc.stations[k];
@@ -146,7 +146,7 @@ int RowColumns::nearest(const BandSide& side, double station) const {
     return (best + last) / 2;
 }
 
-// Of the seam's inner vertices.
+// Turns at the seam's inner vertices.
 std::vector<RowColumns::Turn> RowColumns::turns(const SeamArc& arc, double from) const {
     std::vector<Turn> found;
     const std::size_t count = arc.half_edges.size();
@@ -159,7 +159,7 @@ std::vector<RowColumns::Turn> RowColumns::turns(const SeamArc& arc, double from)
     return found;
 }
 
-// What lies across from a turn has its foot beside it: the column leads over the turn.
+// A point across from a turn has its foot next to it: the column leads over the turn.
 double RowColumns::over_turn(double station, const std::vector<Turn>& turns) const {
     for (const auto& [at, angle] : turns) {
         if (std::abs(station - at) <= seen * sizes_.width * std::tan(0.5 * angle)) station = at;

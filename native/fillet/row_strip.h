@@ -42,7 +42,7 @@ struct RowStrip {
 // A closed band begins where its seam turns or an edge outside comes to it, on both sides at one place of the seam.
 RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must, double width);
 
-// Of vertices by place along and across, counter-clockwise where across is on the left of along.
+// Triangles of vertices by place along and across, counter-clockwise where across is on the left of along.
 void add_quads(const std::vector<Indices>& grid, std::vector<Quad>& quads);
 
 class RowColumns {

@@ -77,7 +77,7 @@ private:
 
 using VertexVector = std::function<Vector3(int)>;
 
-// Of all ways to fill a polygon with triangles that whose flattest one is roundest (G. T. Klincsek 1980). Empty where
+// The triangulation of a polygon whose flattest triangle is roundest (G. T. Klincsek 1980). Empty where
 // one would have less than `least` of twice its area over its longest side squared, which is negative where it is
 // turned over.
 std::vector<Eigen::Vector3i> roundest(const Indices& polygon, const VertexVector& place, const VertexVector& normal,

@@ -5,7 +5,7 @@
 
 namespace fairing {
 
-// Of a fillet at each vertex: on the left of its seams and on the right, as their directions have it.
+// Widths of a fillet at each vertex: on the left of its seams and on the right, as their directions have it.
 struct SeamWidths {
     VectorX left;
     VectorX right;

@@ -11,18 +11,18 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();  // no seam, no limit
 constexpr double share = 0.2;                                         // of a side: what modellers begin with
 constexpr double most = 0.9;     // of the seams has longer sides than the one that counts: a narrow place is no measure
-constexpr double taken = 0.9;    // of the way: what is left of a face is no narrower than the new edges are long
+constexpr double taken = 0.9;    // of the room: what is left of a face is no narrower than the new edges are long
 constexpr double grazing = 0.3;  // cosine: sides that a path hardly meets are measured by their own paths
 constexpr double corner = 0.8;   // radians: where seams turn by more another piece begins
 
-struct Way {
+struct Ray {
     double length;
     int end;       // the half-edge on a seam, wall or border at which it comes out, or `none`,
     double slope;  // and the cosine of the angle to the path square to that one
 };
 
 // From a place on a half-edge, square to it straight on until the face ends.
-Way ray_across(const SeamMesh& mesh, int h, double along) {
+Ray ray_across(const SeamMesh& mesh, int h, double along) {
     Vector2 from(along * mesh.length[h], 0.0);
     Vector2 ray = Vector2::UnitY();
     double length = 0.0;
@@ -90,7 +90,7 @@ SeamRoom seam_room(const SeamMesh& mesh) {
     for (int h = 0; h < mesh.half_edge_count(); ++h) {
         if (mesh.seam[h] == none || !(mesh.length[h] > 0.0)) continue;
         for (const double along : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-            const Way ray = ray_across(mesh, h, along);
+            const Ray ray = ray_across(mesh, h, along);
             if (ray.end == none || ray.slope < grazing || of.meet(h, ray.end)) continue;
             sides.emplace_back(ray.length, mesh.length[h]);
             const bool meets = mesh.seam[ray.end] != none;

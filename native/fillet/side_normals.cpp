@@ -99,7 +99,7 @@ double SideNormals::curvature(int triangle, const Vector3& weights) const {
     return std::isfinite(sum) ? sum : -0.5 * divergence(triangle);
 }
 
-// Of the normals, interpolated over a triangle: gradients of its hat functions times them.
+// The derivative of the normals interpolated over a triangle: gradients of its hat functions times them.
 double SideNormals::divergence(int triangle) const {
     const Vector3 normal = face_normal(triangle);
     double sum = 0.0;

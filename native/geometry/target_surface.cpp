@@ -75,7 +75,7 @@ Vector3 TargetSurface::position(const SurfacePoint& where) const {
         p[k] = points_.col(corners[k]);
         n[k] = normals_.col(corners[k]);
     }
-    // Control point a third of the way from corner i to corner j, on the tangent plane at i.
+    // Control point at a third from corner i to corner j, on the tangent plane at i.
     const auto third = [&](int i, int j) {
         return Vector3((2.0 * p[i] + p[j] - (p[j] - p[i]).dot(n[i]) * n[i]) / 3.0);
     };

@@ -17,7 +17,7 @@ constexpr int refresh_after = 6;      // iterations, where they contract slowly
 constexpr double least_share = 0.5;
 constexpr double share_of_factor = 0.2;  // of the time, in large problems
 
-// Of the moves along the normals, in units of D: beyond, slopes and curvatures say little about where the vertices will
+// Moves along the normals, in units of D: beyond, slopes and curvatures say little about where the vertices will
 // be. Where steps have to shrink, over jagged boundaries, coarser levels have come near already: of 78 regions of scans
 // 26 ended nowhere that looked on from the first step, 30 that did from this length.
 constexpr double near_surface = 1e-3;
@@ -178,7 +178,7 @@ private:
         return std::clamp(forcing * problem_.options.tolerance / step, least_forcing, forcing);
     }
 
-    // Of the next step along the normals, as long as the residual says.
+    // Accuracy of the next step along the normals, as the residual says.
     [[nodiscard]] Accuracy accuracy() const {
         const double size = most_bending();
         if (problem_.conduct.start_only || solution_.iterations == 0) return {least_forcing, size};

@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Of the whole load: the least one that is tried where a larger one is too much.
+// The least share of the load that is tried where a larger one is too much.
 inline constexpr double smallest_increment = 1.0 / 32.0;
 
 // The accurate iteration; for a constant load after the harmonic solution, and in steps of the load where a single

@@ -70,7 +70,7 @@ void FrontTree::relate_rows() {
     });
 }
 
-// Of each supernode as a root.
+// The subtree of each supernode.
 std::vector<Subtree> FrontTree::measure_subtrees() {
     std::vector<Subtree> trees;
     for (int s = 0; s < nodes_.size(); ++s) {
@@ -110,7 +110,7 @@ void FrontTree::split() {
     run_pieces(static_cast<int>(subtrees_.size()), [&](int k) { number_outer_rows(subtrees_[k]); });
 }
 
-// What a supernode couples with outside its subtree, so does the root.
+// A coupling outside its subtree is one of the root, too.
 void FrontTree::number_outer_rows(const Subtree& tree) {
     const auto outer = below(tree.root());
     const int inner_end = nodes_.first[tree.end];

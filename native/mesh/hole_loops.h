@@ -22,7 +22,7 @@ BorderSides border_sides(const Triangles& triangles, int vertex_count);
 // `triangles`: those with a vertex that the border passes several times are enough.
 HoleLoops hole_loops(const View<Points>& points, const Triangles& triangles, const BorderSides& border);
 
-// Splits a loop along the border, the hole on its left, in the same way where it touches itself; a vertex that other
+// Splits a loop along the border, the hole on its left, likewise where it touches itself; a vertex that other
 // loops pass, too, is left alone.
 std::vector<Indices> parted_loop(const Indices& loop, const View<Points>& points, const Triangles& triangles);
 

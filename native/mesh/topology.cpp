@@ -180,10 +180,10 @@ Joints join_or_take_apart(const Triangles& triangles, const EdgeTable& edges, co
     const std::vector<char> moves = moving_triangles(triangles, joints.windings, roles);
     check_doubled(triangles, select(doubled, moves));
     check_orientable(select(joints.windings.conflicts, moves), input_triangle);
-    std::vector<char> hopeless(static_cast<int>(triangles.cols()), 0);
-    for (int t : defects) hopeless[joints.windings.pieces.root(t)] = 1;
+    std::vector<char> cut_open(static_cast<int>(triangles.cols()), 0);
+    for (int t : defects) cut_open[joints.windings.pieces.root(t)] = 1;
     for (std::size_t s = 0; s < edges.edge_of_side.size(); ++s) {
-        if (hopeless[joints.windings.pieces.root(static_cast<int>(s) / 3)]) cut[edges.edge_of_side[s]] = 1;
+        if (cut_open[joints.windings.pieces.root(static_cast<int>(s) / 3)]) cut[edges.edge_of_side[s]] = 1;
     }
     return join_triangles(triangles, edges, cut);
 }

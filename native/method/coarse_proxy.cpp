@@ -36,7 +36,7 @@ private:
         return points(Eigen::all, source().patch.to_input);
     }
 
-    // What large patches do not find from their start, they would not find without it either.
+    // Large patches that find nothing from their start would not find it without it either.
     [[nodiscard]] std::optional<CoarseProxy> known_proxy() const override { return start_.proxy; }
 
     // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
@@ -53,7 +53,7 @@ private:
         return best;
     }
 
-    // What the springs fold is what they folded at first.
+    // Keeps the fold count of the first relaxation.
     static void keep_better(Projected other, Projected& best) {
         if (other.folded.size() >= best.folded.size()) return;
         other.folded_by_springs = best.folded_by_springs;

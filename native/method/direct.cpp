@@ -26,7 +26,7 @@ double residual_of(const Problem& problem, const Points& points) {
 }
 
 // The vertices of a surface, projected onto it by their inner fairness.
-Points settled(const Problem& problem, const Workspace& work, const Points& points) {
+Points relaxed(const Problem& problem, const Workspace& work, const Points& points) {
     const SurfaceState state = measured_surface(problem, points);
     const TargetSurface target(problem.patch, points, state.normals);
     Placement placement = at_vertices(problem, target, points);
@@ -34,8 +34,8 @@ Points settled(const Problem& problem, const Workspace& work, const Points& poin
     return placement.points;
 }
 
-// Of a surface that is only a start they have to tell no more than whether it meets its boundary from behind, and fits
-// take a quarter of its time.
+// Normals of a surface that is only a start: they have to tell no more than whether it meets its boundary from behind,
+// and fits take a quarter of its time.
 Points boundary_normals(const Problem& problem, const Points& points) {
     const Patch& patch = problem.patch;
     if (!problem.conduct.start_only) return one_sided_normals(patch, points);
@@ -66,7 +66,7 @@ Start make_start(const Problem& problem, Workspace& work, const Progress& progre
     // The one whose curvatures vary least is wanted, so the start that varies least goes first.
     const auto along_normals = normal_fill(problem, progress.here());
     if (along_normals && curvature_variation(problem, *along_normals) < curvature_variation(problem, start.points)) {
-        start.points = settled(problem, work, *along_normals);
+        start.points = relaxed(problem, work, *along_normals);
     }
     return start;
 }

@@ -30,7 +30,7 @@ constexpr int largest_prepared = 200'000;
 constexpr double begin = 0.06;  // the hierarchy
 constexpr double share_of_start = 0.3;
 
-// Of a level's start: the iteration irons single ones out.
+// Share of folds in a level's start: the iteration irons single ones out.
 std::size_t tolerated_folds(const Problem& problem) {
     constexpr std::size_t share = 100;  // one triangle in so many
     return problem.tolerated_folds + problem.patch.triangle_count() / share;
@@ -136,9 +136,9 @@ private:
         return solution;
     }
 
-    // Of a level that was solved alone. Noise of the boundary and single poor triangles keep it from converging, and
-    // the next level converges all the same. Regions of a bust went on from steps of 0.001 to 0.03, those of an ear,
-    // whose surface the coarsest mesh does not resolve, ended at 0.5 and more.
+    // Whether a level that was solved alone is a start. Noise of the boundary and single poor triangles keep it from
+    // converging, and the next level converges all the same. Regions of a bust went on from steps of 0.001 to 0.03,
+    // those of an ear, whose surface the coarsest mesh does not resolve, ended at 0.5 and more.
     [[nodiscard]] bool is_start(std::size_t k, const Solution& solution) const {
         constexpr double small_step = 0.04;  // units of D
         // A coarser mesh may lead from one surface to another.

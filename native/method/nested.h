@@ -8,7 +8,7 @@
 namespace fairing {
 
 // Solves the coarsest level (method/direct) and refines: each level starts at the surface of the one before and
-// needs a few accelerated iterations, whose linear systems are solved by multigrid. The way ends at a level that
+// needs a few accelerated iterations, whose linear systems are solved by multigrid. The descent ends at a level that
 // starts folded or stays far from a surface, before the larger ones cost time, and on the finest one as soon as its
 // steps hardly shrink. The solution then has not converged, and its positions are those of the last good level,
 // interpolated; nothing is measured there. No solution where the patch is too small for levels.

@@ -19,7 +19,7 @@ constexpr double wave = 16.0;  // vertices
 // Variation along the boundary (boundary/low_passed_boundary). Least variation was found over loops of pipes up to 6e3,
 // never from 4e4 on; regions of scans with noise of a quarter edge have 4e6 to 2e9.
 constexpr double smallest_jagged = 3e4;
-// Of 60 regions of scans with 10,000 to 100,000 vertices surfaces met boundaries of up to 1.7e9, a rim of 2,048 edges
+// In 60 regions of scans with 10,000 to 100,000 vertices surfaces met boundaries of up to 1.7e9, a rim of 2,048 edges
 // around half a sphere was met at 8e9; the 14 regions from here to 2.5e10 had none.
 constexpr double largest_reached = 1e10;
 // Free vertices from which levels pay between smooth loops.
@@ -84,7 +84,7 @@ std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     if (!traits.is_jagged && may_vary_least) steps.push_back(Step::least_variation);
     if (traits.has_old_shape) steps.push_back(Step::old_shape);
     if (problem.patch.loop_count() > 1) steps.push_back(Step::loft);
-    if (isolated_pins(problem.patch).empty()) steps.push_back(Step::first_surface);  // its needles are no better
+    if (isolated_pins(problem.patch).empty()) steps.push_back(Step::first_surface);  // its slivers are no better
     return steps;
 }
 

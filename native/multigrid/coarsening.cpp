@@ -13,7 +13,7 @@ constexpr double factor = 3.5;
 constexpr double least_factor = 1.6;  // a level that shrinks less is not worth its cost
 constexpr double least_progress = 0.03;
 
-// What the vectors have in reserve a large mesh has no room for.
+// A large mesh has no room for what vectors hold in reserve.
 void give_back_room(Removals& removals) {
     removals.vertex.shrink_to_fit();
     removals.begin.shrink_to_fit();

@@ -48,7 +48,7 @@ struct FixedPlaces {
     const Points& normals;
 };
 
-// What a patch of the present mesh is made of.
+// The vertices and triangles of a patch of the present mesh.
 struct CoarseMesh {
     PatchMembers members;
     Twins twins;

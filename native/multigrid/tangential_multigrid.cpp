@@ -7,7 +7,7 @@ namespace fairing {
 
 namespace {
 
-// Of D⁻¹L where no weight is negative (Gershgorin).
+// The largest eigenvalue of D⁻¹L where no weight is negative (Gershgorin).
 constexpr float largest_eigenvalue = 2.0F;
 
 void project_across(SingleField& field, const SingleField& normals) {
@@ -117,7 +117,7 @@ MultigridStep::Moves MultigridStep::solve(const Points& pull, const Planes* plan
     return {unit * found.x.topLeftCorner(3, patch_.free_count).cast<double>(), found.positive};
 }
 
-// What single precision leaves is solved for again.
+// The residual that single precision leaves is solved for again.
 Points MultigridStep::harmonic_positions() const {
     constexpr double tolerance = 1e-8;     // of the first residual
     constexpr Effort each_time{1e-3, 30};  // accuracy and cycles in single precision

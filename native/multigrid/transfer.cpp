@@ -149,7 +149,7 @@ Eigen::Vector4f Restriction::arrived(int row, const Eigen::Vector4f& own, const 
     return sum;
 }
 
-// What a removed vertex hands on is whole once the passes before its own are done.
+// The shares of a removed vertex are whole once the passes before its own are done.
 void Restriction::apply(const SingleField& fine, float scale, SingleField& sums, SingleField& coarse) const {
     const Removals& removals = transfer_.removals;
     for (std::size_t pass = 1; pass < removals.pass_begin.size(); ++pass) {

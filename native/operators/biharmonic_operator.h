@@ -29,7 +29,7 @@ private:
     const Patch& patch_;
     SparseCholesky factor_;
     SparseMatrix matrix_;
-    // Of the products S_ik S_jk, row by row: where row i begins, and the place of each sum within its row.
+    // Sums of the products S_ik S_jk, row by row: where row i begins, and the place of each sum within its row.
     std::vector<std::size_t> product_begin_;
     Indices slots_;
 };

@@ -179,8 +179,8 @@ Indices order_of(const Patch& given, const Indices& pins) {
     return from;
 }
 
-// Of the normals around a tip to its axis, their mean by area; cos 60°. Hills that rise by half of D have .87 with 400
-// and more vertices, and .53 with 100.
+// Cosine between a tip's axis and the normals around it, the mean by area; cos 60°. Hills that rise by half of D have
+// .87 with 400 and more vertices, and .53 with 100.
 constexpr double sharp = 0.5;
 
 double mean_cosine(const Patch& patch, const Points& points, int v) {

@@ -76,7 +76,7 @@ private:
 
 Placement by_history(const Problem& problem, const ProxyMesh& mesh, const ProxyMesh::Snapshot& snapshot,
                      const TargetSurface& target) {
-    // Of every vertex that the proxy mesh ever had; known where the triangle is.
+    // For every vertex that the proxy mesh ever had; known where the triangle is.
     Points points(3, mesh.number_count());
     std::vector<SurfacePoint> where(mesh.number_count(), SurfacePoint{none, Vector3::Zero()});
     const auto put_number = [&](int number, const SurfacePoint& place) {

@@ -60,7 +60,7 @@ private:
     Anderson anderson_;
 };
 
-// Of the neighbours one row nearer to the boundary.
+// Mean of the neighbours one row nearer to the boundary.
 Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, int vertex) {
     Vector3 sum = Vector3::Zero();
     int count = 0;
@@ -72,7 +72,7 @@ Vector3 mean_move(const Patch& patch, const Points& moves, const Indices& row, i
     return sum / count;
 }
 
-// Of all vertices; each row moves half as far as the mean of what it touches in the row before.
+// Displacements of all vertices; each row moves half as far as the mean of what it touches in the row before.
 Points following(const Patch& patch, const Points& offsets) {
     constexpr int rows = 3;        // the last moves by an eighth
     constexpr double share = 0.5;  // of the row before

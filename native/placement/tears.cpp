@@ -18,7 +18,7 @@ Indices united(const Indices& first, const Indices& second) {
     return all;
 }
 
-// Of the triangles that were turned over those out of reach, and what is now turned over within it: a triangle is
+// The triangles turned over before that are out of reach, and what is now turned over within it: a triangle is
 // compared with the normals at its corners, and these change with the triangles around them.
 Indices turned_after(const Patch& patch, const Points& points, const Indices& turned, const Indices& moved) {
     const Indices reach = triangles_at(patch, corners_of(patch, triangles_at(patch, moved)));

@@ -75,7 +75,7 @@ private:
         return delta > 0.0 ? 0.5 * (delta + r) : 0.5 * epsilon_squared_ / (r - delta);
     }
 
-    // Of N/χ.
+    // Derivative of N/χ.
     void add_derivatives(const Corner& corner, Value& sum) const {
         const double delta = corner.delta;
         const double r = root(delta);

@@ -48,7 +48,7 @@ inline constexpr int smallest_large = 1500;
 // Free vertices of the coarsest level of a large one, which has the surface from its boundary alone wherever there is
 // one; up to so many all patience pays.
 inline constexpr int coarsest_size = 600;
-// Of a surface that another solve begins with, units of D.
+// Tolerance of a surface that another solve begins with, units of D.
 inline constexpr double start_tolerance = 1e-4;
 
 // How a strategy has the equation iterated; no caller sets it.
@@ -68,10 +68,10 @@ struct Problem {
     Shared<Lambda> weights;
     SolverOptions options;
     std::size_t tolerated_folds = 0;  // as many triangles are turned over where the weights come from
-    // Of least_variation: the boundary's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
+    // For least_variation: the boundary's normals cost Σ w_i |n_i − n̂_i|²; fixed count. ∞: met exactly, 0: the slope is
     // free. Empty: ∞. Pins count as 0.
     VectorX normal_weights = {};
-    // Of the fixed vertices: an edge that is free to rise along its normals, for least variation. Empty: none is.
+    // Fixed vertices on an edge that is free to rise along its normals, for least variation. Empty: none is.
     std::vector<char> free_edge = {};
     // H at the fixed vertices, in units of D⁻¹, NaN where it is not known, infinite where a tangent join is asked for;
     // for Δ_B² H = 0. Empty: a tangent join.

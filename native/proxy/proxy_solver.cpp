@@ -34,7 +34,7 @@ int most_iterations_to(double tolerance, int usual) {
 // Whether what a proxy comes to says what others would.
 bool tells(const Problem& problem, int shown) { return shown >= smallest_telling && problem.patch.loop_count() == 1; }
 
-// Of the regions of scans with one boundary and 5,000 free vertices or more whose coarse proxy did not converge, those
+// Among regions of scans with one boundary and 5,000 free vertices or more whose coarse proxy did not converge, those
 // with a step of 2e-5 to 3e-4 D were found on the fine one, those of 7e-4 to .3 were not. One of 2,800, whose coarse
 // proxy has 300, was found from 7e-3.
 CoarseEnd end_of(const Solution& solution, const Problem& problem, int shown) {
@@ -168,7 +168,7 @@ private:
         Workspace work = make_workspace(problem, progress_);
         Solution solution;
         if (from_converged) solution = solve_equation(problem, work, snapshot.points, progress_.range(0.5, 0.8));
-        // Of 17 over regions of scans that did not converge from a coarse one's surface, a descent and another
+        // In 17 regions of scans that did not converge from a coarse one's surface, a descent and another
         // iteration found two, both from a step below this. Small patches have all patience.
         const bool ends_far = problem_.patch.loop_count() == 1 && solution.least_step > near_step;
         const bool hopeless = from_converged && ends_far && !is_small(shown_);

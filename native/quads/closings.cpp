@@ -51,7 +51,7 @@ private:
         return places;
     }
 
-    // What a pole adds to the end of the walk, apart from the walk's own end.
+    // The shift of the end of the walk by an irregular vertex.
     [[nodiscard]] Lattice term(std::size_t which, int at) const {
         const Lattice here = walk_[at];
         const Lattice sum = kinds_[which] == PoleKind::triangle ? walk_[at + 1] - here.turned(1)

@@ -12,7 +12,7 @@ struct QuadPattern {
     int vertex_count = 0;
     std::vector<std::array<int, 4>> quads;  // counter-clockwise
     std::vector<std::array<int, 3>> triangles;
-    // Of a tube: edges along which the angle around it grows by a turn more than the difference of those at their ends.
+    // On a tube, edges along which the angle around it grows by a turn more than the difference of those at their ends.
     std::vector<std::array<int, 2>> over_seam;
 };
 

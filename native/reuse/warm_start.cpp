@@ -62,7 +62,7 @@ std::optional<Solution> vary_least_near(const Problem& problem, const Points& po
 constexpr double farthest_move = 0.05;      // units of D
 constexpr double cos_of_widest_turn = 0.7;  // 45°
 
-// Of directions and places. Both are centred.
+// The rotation that brings directions, or centred places, nearest to others.
 Eigen::Matrix3d best_rotation(const Points& from, const Points& to) {
     const Eigen::Matrix3d covariance = to * from.transpose();
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -202,7 +202,7 @@ std::optional<Solution> solve_near(const Problem& problem, const NearStart& star
     attempt.conduct.limits = nearby;
     const Points free_points = start.points.leftCols(problem.patch.free_count);
     Workspace work{make_normal_operator(attempt, free_points), nullptr};
-    if (start.settled) {
+    if (start.converged) {
         work.tangential = std::make_unique<NoStep>(free_points);
     } else {
         work.tangential = make_tangential_step(problem.patch, problem.weights, problem.fixed_points, progress.here());

@@ -52,7 +52,7 @@ struct NearStart {
     Points points;  // 3 × local vertices, units of D
     // The vertices sit within the surface as they should: they move along its normals only. So they do where the
     // weights are the conformal ones of these very positions.
-    bool settled;
+    bool converged;
 };
 
 // The accepted surface that the iteration finds within a few steps from there; nothing where there is none, and the

@@ -25,8 +25,8 @@ inline constexpr double most_marked = 0.25;
 inline constexpr double visible_kink = 12.0;
 inline constexpr double finest_kink = 5.0;
 inline constexpr double steep_kink = 30.0;
-// Of the boundary: what kinks have at least. Of 308 results 8 of 12 above it were sent back or doubted, of ten shorter
-// and steeper kinks four.
+// The share of the boundary that kinks have at least. Of 308 results 8 of 12 above it were sent back or doubted, of ten
+// shorter and steeper kinks four.
 inline constexpr double kink_share = 0.125;
 // From which it is none: the surface turns back.
 inline constexpr double turned_back = 90.0;

@@ -60,7 +60,7 @@ public:
         return direction_from(edge, vertex).dot(direction_from(other, vertex)) <= -least_straight;
     }
 
-    // Of each edge: how much other edges of its triangles than the marked ones bend at most, over its own bend.
+    // For each edge: how much other edges of its triangles than the marked ones bend at most, over its own bend.
     [[nodiscard]] double bend_beside(int edge, const std::vector<char>& is_hard) const {
         double most = 0.0;
         for (int k = 0; k < edges().side_count(edge); ++k) {

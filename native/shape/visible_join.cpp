@@ -61,7 +61,7 @@ Indices border_of(const Patch& patch) {
     return border;
 }
 
-// Of the strip's sides those on the patch's border, in the order of their edges.
+// The strip's sides on the patch's border, in the order of their edges.
 Indices border_sides(const Patch& patch, const PatchStrip& strip, const EdgeTable& edges) {
     Indices sides;
     for (int e = 0; e < edges.size(); ++e) {

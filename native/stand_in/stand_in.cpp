@@ -19,7 +19,7 @@ namespace {
 
 constexpr double largest_growth = 2.0;  // of the area, by the bulge: beyond, it is a balloon or a horn
 
-// Of 60 random patches between several loops 58 have a loft that is accepted; with 0.6 alone, and none repaired, 50.
+// In 60 random patches between several loops 58 have a loft that is accepted; with 0.6 alone, and none repaired, 50.
 constexpr std::array roundnesses{0.6, 1.5, 4.0};
 
 // The membrane, bent until its energy falls no further; nothing where that is a balloon.

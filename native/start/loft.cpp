@@ -125,7 +125,7 @@ std::vector<Loop> loops_of(const Patch& patch, const Points& points) {
     return loops;
 }
 
-// Of the tube between two loops; 0 for fewer or more.
+// Area of the straight tube between two loops; 0 for fewer or more.
 double straight_area(const std::vector<Loop>& loops) {
     if (loops.size() != 2) return 0.0;
     return 0.5 * (loops[0].length + loops[1].length) * (loops[0].middle - loops[1].middle).norm();

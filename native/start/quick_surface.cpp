@@ -14,7 +14,7 @@ namespace fairing {
 
 namespace {
 
-// Each takes as long as a fill. The first one takes most of the way: caps of 90° are .15 D off before it, .05 behind
+// Each takes as long as a fill. The first step gives most of the gain: caps of 90° are .15 D off before it, .05 behind
 // it, .04 behind the second.
 constexpr int descent_steps = 2;
 
@@ -98,7 +98,7 @@ std::optional<Points> least_bent_fill(const Problem& given, const std::optional<
 
 // Weight of edge lengths beside ⟨n, e⟩²; small, so that a pipe of many radii does not sag.
 constexpr double length_weight = 1e-4;
-// Of the screening beside the valence: the field forgets its boundary over about 1/(2 √0.05) = 2.2 edges. Without it,
+// The screening relative to the valence: the field forgets its boundary over about 1/(2 √0.05) = 2.2 edges. Without it,
 // what is left of the normals of a long pipe in its middle would be the mean of its rims' normals, which irregular rims
 // have.
 constexpr double screening = 0.05;
@@ -195,7 +195,7 @@ std::optional<Points> over_boundary(const Problem& problem, const Progress& prog
     return everywhere ? std::optional<Points>(before + *everywhere) : std::nullopt;
 }
 
-// Of ∫ |Δx|² at the shape itself, between the tangent planes wanted.
+// Gradient of ∫ |Δx|² at the shape itself, between the tangent planes wanted.
 Points pull_of(const Problem& problem, const Points& points, const Stiffness& stiffness) {
     const Patch& patch = problem.patch;
     Points bending = -stiffness.apply(patch, points, patch.vertex_count());

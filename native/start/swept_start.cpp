@@ -60,7 +60,7 @@ void write(const TubeSection& section, double s, int first, int free_count, Cyli
         map.col(free_count + section.vertices()[k]) << s, section.share(k) + (k < begin ? 1.0 : 0.0);
 }
 
-// Of the free vertices' equations, what the jumps add.
+// What the jumps add to the free vertices' equations.
 VectorX jump_flux(const Patch& patch, const Stiffness& stiffness, const VectorX& jumps) {
     VectorX flux = VectorX::Zero(patch.vertex_count());
     for (int e = 0; e < patch.edge_count(); ++e) {

@@ -19,7 +19,7 @@ using Residual = Eigen::Matrix<double, 10, 1>;  // of the cubic's size, then of 
 using ByPair = Eigen::Matrix<double, 10, 6>;    // derivatives of the residual by what each pair has
 using Jacobian = Eigen::Matrix<double, 10, 18>;
 
-// Of the cubic's size in the fit, for stencils at the border with too few pairs (six pairs weigh about 6).
+// Penalty on the cubic's size in the fit, for stencils at the border with too few pairs (six pairs weigh about 6).
 constexpr double ridge = 1e-4;
 constexpr double flattest = 1e-6;  // sine of a triangle's angle, share of a pair's length within the plane
 

@@ -8,7 +8,7 @@ namespace fairing {
 using ElementVector = Eigen::Matrix<double, 18, 1>;  // motions (sheet.h) of the six vertices, one after the other
 using ElementMatrix = Eigen::Matrix<double, 18, 18>;
 
-// Of a triangle, or of a whole surface: ∫ ⟨(dκ/ds)²⟩ dA, in units of length⁻², and ∫ dA. κ is the normal curvature
+// Sums over a triangle or a whole surface: ∫ ⟨(dκ/ds)²⟩ dA, in units of length⁻², and ∫ dA. κ is the normal curvature
 // along a direction, s the arc length there, ⟨⟩ the mean over all directions.
 struct ElementSums {
     double variation = 0.0;

@@ -9,7 +9,7 @@ namespace fairing {
 // Damping that takes the place of none where no step is found without, and of a rough initial surface.
 inline constexpr double raised_damping = 1e-3;
 
-// Of both measures in units of D: an elbow has some ten of it, what looks like a cylinder a thousandth.
+// Unit of both measures, in D: an elbow has some ten of it, what looks like a cylinder a thousandth.
 inline constexpr double merit_unit = 1.0;
 
 struct NewtonLimits {

@@ -47,14 +47,14 @@ public:
     Unknowns(const Freedom& freedom, const std::vector<Stencil>& stencils);
 
     [[nodiscard]] int count() const { return count_; }
-    // Of motion k (0 height, 1 and 2 turns) of a vertex; `none` where it is not sought.
+    // Unknown of motion k (0 height, 1 and 2 turns) of a vertex; `none` where it is not sought.
     [[nodiscard]] int of(int vertex, int k) const { return index_[3 * vertex + k]; }
 
     // The lower triangle, all values zero.
     [[nodiscard]] SparseMatrix pattern() const;
     // Where the lower entry of two unknowns stands among the matrix's values; `block` from block_of.
     [[nodiscard]] int slot(int row, int column, int block) const;
-    // Of two vertices of one stencil.
+    // Place of the block of two vertices of one stencil.
     [[nodiscard]] int block_of(int vertex, int other) const;
 
 private:

@@ -15,7 +15,7 @@ enum class Moving { points_and_normals, normals };
 // on larger surfaces and easier to descend from far away: there V A would shrink the area of a rough initial surface.
 enum class Measure { scale_free, plain };
 
-// What a sheet adds up to.
+// Sums over one sheet.
 struct SheetMerit {
     ElementSums sums;
     double merit = 0.0;
@@ -65,7 +65,7 @@ private:
     void add_elements(const Sheet& sheet, const ElementSums& factors, QuadraticModel& model) const;
     void add(const ElementTerms& terms, int element, QuadraticModel& model) const;
     [[nodiscard]] ElementSums factors(const SheetMerit& present) const;
-    // Of all elements, `factor` times.
+    // Sum over all elements, `factor` times.
     void add_up(const std::vector<ElementVector>& parts, double factor, VectorX& result) const;
     // visit(unknown, derivative, second derivative) of the boundary's normals.
     template <typename Visit>

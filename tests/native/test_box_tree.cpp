@@ -38,7 +38,7 @@ using Pairs = std::set<std::pair<int, int>>;
 
 }  // namespace
 
-TEST_CASE("each pair of boxes that overlap is visited once; those of two settled triangles may be left out") {
+TEST_CASE("each pair of boxes that overlap is visited once; those of two known triangles may be left out") {
     constexpr int count = 300;
     test::Mesh mesh = crumpled(count);
     // The first half lies to the left, so that nodes of the tree are settled, and reaches into the second.
