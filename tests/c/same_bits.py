@@ -65,8 +65,8 @@ def main() -> None:
     border = np.unique(np.concatenate(fairing.boundary_loops(triangles[chosen])))
     held = border[np.isin(border, rim)]
     beyond = triangles[~chosen]
-    slopes = fairing.boundary_normals(points, triangles[chosen], held, outside=beyond).normals
-    patch = fairing.Boundary(held, slopes, outside=beyond)
+    slopes = fairing.boundary_normals(points, triangles[chosen], border, outside=beyond).normals  # as the library asks
+    patch = fairing.Boundary(held, slopes[np.isin(border, rim)], outside=beyond)
     again = fairing.remesh(points, triangles[chosen], patch)
     assert len(made) > 20
     assert np.array_equal(made, again.vertices)
