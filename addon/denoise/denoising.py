@@ -12,7 +12,7 @@ from ..arrays.around import MovedKey
 from ..arrays.region import MeshArrays, free_vertices, make_patch, to_local
 from ..arrays.types import Floats, Ints
 from ..fair.engine import Progress
-from ..mirror.reflected import Whole, whole_of
+from ..mirror.reflected import whole_of
 from ..mirror.symmetry import mirrored
 from ..options.other_options import DenoiseOptions
 from ..verdict.verdict import GOOD, LOOK, Verdict
@@ -38,7 +38,9 @@ def denoise_arrays(
 
     Raises what `fairing.denoise` does, with mesh indices, and ValueError where the matrix has no inverse.
     """
-    whole = whole_of(mesh) or Whole.of(mesh)
+    whole = whole_of(mesh)
+    if whole is None:
+        return _denoised(mesh, matrix, options, progress)
     found = _denoised(whole.mesh, matrix, options, progress)
     vertices, positions = whole.moved(found.vertices, found.positions)
     return replace(found, vertices=vertices, positions=positions)
@@ -59,7 +61,8 @@ def _denoised(mesh: MeshArrays, matrix: Floats, options: DenoiseOptions, progres
         edges=sharp, progress=progress,
     )  # fmt: skip
     moved = np.flatnonzero(free & (smooth != world.positions).any(axis=1))
-    places, warnings = to_local(smooth, matrix), tuple[str, ...]()
+    places, warnings = mesh.positions.copy(), tuple[str, ...]()
+    places[moved] = to_local(smooth[moved], matrix)
     if mesh.mirror_x:
         patch = make_patch(mesh)
         places[patch.vertices], warnings = mirrored(mesh, patch, places[patch.vertices])

@@ -1,7 +1,6 @@
 """The operator that takes the roughness from selected faces: at once where that is quick, else in the background."""
 
 from dataclasses import dataclass
-from itertools import chain
 
 import bpy
 
@@ -34,7 +33,7 @@ class Asked(AskedInEditMode):
         count = sum(len(outcome.vertices) for outcome in outcomes)
         verdict = worst(outcome.verdict for outcome in outcomes)
         store_word(context.window_manager.fairing_report, self.names, count, verdict)
-        warnings = chain.from_iterable(outcome.warnings for outcome in outcomes)
+        warnings = [warning for outcome in outcomes for warning in outcome.warnings]
         return done(say, warnings, said("moved_by", n=count, largest=max(outcome.largest for outcome in outcomes)))
 
 

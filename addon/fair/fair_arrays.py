@@ -81,8 +81,7 @@ def fair_all_keys(
 def _with_key(found: Fairing, name: str, own: Fairing, options: FairOptions) -> Fairing:
     verdict = own.verdict
     if verdict.grade == UNUSABLE and not options.allow_folds:
-        text = said("key_follows", name=name, reason=verdict.reason)
-        return replace(found, warnings=(*found.warnings, text))
+        return replace(found, warnings=(*found.warnings, said("key_follows", name=name, reason=verdict.reason)))
     if GRADES.index(verdict.grade) > GRADES.index(found.verdict.grade):
         found = replace(found, verdict=replace(verdict, reason=said("of_key", name=name, reason=verdict.reason)))
     return replace(found, keys=(*found.keys, MovedKey(name, own.vertices, own.positions)))

@@ -131,9 +131,8 @@ def _positions(
     """Return where the vertices `moving` of the problem go (k, 3), in the mesh's own coordinates, and warnings."""
     problem = solved.problem
     local = to_local(solved.result.vertices, matrix)
-    fair, warnings = mirrored(
-        mesh, problem.patch, local, None if problem.weights is None else (problem.vertices, moving)
-    )
+    band = None if problem.weights is None else (problem.vertices, moving)
+    fair, warnings = mirrored(mesh, problem.patch, local, band)
     fair = fair[moving]
     if factor == 1.0:
         return fair, warnings
