@@ -187,7 +187,7 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
 def _endings(outcomes: list[Fairing]) -> str:
     endings = dict.fromkeys(outcome.result.termination for outcome in outcomes)
     ended = joined([said(f"ended_{ending}") for ending in endings])
-    # Then the vertices lie on a surface that was computed on the engine's own mesh.
+    # Then the vertices lie on a surface that was computed on the proxy mesh.
     by_proxy = any(outcome.result.converged and not outcome.result.polished for outcome in outcomes)
     return said("on_proxy", ended=ended) if by_proxy else ended
 

@@ -261,7 +261,7 @@ std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem,
     return solve_stand_in(problem, replaced_->kind, progress);
 }
 
-// Needles across a curvature count as turned over in the reference already.
+// Slivers across a curvature count as turned over in the reference already.
 std::size_t ComponentSolver::tolerated_folds() const {
     return reads_reference(fairness()) ? flipped_by_solution(patch_, reference_).size() : 0;
 }

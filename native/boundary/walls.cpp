@@ -23,9 +23,9 @@ struct Means {
     Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise; between loops the path to the next one
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double rows_bend = 0.0;                           // its curvature times distance to the loop's middle
-    Eigen::Vector2d cut = Eigen::Vector2d::Zero();    // likewise, of an arc over half of that distance, times
+    Eigen::Vector2d cut = Eigen::Vector2d::Zero();    // likewise, of an arc over half of that distance
     double cut_bend = 0.0;                            // likewise, its curvature
-    double cut_weight = 0.0;                          // the arc's squared length: short ones are noisy
+    double cut_length = 0.0;                          // of the edges that have one
     Vector3 rulings = Vector3::Zero();                // of edges without one: where their only row goes
     double length = 0.0;
     double least = fading_bend;  // degrees of a wall
@@ -61,7 +61,7 @@ bool is_wall(const Means& part) {
     const double patch = off_cut(part, part.patch);
     const double dip = std::sin(film * degree);
     const double row = part.rulings.norm() < parallel * part.length ? dip : 0.0;
-    const double bend = part.cut_weight > 0.0 ? part.cut_bend / part.cut_weight : row;
+    const double bend = part.cut_length > 0.0 ? part.cut_bend / part.cut_length : row;
     const bool is_unexplained = bend * dip < explained * dip * dip;
     const bool bends_away = std::min(film, patch) > part.least;
     const bool bends_back = std::max(film, patch) < -part.least;
@@ -281,11 +281,10 @@ private:
         };
         const double length = between(edge).norm();
         if (cut.near > 1) {
-            const double weight = length * cut.ends[cut.near - 1].squaredNorm();
             const auto [bend, onward] = arc(cut.near / 2 - 1, cut.near - 1);
-            means.cut += weight * onward;
-            means.cut_bend += weight * reach * bend;
-            means.cut_weight += weight;
+            means.cut += length * onward;
+            means.cut_bend += length * reach * bend;
+            means.cut_length += length;
         } else if (cut.near == 1) {
             means.rulings += length * direction(cut.ends[0]);
         }

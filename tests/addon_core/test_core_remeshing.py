@@ -92,7 +92,7 @@ def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:
 
 @pytest.mark.parametrize("spacing", [1.0, 4.0])
 def test_warnings_name_the_mesh_that_was_solved(monkeypatch: pytest.MonkeyPatch, spacing: float) -> None:
-    """The new one, also where its surface was found on the engine's own mesh; the old one, if it was cut from it."""
+    """The new one, also where its surface was found on a proxy mesh; the old one, if it was cut from it."""
     mesh = spoilt_sphere()
     solved = remeshing._solved
 

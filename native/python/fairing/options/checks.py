@@ -61,7 +61,7 @@ def checked(value: Any, vertices: Any) -> npt.NDArray[np.str_]:
 
 
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
-OUTLINES = ("given", "mended")
+BOUNDARIES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
 
 
