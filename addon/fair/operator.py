@@ -12,7 +12,7 @@ from .finish import Asked
 
 class MESH_OT_fair_region(FairProperties, InEditMode, bpy.types.Operator):
     """Replace the selected faces by the fair surface that continues their surroundings.
-    Vertices stay the same vertices; nothing outside the selection moves"""
+    No vertex is added or lost; nothing outside the selection moves"""
 
     bl_idname = "mesh.fair_region"
     bl_label = "Fair Region"

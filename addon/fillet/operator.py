@@ -107,7 +107,7 @@ class Asked(AskedInEditMode):
 
 
 class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
-    """Round the selected edges, or the hard edges of the selected faces, by a fair surface within a width"""
+    """Round the selected edges, or the hard edges of the selected faces, with a fair surface"""
 
     bl_idname = "mesh.fair_fillet"
     bl_label = "Fair Fillet"

@@ -48,7 +48,7 @@ Normalisation checked_unit(const Patch& patch, const Points& fixed_points) {
     }
     if (!(unit.diameter > 0.0)) {
         throw MeshError({Code::no_boundary,
-                         "a component is held in a single point: fix more of its vertices",
+                         "a component is held in one point only: put more in `fixed`",
                          Indices(fixed.begin(), fixed.end()),
                          ElementKind::vertex,
                          {{"points", 1}}});
