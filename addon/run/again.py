@@ -81,5 +81,5 @@ class MESH_OT_fair_again(bpy.types.Operator):
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
         finally:
-            last_run.remedy_to_try()  # a run that did not begin has not taken it
+            last_run.take_remedy()  # cleared here, too, if no run has taken it
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

@@ -1,4 +1,4 @@
-"""What the operators of edit mode share."""
+"""Base class of the operators of edit mode."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .redo import Redone
 
 
 class InEditMode(Redone):
-    """An operator on the selection of all objects in edit mode, but for `_read`."""
+    """Base of operators on the selection in edit mode; they add `_read`."""
 
-    needs = SELECT_FACES  # what is to be selected where edit mode is missing
+    needs = SELECT_FACES  # the poll message outside edit mode
     layout: Any
 
     @classmethod

@@ -26,7 +26,7 @@ class Owner(Protocol):
     unwanted: bool
 
     def end(self) -> None:
-        """Have them no more."""
+        """Give the meshes up."""
 
 
 under_way: list[Owner] = []
@@ -40,7 +40,7 @@ def is_free() -> bool:
 
 @contextmanager
 def holding() -> Iterator[None]:
-    """Have them as long as one step takes."""
+    """Own the meshes during a `with` block."""
     _holding.append(True)
     try:
         yield
@@ -94,7 +94,7 @@ class Run(Generic[Result]):
 
     @property
     def stage(self) -> str:
-        """What the work is at."""
+        """The current stage of the work."""
         return self._stage
 
     @property

@@ -35,7 +35,7 @@ struct ComponentData {
     const std::vector<char>& faired;  // border vertices that become fair
 };
 
-// Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.
+// Input numbers of a patch's free vertices, and of its fixed ones.
 std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);
 

@@ -155,17 +155,17 @@ Equation ComponentSolver::equation_of(const Problem& problem, const ComponentDat
 // λ stays as long as what it is read off does, which one call does not change.
 void ComponentSolver::read_reference(const View<Points>& input, const Normalisation& unit) {
     const bool reads = reads_reference(options_.inner_fairness);
-    if (read_ && (!reads || !options_.repeated)) return;
+    if (reference_read_ && (!reads || !options_.repeated)) return;
     Points reference = reads ? gather(input, patch_.to_input) : Points();
-    if (read_ && reference == given_reference_) return;
-    read_ = false;
+    if (reference_read_ && reference == given_reference_) return;
+    reference_read_ = false;
     if (reads) reference_ = unit.to_unit(reference);
     reference_warnings_.clear();
     usable_ = !reads || is_usable_reference(patch_, reference_, reference_warnings_);
     lambda_ = make_lambda(patch_, reference_, fairness(), options_);
     warm_.new_weights();
     if (reads && options_.repeated) given_reference_ = std::move(reference);
-    read_ = true;
+    reference_read_ = true;
 }
 
 ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data,

@@ -15,8 +15,8 @@ enum class Method { global, paper };
 // was seen to have none, what was taken in its place.
 enum class Start { boundary, given, least_variation, loft, smoothed };
 
-// What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
-// of the reference, whatever `inner_fairness` says.
+// The detail of the reference that is put back on the fair surface (detail/skin.h). With it vertices sit conformally to
+// the base of the reference, whatever `inner_fairness` says.
 struct DetailOptions {
     double share = 0.0;  // 0 … 1; 0: nothing
     double size = 0.0;   // what is shorter than this, in units of D, counts as detail; 0: detail_wavelength
@@ -61,7 +61,7 @@ struct FairResult {
     Diagnostics warnings;
 };
 
-// Is shown the first surface (method/nested): all of the mesh's vertices, before better ones are sought. Called
+// Receives all vertices with the first surface (method/nested) before a better one is sought. Called
 // once, by the calling thread.
 using Preview = std::function<void(const Points& vertices)>;
 

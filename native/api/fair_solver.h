@@ -33,7 +33,7 @@ private:
     std::unique_ptr<PreparedMesh> prepared_;
 };
 
-// What a call makes of the mesh before it solves; repeated calls keep it.
+// The mesh prepared for solving; repeated calls keep it.
 struct PreparedMesh {
     CheckedMesh mesh;
     bool finite;                           // all coordinates; where one is not, the topology depends on which

@@ -11,7 +11,7 @@ namespace fairing {
 // that noise goes and a shape of many vertices stays. Runs shorter than 6 stay as they are.
 void fair_border(const Indices& loop, const std::vector<char>& marked, Points& points);
 
-// Beyond its first vertex.
+// How a chain of vertices goes on beyond its first one.
 struct ChainEnd {
     Vector3 direction;  // unit, out of the chain
     Vector3 curvature;  // of the circle, to its centre, length⁻¹; zero where two vertices are known

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double least_noise = 0.02;  // edges
 constexpr double farthest = 0.25;     // edges
-constexpr int rings_outside = 2;      // that follow
+constexpr int rings_outside = 2;      // move by part of the distance
 
 // How much of the distance each vertex goes: 1 on the boundary, ⅔ and ⅓ on the rings outside, 0 beyond.
 VectorX shares(const Triangles& triangles, const Indices& boundary, Eigen::Index count) {

@@ -79,7 +79,7 @@ def test_what_is_wrong_with_one_hole_stops_no_other() -> None:
     done = fill(pierced, np.eye(4), [*loops, inner], FillOptions())
     (piece,), reasons = done.pieces, [each.reason for each in done.left]
     assert set(piece.boundary.tolist()) == set(loops[1].tolist())
-    assert "no loop of border edges" in reasons[0]
+    assert "not one closed loop" in reasons[0]
     assert "pass" in reasons[1]
     assert set(done.left_vertices.tolist()) == {*loops[0].tolist(), *inner.tolist()}
     report = make_fill_report([("Ball", done)], FillOptions(), 1.0)

@@ -85,7 +85,7 @@ def test_a_seam_over_a_limb_that_is_gone_is_a_knot() -> None:
         horn = replace(mesh, positions=mesh.positions * (1.0 + height * np.exp(-30.0 * away**2))[:, None])
         verdicts.append(remesh(replace(horn, lines={"seam": seam(horn)})).verdict)
     assert [verdict.grade for verdict in verdicts] == [GOOD, LOOK]
-    assert "squeezed to a knot" in verdicts[1].reason
+    assert "bunch up" in verdicts[1].reason
     assert (away[verdicts[1].spots] < 0.3).all()
     assert remesh(replace(horn, lines={})).verdict.grade == GOOD
 
