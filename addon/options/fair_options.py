@@ -39,8 +39,8 @@ class FairTable(Chosen):
     continuity_group: str = shared.group(
         SURFACE,
         "Continuity Group",
-        "Continuity counts only where the boundary is in this vertex group; elsewhere it is Tangent. Position: with a "
-        "free slope",
+        "Continuity counts only where the boundary is in this vertex group; elsewhere it is Tangent. Position leaves "
+        "the slope free",
         counts=lambda o: o.continuity != "G1",
     )
     boundary_normals: str = option(
@@ -91,8 +91,8 @@ class FairTable(Chosen):
     vertex_group: str = shared.group(
         PARTS,
         "Vertex Group",
-        "Each vertex's weight in this group scales its Factor, also outside the selection where painted without a "
-        "gap. Paint to fade the change out",
+        "Each vertex's weight in this group scales its Factor, also outside the selection as far as paint reaches "
+        "without a gap. Paint to fade the change out",
         counts=lambda o: o.can_fade,
     )
     use_mask: bool = option(

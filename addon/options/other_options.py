@@ -69,11 +69,12 @@ class FilletOptions(Chosen):
     width: float = shared.length(
         SURFACE,
         "Width",
-        "How far the fillet reaches on the larger face of each seam, in world space; 0: a fifth of the shortest face",
+        "How far the fillet reaches on the larger side of each seam, in world space; 0: a fifth of the shortest way to "
+        "the next edge",
         0.0,
         slider=(0.0, 10.0),
     )
-    width_2: float = shared.length(SURFACE, "Width 2", "On the smaller face; 0: same as Width", 0.0, slider=(0.0, 10.0))
+    width_2: float = shared.length(SURFACE, "Width 2", "On the smaller side; 0: same as Width", 0.0, slider=(0.0, 10.0))
     clamp: bool = option(
         SURFACE,
         "Clamp",

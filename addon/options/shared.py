@@ -34,8 +34,8 @@ quads = partial(
     option,
     VERTICES,
     "Quads",
-    "Quads in rows that continue the boundary's loops, with edges as long. Where no rows fit, triangles joined in "
-    "pairs, within each material and face set",
+    "Quads in rows that continue the boundary's loops, with edges of its length. Where no rows fit, triangles joined "
+    "in pairs, within each material and face set",
     False,
 )
 allow_folds = partial(

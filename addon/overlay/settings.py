@@ -50,7 +50,7 @@ class FairOverlay(bpy.types.PropertyGroup):
     )
     automatic: BoolProperty(
         name="Automatic Range",
-        description="Full colour at the largest value shown",
+        description="Full colour at the largest value, peaks of curvature left out",
         default=True,
         update=look_changed,
     )

@@ -21,7 +21,7 @@ from . import job, last_run
 # Each button, what helps most first: what it changes in the options, its name and its tooltip.
 _REMEDIES: dict[str, tuple[dict[str, Any], str, str]] = {
     ALL_KEYS: ({"all_keys": True}, "All Keys", "Fair every shape key as well, each from its own surroundings"),
-    ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Add the faces that the selection left out inside, and fair again"),
+    ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Add gaps of up to four faces that the lasso missed, and fair again"),
     AS_SELECTED: (
         {"smooth_boundary": False},
         "Boundary As Selected",

@@ -25,7 +25,7 @@ class InEditMode(Redone):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Cheap, as it is asked at every redraw; what takes a look at the mesh is answered by a report."""
+        """Cheap, as it is asked at every redraw; what needs a look at the mesh is reported by the run."""
         return require_edit_mode(cls, context, cls.needs) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -78,7 +78,7 @@ class Following:
         bpy.context.window_manager.fairing_report.reason = reason
 
     def is_last(self, context: bpy.types.Context) -> bool:
-        """Return whether Blender would repeat this operator; it can only with an area."""
+        """Return whether Blender would repeat this operator, for which it needs an area."""
         kept = context.window_manager.operators
         is_same = len(kept) > 0 and kept[-1].as_pointer() == self.operator
         return is_same and context.area is not None and bool(bpy.ops.ed.undo_redo.poll())
@@ -110,7 +110,7 @@ class Redone(Watched):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Return when done, but for a change in the redo panel.
 
-        Where that is not usable, Blender goes back to the result before it.
+        Where a change gives nothing usable, Blender goes back to the result before it.
         """
         if _Repeat.now is not None:
             return _Repeat.now.complete(context, self.report)
@@ -245,7 +245,9 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
         if current and following.is_last(context):
             _Repeat.now = following
             try:
-                bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+                bpy.ops.ed.undo_redo(
+                    "EXEC_DEFAULT", True
+                )  # True: an undo step, by which the next change goes back
             finally:
                 _Repeat.now = None
         elif current and change.swap(context):  # something else was selected meanwhile

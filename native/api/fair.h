@@ -39,8 +39,8 @@ struct FairOptions {
 };
 
 struct FairResult {
-    Equation equation = Equation::harmonic;        // that holds: least_variation where any component took it instead
-    Provenance provenance = Provenance::equation;  // the last of all components' in the order of the list
+    Equation equation = Equation::harmonic;        // that holds: least_variation where any component took a stand-in
+    Provenance provenance = Provenance::equation;  // of all components' the last in the order of the enumeration
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;

@@ -9,8 +9,8 @@ namespace fairing {
 
 struct PreparedMesh;
 
-// One call at a time. The constructor throws what check_mesh (connectivity) and prepare throw, where the numbering has
-// no great gaps; otherwise the first solve does.
+// One call at a time. The constructor throws what check_mesh (connectivity) and prepare throw; where vertex numbers
+// have great gaps, the first solve does.
 class FairSolver {
 public:
     FairSolver(Triangles triangles, std::optional<Indices> fixed, HeldInside held, FairOptions options);

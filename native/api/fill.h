@@ -34,7 +34,7 @@ struct FilledHole {
     std::vector<Indices> loops;                   // vertices of the mesh, the surface on the left
     std::optional<Diagnostic> left_because = {};  // why it stays open; then all that follows is empty
     Points vertices = {};                         // the new ones, those on curves first,
-    Triangles triangles = {};                     // numbered behind all vertices of the mesh
+    Triangles triangles = {};                     // numbered after all vertices of the mesh
     FairResult report = {};  // `vertices` and `base` are empty; elements of warnings are numbered likewise
     bool is_cut = false;     // from another mesh's surface
     bool along_curves = false;

@@ -13,7 +13,8 @@ struct FilletInput {
     std::vector<VertexPair> walls;  // edges that the fillet does not cross
     SeamWidths widths;  // of each vertex, positive; only those on seams are read. Left: the side with the larger part
                         // (fillet/seam_sides)
-    bool through = false;  // seams end in the faces there, cut through them (fillet/end_cuts), instead of fading out
+    bool through =
+        false;  // seams that end on an edge of a plane face go on through it (fillet/end_cuts), instead of fading out
     double spacing = 1.0;  // of new edges where the fillet is widest; elsewhere in proportion to its width
 };
 

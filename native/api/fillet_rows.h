@@ -25,7 +25,7 @@ struct WantedRows {
 struct FilletRows {
     FilletCut cut;                          // without points of the cut line that no quad uses
     std::vector<std::array<int, 4>> quads;  // of the surface's vertices, and of new ones, which follow:
-    Triangles triangles;                    // beside them, and the surface's that stay
+    Triangles triangles;                    // beside the quads, and those of the surface that stay
     Points places;                          // the new ones on the surface,
     Indices solved;                         // the triangles of the surface that they lie on,
     Points on_solved;                       // and their weights there;

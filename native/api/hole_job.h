@@ -98,7 +98,7 @@ struct Rows {
 std::optional<Rows> rows_over(const HolePatch& solved, int old_count, const Progress& progress);
 
 // A pattern of quads in rows over a solved patch, and the equation on it where it is fine enough; the same patch, with
-// a warning, where no pattern fits. `solve`: on such a patch from where it is; `loops`: how many it joins.
+// a warning, where no pattern fits. `solve`: solves on such a patch, from its positions; `loops`: how many it joins.
 using SolveAgain = std::function<FairResult(const HolePatch&)>;
 SolvedHole in_rows(SolvedHole solved, int loops, int old_count, const SolveAgain& solve, const Progress& progress);
 

@@ -24,7 +24,7 @@ struct NamedLoops {
     std::vector<VectorX> curvatures = {};
     Points vertex_normals = {};
     VectorX vertex_curvatures = {};
-    int longest = 0;  // without names: edges of a loop that is not too long; 0: any
+    int longest = 0;  // without names: the most edges that a loop may have; 0: any
     double longest_length = 0.0;
 
     [[nodiscard]] bool are_parted() const { return normals.empty() && curvatures.empty(); }

@@ -82,7 +82,7 @@ Indices hold_folds(const Points& points, const Triangles& triangles, Points& mov
 
 constexpr double least_error = 0.15;    // radians
 constexpr double least_height = 0.3;    // edges
-constexpr double times_median = 4.0;    // what is usual along this boundary
+constexpr double times_median = 4.0;    // the median is what is usual here
 constexpr double largest_share = 0.15;  // of the boundary
 
 // For places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.

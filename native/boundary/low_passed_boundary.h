@@ -23,7 +23,7 @@ double boundary_variation(const Patch& patch, const BoundaryData& boundary);
 BoundaryData low_passed_boundary(const Patch& patch, const BoundaryData& boundary, double wave);
 
 // Puts every vertex that is not `held` at the mean of its neighbours: discs over flat loops are flat.
-// Vertices that hang together with no held one stay.
+// Vertices connected to no held one stay.
 Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held);
 
 // Surroundings that are broken along creases.

@@ -48,7 +48,7 @@ Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Ei
 class SidedFits {
 public:
     // For the vertices `at` on the surface that `triangles` form. Coordinates: as for SurfaceFits. Edges in `marked`
-    // are hard. `elsewhere`, ascending: border edges that are not asked which side counts. Keeps a reference to the
+    // are hard. `elsewhere`, ascending: border edges that have no say in which side counts. Keeps a reference to the
     // points.
     SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked,
               const VertexPairs& elsewhere = {});

@@ -39,8 +39,8 @@ constexpr double explained = 0.25;    // least share of the film's bend that cur
 constexpr double noise_margin = 3.0;  // as of hard edges: bends to the other side come from noise
 constexpr double parallel = 0.996;    // cosine: 5 degrees, the tilt of a draft; more is a ball's row
 constexpr double rounder = 1.25;      // curvature times distance to the middle: balls have at most 1
-constexpr double far_rounder = 3.0;   // times the dip
-// Share of a loop: real meshes have single edges like walls everywhere.
+constexpr double far_rounder = 3.0;   // times the sine of off_rows
+// Share of a loop: real meshes have single wall-like edges everywhere.
 constexpr double shortest_row = 0.125;
 
 // Degrees between a direction and the continued cross-section outside.

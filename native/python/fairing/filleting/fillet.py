@@ -299,7 +299,7 @@ def _outside(task: Task, made: Made) -> IntArray:
 
 def _too_wide(what: str, where: IntArray, width: float, widest: float) -> MeshError:
     """widest: that fits there, or not less than what is wanted."""
-    text = f"width: {what}; a smaller width is needed, or one of its seams less"
+    text = f"width: {what}; lower it, or leave out one of the seams"
     figures = {"width": width, "vertices": float(len(where))}
     if widest < width:
         figures["widest"] = widest

@@ -78,7 +78,7 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
     if len(ends):
         raise ValueError(
             f"outline: 'mended' would round creases outside; {len(ends)} of `creases` lie on the boundary, "
-            f"vertex {int(ends[0])} among them: pass outline 'given', or leave `creases` out"
+            f"vertex {int(ends[0])} among them: pass outline='given', or leave `creases` out"
         )
 
 
