@@ -63,7 +63,7 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert states(both)["Kink at the boundary"] == MISSED
     alone = report(replace(sphere, join=replace(seen, kinks=np.empty(0, dtype=np.int64))))
     assert (values(alone)["Kink at the boundary"], states(alone)["Kink at the boundary"]) == ("≤ 30°, few", MET)
-    assert values(both)["Equation solved"] == "no further progress, yes"
+    assert values(both)["Surface found"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
     assert both.verdict.spots.tolist() == [3, 4]
 
