@@ -245,9 +245,7 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
         if current and following.is_last(context):
             _Repeat.now = following
             try:
-                bpy.ops.ed.undo_redo(
-                    "EXEC_DEFAULT", True
-                )  # True: an undo step, by which the next change goes back
+                bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: an undo step, by which the next change goes back
             finally:
                 _Repeat.now = None
         elif current and change.swap(context):  # something else was selected meanwhile
