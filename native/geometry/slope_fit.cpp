@@ -10,9 +10,9 @@ namespace fairing {
 
 namespace {
 
-constexpr double width_of_weights = 0.6;   // over the distance of the farthest point: it counts for 6 % in each row
-constexpr double least_pivot = 1e-4;       // of the largest, where the columns are about of one size
-constexpr int most_rounds = 10;            // a bound: rounds end when they change nothing
+constexpr double width_of_weights = 0.6;     // over the distance of the farthest point: it counts for 6 % in each row
+constexpr double least_pivot = 1e-4;         // of the largest, where the columns are about of one size
+constexpr int most_rounds = 10;              // a bound: rounds end when they change nothing
 constexpr double converged = 1e-12;          // radians, rounding: the normal has converged
 constexpr double converged_in_noise = 1e-3;  // standard errors
 

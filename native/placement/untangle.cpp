@@ -168,7 +168,7 @@ private:
 
     // Until nothing has been folded for some sweeps, or as much as a window of sweeps before.
     void spread(const Region& where) {
-        constexpr int quiet_sweeps = 3;  // without a fold
+        constexpr int quiet_sweeps = 3;     // without a fold
         constexpr std::size_t window = 15;  // sweeps
         std::vector<double> folded{count_folded(where)};
         int quiet = 0;

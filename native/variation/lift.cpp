@@ -35,7 +35,7 @@ Motion fitted_motion(const SurfaceSample& sample, const Sheet& sheet, const Sten
     return matrix.ldlt().solve(rhs);
 }
 
-constexpr double share = 0.8;     // of the boundary's spacing
+constexpr double share = 0.8;       // of the boundary's spacing
 constexpr double converged = 1e-3;  // units of D
 
 // Logarithms of the mean lengths of the two border edges at each fixed vertex, zero elsewhere.

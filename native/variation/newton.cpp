@@ -250,7 +250,7 @@ NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonL
 }
 
 Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress) {
-    constexpr double converged = 1e-5;                            // radians; the next step is of its square
+    constexpr double converged = 1e-5;                          // radians; the next step is of its square
     const int most_steps = measure == Measure::plain ? 3 : 20;  // a start needs no more
     Sheet sheet{points, max_normals(problem.patch, points, problem.fixed_normals)};
     const VariationEnergy energy(problem, Moving::normals, measure);
