@@ -35,7 +35,7 @@ class FillOptions(Chosen):
     quads: bool = shared.quads()
     longest: int = option(
         HOLES,
-        "Max Edges",
+        "Most Edges",
         "Borders with more edges than that stay open; 0: any number",
         0,
         bounds=shared.ANY_COUNT,
@@ -69,16 +69,18 @@ class FilletOptions(Chosen):
     width: float = shared.length(
         SURFACE,
         "Width",
-        "How far the fillet reaches on the larger side of each seam, in world space; 0: a fifth of the shortest way to "
-        "the next edge",
+        "How far the fillet reaches along the surface, in world space, on the larger side of each seam; 0: a fifth of "
+        "the shortest adjacent side",
         0.0,
         slider=(0.0, 10.0),
     )
-    width_2: float = shared.length(SURFACE, "Width 2", "On the smaller side; 0: same as Width", 0.0, slider=(0.0, 10.0))
+    width_2: float = shared.length(
+        SURFACE, "Width 2", "The same on the smaller side; 0: as wide", 0.0, slider=(0.0, 10.0)
+    )
     clamp: bool = option(
         SURFACE,
         "Clamp",
-        "Narrows the fillet where there is no room, and says where. Otherwise a too large width is refused",
+        "No wider than each edge has room for, and a message says where. Otherwise such a width is refused",
         True,
     )
     profile: float = option(
@@ -93,8 +95,8 @@ class FilletOptions(Chosen):
     spacing: float = shared.length(
         VERTICES,
         "Edge Length",
-        "Length of new edges (world space), less where the fillet narrows. With Quads: only across the seam; "
-        "0: a quarter of Width",
+        "Length of the new edges, in world space, with Quads across the seam; less where the fillet is narrower; "
+        "0: a quarter of its width",
         0.0,
         slider=(0.0, 1.0),
     )
@@ -116,7 +118,7 @@ class DenoiseOptions(Chosen):
     size: float = shared.length(
         SURFACE,
         "Size",
-        "Bumps smaller than this go, larger ones stay (world space); 0: twelve edge lengths",
+        "What is shorter than this goes, what is longer stays, in world space; 0: twelve of the edges around",
         0.0,
         slider=(0.0, 10.0),
     )
@@ -130,7 +132,7 @@ class CurvesOptions(Chosen):
     fill_openings: bool = option(
         SURFACE,
         "Fill Openings",
-        "Closes openings inside a curve, too: a bottle's mouth, the rim of a boat",
+        "What the curves only go around gets a surface, too: a bottle's mouth, the rim of a boat",
         False,
     )
     spacing: float = shared.spacing()

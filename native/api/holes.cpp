@@ -51,10 +51,9 @@ Indices vertices_of(const Hole& hole) {
     return all;
 }
 
-// Rows for all loops of a hole, one after the other.
-Points normals_around(const HoledMesh& mesh, const LocalMesh& local, const Indices& at, bool stops) {
-    const VertexPairs hard = stops ? local.local(mesh.mesh().hard) : VertexPairs{};
-    return surrounding_normals(local.points, local.triangles, local.local(at), hard).normals;
+// For all loops of a hole, one after the other.
+SurroundingFit fit_around(const LocalMesh& local, const Indices& at, const VertexPairs& marked) {
+    return fit_surroundings(local.points, local.triangles, local.local(at), local.local(marked));
 }
 
 void check_known(const Indices& at, const Points& around) {
@@ -135,7 +134,9 @@ public:
         for (BoundaryLoop& loop : hole_.loops) {
             if (!loop.is_bare) loop.shape.angles = turns_by_angles(local, loop);
         }
-        take_normals(at, normals_around(mesh_, local, at, true));
+        const SurroundingFit fit = fit_around(local, at, mesh_.mesh().marked);
+        for (const auto& [a, b] : fit.hard) hole_.hard.push_back({local.to_mesh[a], local.to_mesh[b]});
+        take_normals(at, normals_of(fit).normals);
         if (is_found && is_outer(plain_shape(local, at)))
             return LeftOpen{hole_.loops[0].vertices, outer_borders_left({hole_.loops[0].vertices}), true};
         settle_sides(hole_.loops, bridge);
@@ -178,10 +179,10 @@ private:
         }
     }
 
-    // With normals that hard edges don't stop: how a border turns is a matter of all that is around it.
+    // With normals that marked edges don't stop: how a border turns is a matter of all that is around it.
     [[nodiscard]] LoopShape plain_shape(const LocalMesh& local, const Indices& at) const {
         LoopShape shape = hole_.loops[0].shape;
-        if (!local.local(mesh_.mesh().hard).empty()) shape.normals = normals_around(mesh_, local, at, false);
+        if (!local.local(mesh_.mesh().marked).empty()) shape.normals = normals_of(fit_around(local, at, {})).normals;
         return shape;
     }
 
@@ -260,7 +261,7 @@ std::vector<LoopShape> loop_shapes(const HoledMesh& mesh, const std::vector<Indi
     for (BoundaryLoop& loop : found.holes[0].loops) {
         const LocalMesh local = mesh.around(loop.vertices);
         loop.shape.points = mesh.mesh().vertices(Eigen::all, loop.vertices);
-        loop.shape.normals = normals_around(mesh, local, loop.vertices, true);
+        loop.shape.normals = normals_of(fit_around(local, loop.vertices, mesh.mesh().marked)).normals;
         if (!loop.is_bare) loop.shape.angles = turns_by_angles(local, loop);
         shapes.push_back(std::move(loop.shape));
     }

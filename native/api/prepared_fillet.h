@@ -6,15 +6,14 @@
 
 namespace fairing {
 
-// The input with what would stop the cut removed: zero-length seam edges (their ends are moved apart) and caps at
-// seams.
+// A mesh without what stops a cut at its seams: edges of no length, whose ends go apart, and caps.
 struct PreparedFillet {
     explicit PreparedFillet(const FilletInput& given);
     PreparedFillet(const PreparedFillet&) = delete;
     PreparedFillet& operator=(const PreparedFillet&) = delete;
 
     FilletInput input;
-    Indices plane;  // of each triangle: the given triangle in whose plane it lies
+    Indices plane;  // of each triangle: one given in whose plane it is
     SeamMesh mesh;
     SeamDistance distance;
     SideNormals sides;
@@ -28,11 +27,11 @@ struct GivenPlace {
 };
 GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place);
 
-// The spacing of new edges where the fillet is narrowest.
+// Where the fillet is narrowest.
 double finest_spacing(const FilletInput& input);
-// The lines along which the mesh is cut: where the fillet ends.
+// Where it is cut.
 LevelLine fillet_line(PreparedFillet& made);
-// Fills in all of a cut but its mesh: boundary, spacings, weights.
+// Finds what of a cut is not its mesh.
 void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut);
 
 }  // namespace fairing

@@ -163,7 +163,7 @@ double expected_remesh_count(const MeshInput& input, const WantedLengths& wanted
     return count;
 }
 
-NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& options,
+NewSurface fill_loops(const OpenLoops& input, bool bridge, const std::optional<SolverOptions>& options,
                       const ProgressCallback& callback) {
     const Progress progress(callback);
     const Checkpoints checkpoints(progress);
@@ -179,8 +179,9 @@ NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& 
         const BoundaryData data = gathered(input, chosen);
         const Normalisation unit = normalise(data.points);
         const Points points = unit.to_unit(data.points);
-        const FirstSurface first = first_surface(
-            {points, data.normals, data.loops, places_of(input.taken, data.to_input)}, options, part.range(0.1, 1.0));
+        const OpenBoundary boundary{points, data.normals, data.loops, places_of(input.taken, data.to_input)};
+        const FirstSurface first =
+            options ? first_surface(boundary, *options, part.range(0.1, 1.0)) : flat_surface(boundary);
         const int free_count = first.patch.free_count;
         assembly.add(first.patch.triangles, unit.from_unit(first.solution.points.leftCols(free_count)), data.to_input);
         result.converged = result.converged && end_of(first.solution) == Termination::converged;

@@ -11,7 +11,7 @@ namespace fairing {
 struct NewMesh {
     Points vertices;      // new ones
     Points normals;       // of the surface there, unit
-    Triangles triangles;  // numbers below the count of old vertices are old vertices
+    Triangles triangles;  // numbers below the count of old vertices are those, the others new ones
     Indices triangle;     // of the old mesh, for each new vertex,
     Points weights;       // and its barycentric coordinates there
     Indices old;          // the old vertex that it is, one at a kept edge, or `none`
@@ -43,10 +43,11 @@ struct NewSurface {
     Provenance provenance = Provenance::equation;  // where each comes from; `equation` where they differ
 };
 
-// One surface over all loops, or one over each. The mesh is coarse (some 300 new vertices each), an initial surface for
+// One surface over all loops, or one over each; without options flat ones, that have `converged` unless they should
+// begin as balls. The mesh is coarse (some 300 new vertices each), an initial surface for
 // `remesh` and `fair`. Throws SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined.
 // Preconditions: finite vertices, loops of three vertices or more that don't touch.
-NewSurface fill_loops(const OpenLoops& input, bool bridge, const SolverOptions& options,
+NewSurface fill_loops(const OpenLoops& input, bool bridge, const std::optional<SolverOptions>& options,
                       const ProgressCallback& progress);
 
 // Quads in rows over a surface that is known.

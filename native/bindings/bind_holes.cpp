@@ -42,9 +42,9 @@ struct PythonHoles {
     HoledMesh mesh;
     Holes found;
 
-    PythonHoles(Points points, const Triangles& triangles, const VertexPairs& hard, const Named& named, bool bridge)
+    PythonHoles(Points points, const Triangles& triangles, const VertexPairs& marked, const Named& named, bool bridge)
         : vertices(std::move(points)),
-          mesh(BorderedMesh{vertices, triangles, hard}),
+          mesh(BorderedMesh{vertices, triangles, marked}),
           found(find_holes(mesh, made_of<NamedLoops>(named), bridge)) {}
 };
 
@@ -58,14 +58,14 @@ py::list loops_of(const PythonHoles& of) {
     return result;
 }
 
-// Normals of lone loops, and whether edges may continue through them: not where one face closes the loop, nor where
-// the border passes a vertex several times, since an edge could end at either pass.
+// Normals of lone loops, the hard edges around, and whether these may continue through them: not where one face closes
+// the loop, nor where the border passes a vertex several times, since an edge could end at either pass.
 py::list slopes(const PythonHoles& of, double spacing) {
     py::list result;
     for (const Hole& hole : of.found.holes) {
         const BoundaryLoop& loop = hole.loops[0];
         const bool may = !loop.is_pinched && !takes_no_vertex(loop.shape, spacing);
-        result.append(py::make_tuple(loop.shape.normals, may));
+        result.append(py::make_tuple(loop.shape.normals, hole.hard, may));
     }
     return result;
 }
@@ -131,10 +131,10 @@ void bind_holes(py::module_& module) {
             double spacing) { return expected_count(shapes_of(vertices, triangles, loops), spacing, bridge); });
     py::class_<PythonHoles>(module, "Holes", py::module_local())
         .def(py::init(in_run(
-            [](const Points& vertices, const Triangles& triangles, const VertexPairs& hard, const Named& named,
+            [](const Points& vertices, const Triangles& triangles, const VertexPairs& marked, const Named& named,
                bool bridge, int threads) {
                 const Threads team(threads);
-                return std::make_unique<PythonHoles>(vertices, triangles, hard, named, bridge);
+                return std::make_unique<PythonHoles>(vertices, triangles, marked, named, bridge);
             },
             ForInit{})))
         .def_property_readonly("loops", &loops_of)

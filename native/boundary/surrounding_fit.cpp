@@ -37,7 +37,7 @@ BoundaryEdges border_edges(const Triangles& triangles, const Indices& place) {
     return border;
 }
 
-// Mean lengths of the edges at each vertex; an edge inside counts twice.
+// A two-sided edge counts twice.
 VectorX edge_lengths(const Points& points, const Triangles& triangles, const Indices& vertices) {
     VectorX sum = VectorX::Zero(points.cols());
     VectorX count = VectorX::Zero(points.cols());
@@ -60,7 +60,7 @@ struct Pair {
     int i;
     int j;
     Vector3 disagreement;  // of the normals found at both ends with the predicted turn: n̂_i − n̂_j − g_ij
-    double weight;         // μ σ_i σ_j/(σ_i σ_j + δ_ij²): μ where both fits predict the same turn
+    double weight;         // times σ_i σ_j: μ where both fits predict the same turn
 };
 
 Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
@@ -74,7 +74,7 @@ Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
             strength / (1.0 + variance / (errors[i] * errors[j]))};
 }
 
-// The equations for m, n_i = n̂_i + σ_i m_i: a symmetric M-matrix with entries of moderate size whatever the σ.
+// The equations for m, n_i = n̂_i + σ_i m_i: a symmetric M-matrix of moderate size whatever the σ.
 class FilterSystem {
 public:
     explicit FilterSystem(const SurroundingFit& fit)
@@ -144,6 +144,7 @@ SurroundingFit fit_surroundings(const Points& given, const Triangles& triangles,
     const auto [points, size] = to_unit_size(given, triangles);
     SidedFits fits(points, triangles, vertices, creases);
     SurroundingFit result = blank_fit(points, triangles, vertices, size);
+    result.hard = fits.hard();
     for (std::size_t k = 0; k < vertices.size(); ++k) {
         checkpoint();
         result.fits.push_back(fits.at_vertex(vertices[k]));
@@ -175,9 +176,10 @@ SurroundingNormals surrounding_normals(const Points& points, const Triangles& tr
     return normals_of(fit_surroundings(points, triangles, vertices, creases));
 }
 
-// Those within so many rings of the vertices.
+// Those within so many rings of the vertices: fits reach Neighbourhood::most_rings, and what is usual around a hard
+// edge three more.
 Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Eigen::Index count) {
-    constexpr int rings = Neighbourhood::most_rings + 3;  // fits, and the usual bend around a hard edge
+    constexpr int rings = Neighbourhood::most_rings + 3;  // see above
     std::vector<char> reached(static_cast<std::size_t>(count), 0);
     for (int v : vertices) reached[v] = 1;
     std::vector<Eigen::Index> near;

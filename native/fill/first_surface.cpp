@@ -21,8 +21,9 @@ namespace fairing {
 
 namespace {
 
-constexpr Sizing sizing{0.5, 0.06, 20000};  // units of D
-constexpr double first_count = 400.0;       // vertices of a mesh of equal edges, about, where the boundary is no finer
+constexpr Sizing usual_sizing{0.5, 0.06, 20000};    // units of D
+constexpr Sizing sizing_at_once{0.5, 0.12, 20000};  // likewise, of a mesh that is never solved on
+constexpr double first_count = 400.0;  // vertices of a mesh of equal edges, about, where the boundary is no finer
 
 Patch made_patch(int free_count, Triangles triangles, Eigen::Index vertex_count) {
     PatchMembers members;
@@ -100,7 +101,7 @@ Meshed with_free_vertex(const Triangles& triangles, const Points& boundary) {
 }
 
 // Coarse and flat, no two vertices of the boundary joined across it but at sharp corners.
-Meshed first_mesh(const OpenBoundary& boundary, Equation equation) {
+Meshed first_mesh(const OpenBoundary& boundary, Equation equation, const Sizing& sizing) {
     const Triangles triangles = triangulated(boundary, equation);
     ProxyMesh mesh(made_patch(0, triangles, boundary.points.cols()), boundary.points);
     mesh.adapt(sizing);
@@ -126,26 +127,6 @@ VectorX equal_lengths(const Patch& patch, const Points& points) {
 
 bool has_converged(const FirstSurface& surface) { return end_of(surface.solution) == Termination::converged; }
 
-// Whether the mesh suits its surface: a dome that has grown from a flat mesh, or a tube that has opened, is stretched.
-bool has_equal_edges(const FirstSurface& surface) {
-    constexpr double longest = 3.0;  // of the wanted length; 2.4 on a hemisphere
-    const Points& points = surface.solution.points;
-    const VectorX lengths = equal_lengths(surface.patch, points);
-    return std::all_of(surface.patch.edge_ends.begin(), surface.patch.edge_ends.end(), [&](const auto& ends) {
-        const auto [a, b] = ends;
-        return 2.0 * (points.col(a) - points.col(b)).norm() <= longest * (lengths[a] + lengths[b]);
-    });
-}
-
-// Whether a mesh of some 400 vertices would have many more: what a solve in vain leaves may be as long as it likes.
-bool has_blown_up(const FirstSurface& surface) {
-    constexpr double most_per_fixed = 10.0;  // times as many as there should be
-    const Points& points = surface.solution.points;
-    const double count = expected_count(surface.patch, points, equal_lengths(surface.patch, points));
-    const int fixed_count = surface.patch.vertex_count() - surface.patch.free_count;
-    return !(count < most_per_fixed * (first_count + fixed_count));
-}
-
 // A mesh of some 400 vertices on the surface found, or more where the boundary is fine.
 Meshed with_equal_edges(const OpenBoundary& boundary, const Patch& patch, const Points& points,
                         const SolverOptions& options) {
@@ -163,18 +144,6 @@ std::optional<FirstSurface> near(const OpenBoundary& boundary, Meshed& equal, co
         solve_near(problem_on(boundary, equal.patch, options), {equal.points, true}, progress);
     if (!solution) return std::nullopt;
     return FirstSurface{std::move(equal.patch), std::move(*solution)};
-}
-
-FirstSurface on_equal_edges(const OpenBoundary& boundary, const FirstSurface& last, const SolverOptions& options,
-                            const Progress& progress) {
-    Meshed equal = with_equal_edges(boundary, last.patch, last.solution.points, options);
-    std::optional<FirstSurface> found = near(boundary, equal, options, progress.range(0.0, 0.3));
-    if (found) return std::move(*found);
-    Problem problem = problem_on(boundary, equal.patch, options);
-    // A search that failed once, in 1 to 5 s, fails on another mesh, too.
-    if (!has_converged(last)) problem.options.otherwise = Otherwise::stop;
-    Solution solution = solve(problem, 0.0, progress.range(0.3, 1.0));
-    return {std::move(equal.patch), std::move(solution)};
 }
 
 // Where the surface bulges out so far that it is found from a ball only.
@@ -222,7 +191,7 @@ std::optional<FirstSurface> from_tube(const OpenBoundary& boundary, const Solver
 
 // From a coarse and flat mesh.
 FirstSurface from_flat(const OpenBoundary& boundary, const SolverOptions& options, const Progress& progress) {
-    Meshed flat = first_mesh(boundary, options.equation);
+    Meshed flat = first_mesh(boundary, options.equation, usual_sizing);
     std::optional<FirstSurface> found = from_ball(boundary, flat, options, progress.range(0.0, 0.2));
     if (found) return std::move(*found);
     Solution solution = solve(problem_on(boundary, flat.patch, options), 0.0, progress.range(0.2, 1.0));
@@ -230,19 +199,8 @@ FirstSurface from_flat(const OpenBoundary& boundary, const SolverOptions& option
 }
 
 FirstSurface sought(const OpenBoundary& boundary, const SolverOptions& options, const Progress& progress) {
-    std::optional<FirstSurface> begun = from_tube(boundary, options, progress.range(0.0, 0.1));
-    FirstSurface result = begun ? std::move(*begun) : from_flat(boundary, options, progress.range(0.1, 0.4));
-    for (int round = 0; round < most_rounds; ++round) {
-        const bool converged = result.solution.termination == Termination::converged;
-        if (!converged && (round > 0 || has_blown_up(result))) break;
-        if (converged && result.solution.flaw == Flaw::absent && has_equal_edges(result)) break;
-        if (converged && stands_in(result.solution.provenance)) break;  // solved on a mesh of its own
-        const double begin = 0.4 + 0.15 * round;
-        FirstSurface next = on_equal_edges(boundary, result, options, progress.range(begin, begin + 0.15));
-        if (converged && next.solution.termination != Termination::converged) break;
-        result = std::move(next);
-    }
-    return result;
+    std::optional<FirstSurface> begun = from_tube(boundary, options, progress.range(0.0, 0.2));
+    return begun ? std::move(*begun) : from_flat(boundary, options, progress.range(0.2, 1.0));
 }
 
 // Joined by a loft over the mesh of a tube, or over the last mesh, if there is one.
@@ -258,6 +216,15 @@ FirstSurface with_loft(const OpenBoundary& boundary, const SolverOptions& option
 }
 
 }  // namespace
+
+FirstSurface flat_surface(const OpenBoundary& boundary) {
+    Meshed flat = first_mesh(boundary, Equation::harmonic, sizing_at_once);
+    Solution solution;
+    const bool is_ball = ball_start(flat.patch, flat.points, boundary.normals).has_value();
+    solution.termination = is_ball ? Termination::stalled : Termination::converged;
+    solution.points = std::move(flat.points);
+    return {std::move(flat.patch), std::move(solution)};
+}
 
 FirstSurface first_surface(const OpenBoundary& boundary, const SolverOptions& asked, const Progress& progress) {
     SolverOptions options = asked;  // automatic chooses where the solution is sought

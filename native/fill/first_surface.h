@@ -26,4 +26,7 @@ struct FirstSurface {
 // SolverError, MeshError where no triangulation joins the boundary loops.
 FirstSurface first_surface(const OpenBoundary& boundary, const SolverOptions& options, const Progress& progress);
 
+// A coarse and flat mesh; not converged where a ball is the better beginning.
+FirstSurface flat_surface(const OpenBoundary& boundary);
+
 }  // namespace fairing

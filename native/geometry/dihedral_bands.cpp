@@ -14,26 +14,24 @@ constexpr double plane_angle = 0.1;  // degrees between triangles of one plane, 
 
 using WeightedAngle = DihedralBands::WeightedAngle;
 
-// The weighted quantile at this share. `sorted` isn't empty.
-double quantile(const std::vector<WeightedAngle>& sorted, double share) {
-    double total = 0.0;
-    for (const WeightedAngle& entry : sorted) total += entry.weight;
+// Where so much of the weight is reached. `sorted` isn't empty.
+double quantile(const std::vector<WeightedAngle>& sorted, double weight) {
     double sum = 0.0;
     for (const WeightedAngle& entry : sorted) {
         sum += entry.weight;
-        if (sum >= share * total) return entry.angle;
+        if (sum >= weight) return entry.angle;
     }
     return sorted.back().angle;
 }
 
 // The range between these two quantiles, extended to zero.
-AngleRange middle(double share, std::vector<WeightedAngle>& near) {
+AngleRange middle(double share, const std::vector<WeightedAngle>& sorted) {
     AngleRange range;
-    if (near.empty()) return range;
-    std::sort(near.begin(), near.end(),
-              [](const WeightedAngle& first, const WeightedAngle& second) { return first.angle < second.angle; });
-    range.include(quantile(near, 1.0 - share));
-    range.include(quantile(near, share));
+    double total = 0.0;
+    for (const WeightedAngle& entry : sorted) total += entry.weight;
+    if (!(total > 0.0)) return range;
+    range.include(quantile(sorted, (1.0 - share) * total));
+    range.include(quantile(sorted, share * total));
     return range;
 }
 
@@ -92,6 +90,7 @@ DihedralBands::DihedralBands(const Points& points, const Triangles& triangles)
 void DihedralBands::measure_edges() {
     angles_ = VectorX::Zero(edges_.size());
     lengths_ = VectorX::Zero(edges_.size());
+    directions_.resize(3, edges_.size());
     for_ranges(edges_.size(), fine_grain, [&](int begin, int end) {
         for (int e = begin; e < end; ++e) measure(e);
     });
@@ -100,6 +99,7 @@ void DihedralBands::measure_edges() {
 void DihedralBands::measure(int edge) {
     const auto [a, b] = edges_.ends[edge];
     lengths_[edge] = (points_.col(a) - points_.col(b)).norm();
+    directions_.col(edge) = direction(points_.col(b) - points_.col(a));
     if (edges_.side_count(edge) != 2) return;
     const int first = edges_.side(edge, 0);
     const int side = edges_.side(edge, 1);
@@ -193,13 +193,13 @@ std::vector<DihedralBands::WeightedAngle> DihedralBands::weighted(const Indices&
     const Vector3 along = direction(points_.col(b) - points_.col(a));
     std::vector<WeightedAngle> result;
     result.reserve(edges.size());
-    for (const int e : edges) result.push_back({angles_[e], weight_across(e, along)});
+    for (const int e : edges) result.push_back({angles_[e], weight_across(e, along), e});
+    std::ranges::sort(result, {}, &WeightedAngle::angle);
     return result;
 }
 
 AngleRange DihedralBands::usual(int a, int b, Walk& walk) const {
-    std::vector<WeightedAngle> near = weighted(inner_edges(triangles_near(a, b, walk), walk), a, b);
-    return middle(half, near);
+    return middle(half, weighted(inner_edges(triangles_near(a, b, walk), walk), a, b));
 }
 
 double DihedralBands::mean_height(int edge) const {
@@ -211,8 +211,7 @@ double DihedralBands::mean_height(int edge) const {
 double DihedralBands::area(int triangle) const { return 0.5 * area_vector(points_, triangles_.col(triangle)).norm(); }
 
 double DihedralBands::weight_across(int edge, const Vector3& along) const {
-    const auto [a, b] = edges_.ends[edge];
-    const double cosine = along.dot(direction(points_.col(b) - points_.col(a)));
+    const double cosine = along.dot(directions_.col(edge));
     return lengths_[edge] * cosine * cosine;
 }
 
@@ -250,13 +249,11 @@ bool DihedralBands::is_between_planes(int edge) const {
 AngleRange DihedralBands::usual_across(int edge, double share, const std::vector<char>& between_planes,
                                        Walk& walk) const {
     const auto [a, b] = edges_.ends[edge];
-    const Indices around = inner_edges(triangles_near(a, b, walk), walk);
-    Indices uneven = around;  // without edges between two plane faces: those bend by design, not by noise
-    std::erase_if(uneven, [&](int e) { return between_planes[e] != 0; });
-    std::vector<WeightedAngle> own = weighted(around, a, b);
-    std::vector<WeightedAngle> other = weighted(uneven, a, b);
-    const AngleRange central = middle(half, other);
-    const AngleRange most = middle(share, own);
+    std::vector<WeightedAngle> near = weighted(inner_edges(triangles_near(a, b, walk), walk), a, b);
+    const AngleRange most = middle(share, near);
+    for (WeightedAngle& entry : near)
+        if (between_planes[entry.edge] != 0) entry.weight = 0.0;  // they bend by design, not by noise
+    const AngleRange central = middle(half, near);
     return angles_[edge] > 0.0 ? AngleRange{central.low, most.high} : AngleRange{most.low, central.high};
 }
 

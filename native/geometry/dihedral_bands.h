@@ -34,6 +34,7 @@ public:
     struct WeightedAngle {
         double angle;
         double weight;
+        int edge;
     };
 
     // Precondition: three different indices in each triangle. Keeps references.
@@ -88,7 +89,7 @@ private:
     };
     [[nodiscard]] PlaneFace plane_face(int side) const;
     [[nodiscard]] double weight_across(int edge, const Vector3& along) const;
-    // The range over some edges, weighted as in `usual_across`.
+    // Some edges by their angles, weighted as in `usual_across`.
     [[nodiscard]] std::vector<WeightedAngle> weighted(const Indices& edges, int a, int b) const;
     [[nodiscard]] Vector3 normal_beyond(int side) const;
     [[nodiscard]] Indices inner_edges(const Indices& triangles, Walk& walk) const;  // with two triangles, each once
@@ -100,7 +101,8 @@ private:
     Points normals_;
     VectorX angles_;
     VectorX lengths_;
-    Indices begin_;  // of each vertex in `at_vertex_`
+    Points directions_;  // of the edges, from the smaller number to the larger
+    Indices begin_;      // of each vertex in `at_vertex_`
     Indices at_vertex_;
 };
 

@@ -132,14 +132,14 @@ def refused(call: Callable[[], Any]) -> fairing.MeshError:
 def test_more_than_was_allowed_is_refused_before_it_is_made() -> None:
     vertices, triangles = holes.bowl(48)
     reported: list[str] = []
-    error = refused(
-        lambda: fairing.fill(vertices, triangles, max_vertices=300, progress=lambda _, stage: reported.append(stage))
-    )
+    error = refused(lambda: fairing.fill(vertices, triangles, max_vertices=300))
     assert {*error.elements} == {*range(48)}
     assert error.diagnostic.figures["limit"] == 300
     assert error.diagnostic.figures["count"] == pytest.approx(424, rel=0.1)
+    options: dict[str, Any] = {"spacing": 0.04, "progress": lambda _, stage: reported.append(stage)}
+    refused(lambda: fairing.fill(vertices, triangles, max_vertices=3000, **options))
     assert "mesh" not in reported  # the second look, at the first small surface
-    refused(lambda: fairing.fill(vertices, triangles, spacing=1e-4, progress=lambda _, stage: reported.append(stage)))
+    refused(lambda: fairing.fill(vertices, triangles, **{**options, "spacing": 1e-4}))
     assert len(fairing.fill(vertices, triangles, max_vertices=500).vertices) == pytest.approx(424, rel=0.1)
 
 

@@ -248,14 +248,14 @@ def fill(
     in_rows = arguments.choice("faces", faces, FACES) == "quads"
     most = arguments.whole("max_vertices", max_vertices, 0)
     runs = arguments.choice("edges", edges, run_on.EDGES) == "run_on" and not bridge
-    lines = run_on.Edges.of((points, around), wires, marked, (length.length, length.even), runs=runs)
+    lines = run_on.Edges.of(len(points), wires, marked, (length.length, length.even))
     own = given_loops(loops, len(points)) if loops is not None else []
     limits = arguments.whole("longest", longest, 0), arguments.length("longest_length", longest_length, "any")
     slopes, slopes_at = _rows("normals", normals, (3,), own, len(points))
     bends, bends_at = _rows("fixed_curvatures", fixed_curvatures, (), own, len(points))
     named_loops = own, slopes, bends, slopes_at, bends_at, *limits
     team = arguments.whole("threads", threads, 0)
-    holes = _core.Holes(points, around, lines.hard, named_loops, bool(bridge), team)
+    holes = _core.Holes(points, around, lines.marked if runs else arguments.NO_EDGES, named_loops, bool(bridge), team)
     curves = lines.through(holes, points) if runs else []
     through = [each.for_engine if isinstance(each, run_on.Curves) else None for each in curves]
     wishes = bool(bridge), in_rows, joins, length.length, length.even, most

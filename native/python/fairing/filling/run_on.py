@@ -14,7 +14,6 @@ from fairing.filling import loops
 from fairing.filling.ends import EdgeEnd, ends_at, matched, sides_of
 from fairing.filling.loops import Tree, crosses, gap
 from fairing.filling.making import Making, bands_at, lengths_at
-from fairing.measure import hard_edges
 from fairing.options import arguments
 from fairing.options.arguments import listed
 from fairing.results import Diagnostic, FloatArray, IntArray, MeshError
@@ -73,47 +72,41 @@ class Curves:
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """What may run through holes: hard edges around them, those among these that were marked, and wires."""
+    """What may run through holes: hard edges around them, of which some were marked, and wires."""
 
-    hard: IntArray
     marked: IntArray
     wires: IntArray
     spacing: tuple[float, bool]
     """A length or 0, and whether it is the same everywhere."""
 
     @classmethod
-    def of(
-        cls, mesh: tuple[FloatArray, IntArray], wires: Any, marked: Any, spacing: tuple[float, bool], *, runs: bool
-    ) -> Edges:
-        """mesh: vertices and triangles around; wires, marked: of :func:`fairing.fill`; runs: whether any edge does."""
-        points, around = mesh
+    def of(cls, count: int, wires: Any, marked: Any, spacing: tuple[float, bool]) -> Edges:
+        """count: of vertices; wires, marked: of :func:`fairing.fill`."""
         drawn, marks = (
-            arguments.vertices_of(name, value, len(points), 2) for name, value in (("wires", wires), ("marked", marked))
+            arguments.vertices_of(name, value, count, 2) for name, value in (("wires", wires), ("marked", marked))
         )
-        hard = hard_edges(points, around, marked=marks) if runs else arguments.NO_EDGES
-        return cls(hard, marks, drawn, spacing)
+        return cls(marks, drawn, spacing)
 
     def through(self, holes: _core.Holes, points: FloatArray) -> list[Curves | Diagnostic | None]:
         """What runs through each hole, found by what is around it alone, or why it can't be filled."""
-        at = np.zeros(len(points), dtype=bool)
-        at[self.hard] = at[self.wires] = True
         found: list[Curves | Diagnostic | None] = []
-        for k, ((loop, *_), (normals, may)) in enumerate(zip(holes.loops, holes.slopes(self.spacing[0]), strict=True)):
+        for k, ((loop, *_), slopes) in enumerate(zip(holes.loops, holes.slopes(self.spacing[0]), strict=True)):
+            normals, hard, may = slopes
             found.append(None)
-            if not may or not (at[loop].any() or bands_at(loop, points, normals)):
+            lines = np.concatenate([hard, self.wires])
+            if not may or not (np.isin(loop, lines).any() or bands_at(loop, points, normals)):
                 continue
             names, triangles = holes.around(k)
-            local = replace(self, hard=self.hard[np.isin(self.hard, np.append(names, self.wires)).all(axis=1)])
             try:
-                curves = local.run_on(loop, normals, (points, names[triangles]))
+                curves = self.run_on(loop, normals, (points, names[triangles]), hard)
             except MeshError as error:
                 found[k] = error.diagnostic
             else:
                 found[k] = curves if curves.cut is not None or curves.warnings else None
         return found
 
-    def run_on(self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray]) -> Curves:
-        """The curves through a loop with its normals (k, 3).
+    def run_on(self, loop: IntArray, normals: FloatArray, mesh: tuple[FloatArray, IntArray], hard: IntArray) -> Curves:
+        """The curves through a loop with its normals (k, 3) and the hard edges around (h, 2).
 
         Where they meet the boundary or each other, bands are left out, and then all but drawn edges.
         """
@@ -121,7 +114,7 @@ class Edges:
         lengths, (length, even) = lengths_at(points[loop]), self.spacing
         mean = float(lengths.mean())
         drawn = loops.drawn(loop, self.wires)
-        all_ends, runs = ends_at(loop, points, triangles, self.hard, self.marked)
+        all_ends, runs = ends_at(loop, points, triangles, hard, self.marked)
         free = [end for end in all_ends if end.vertex not in drawn.reached]
         marked = {end.vertex for end in all_ends if end.marked}
         for ends, with_bands in ((free, True), (free, False), ([], False)):
@@ -145,7 +138,7 @@ class Edges:
             if not trees if found.cut is None else not _is_tangled(found.cut[0], making):
                 return found
         where = np.unique(np.concatenate([arguments.NO_EDGES.ravel(), *drawn.curves]))
-        raise loops.refusal("touch its boundary or each other", where, "move them apart")
+        raise loops.refusal("meet its boundary or each other", where, "move them apart")
 
 
 def _bands(
@@ -197,10 +190,10 @@ def _apart(ends: Sequence[EdgeEnd], trees: Sequence[Tree]) -> list[list[EdgeEnd]
 
 
 _WHY = {
-    "lonely": "no edge across it matches",
+    "lonely": "no other one goes on from there",
     "ambiguous": "they may be joined in several ways",
     "too_many": "they are too many to be joined",
-    "crossing": "they would cross the boundary",
+    "crossing": "their paths onward cross the outline",
 }
 
 
