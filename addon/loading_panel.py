@@ -9,7 +9,7 @@ from .host.text import draw_text
 
 ADVICE = (
     "Remove the extension, restart Blender, and install the zip for this platform.",
-    "If that doesn't help, send these lines to its authors.",
+    "If that does not help, send these lines to its authors.",
 )
 
 
@@ -22,7 +22,7 @@ class VIEW3D_PT_fairing_loading(bpy.types.Panel):
     bl_category = "Fairing"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        draw_text(self.layout, "The engine's module doesn't load.", "ERROR")
+        draw_text(self.layout, "The add-on's binary doesn't load.", "ERROR")
         for label, value in loading.details():
             draw_text(self.layout, f"{label}: {value}", "BLANK1")
         for sentence in ADVICE:

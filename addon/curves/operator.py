@@ -12,8 +12,8 @@ from ..mirror.symmetry import edges_with_image
 from ..options.other_options import CurvesOptions
 from ..options.properties import CurvesProperties
 from ..run import compare, job, last_run
-from ..run.asked import AskedInEditMode, Say, done
 from ..run.operator import InEditMode
+from ..run.request import RequestInEditMode, Say, done
 from ..verdict.properties import store_word
 from ..verdict.verdict import worst
 from ..words.words import said
@@ -21,18 +21,20 @@ from .spanning import NO_WIRE, Spanned, span_arrays
 
 
 @dataclass
-class Asked(AskedInEditMode):
+class Request(RequestInEditMode):
     """What one run was asked for; tasks are about wires, (e,) masks."""
 
     @cached_property
     def size(self) -> float:
         """About as many vertices as will be new: those of a square that the curves are around."""
-        edges = sum(int(np.count_nonzero(task.about)) for task in self.tasks)
+        edges = sum(int(np.count_nonzero(task.target)) for task in self.tasks)
         return float((edges / self.options.spacing) ** 2 / 16)
 
     def work(self, progress: Progress) -> list[Spanned]:
         return job.each_of(
-            self.tasks, lambda task, part: span_arrays(task.mesh, task.about, task.matrix, self.options, part), progress
+            self.tasks,
+            lambda task, part: span_arrays(task.mesh, task.target, task.matrix, self.options, part),
+            progress,
         )
 
     def finish(self, context: bpy.types.Context, outcomes: list[Spanned], say: Say) -> set[str]:
@@ -57,11 +59,11 @@ class MESH_OT_fair_from_curves(CurvesProperties, InEditMode, bpy.types.Operator)
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
     needs = NO_WIRE
 
-    def _read(self, context: bpy.types.Context) -> Asked | None:
+    def _read(self, context: bpy.types.Context) -> Request | None:
         tasks = job.read_for_new_faces(
             context, spanned.selected_wires, lambda _obj, mesh, _matrix, wires: edges_with_image(mesh, wires)
         )
         if not tasks:
             self.nothing(context, NO_WIRE)
             return None
-        return Asked(tasks, CurvesOptions.of(self))
+        return Request(tasks, CurvesOptions.of(self))

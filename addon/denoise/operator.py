@@ -9,8 +9,8 @@ from ..options.options import FairOptions
 from ..options.other_options import DenoiseOptions
 from ..options.properties import DenoiseProperties
 from ..run import compare, job, last_run
-from ..run.asked import AskedInEditMode, Say, done
 from ..run.operator import InEditMode
+from ..run.request import RequestInEditMode, Say, done
 from ..verdict.properties import store_word
 from ..verdict.verdict import worst
 from ..words.words import said
@@ -18,8 +18,8 @@ from .denoising import Denoised, denoise_arrays
 
 
 @dataclass
-class Asked(AskedInEditMode):
-    moves = True
+class Request(RequestInEditMode):
+    keeps_vertices = True
 
     def work(self, progress: Progress) -> list[Denoised]:
         return job.each_of(
@@ -44,7 +44,7 @@ class MESH_OT_fair_denoise(DenoiseProperties, InEditMode, bpy.types.Operator):
     bl_label = "Fair Denoise"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
-    def _read(self, context: bpy.types.Context) -> Asked | None:
+    def _read(self, context: bpy.types.Context) -> Request | None:
         options = DenoiseOptions.of(self)
         tasks, _ = self.read_faces(context, FairOptions())
-        return Asked(tasks, options) if tasks else None
+        return Request(tasks, options) if tasks else None

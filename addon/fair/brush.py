@@ -46,7 +46,7 @@ class MESH_OT_fair_brush(FairsOutside, bpy.types.Operator):
 
     dabs: CollectionProperty(type=FairDab, options={"HIDDEN", "SKIP_SAVE"})
 
-    radius: IntProperty(name="Radius", description="Of the circle", default=25, min=1, soft_max=300, subtype="PIXEL")
+    radius: IntProperty(name="Radius", description="Brush radius", default=25, min=1, soft_max=300, subtype="PIXEL")
 
     _at: tuple[float, float] | None = None  # the last place, in pixels of the region
     _positions: Floats  # (n, 3), while the stroke is painted

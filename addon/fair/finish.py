@@ -11,8 +11,8 @@ import bpy
 from ..host.status import redraw_sidebars
 from ..mirror.symmetry import NOT_SYMMETRIC
 from ..run import compare, job, last_run
-from ..run.asked import AskedInEditMode, Say, Work, done
 from ..run.preview import Preview
+from ..run.request import RequestInEditMode, Say, Work, done
 from ..translations import translated
 from ..verdict.outcome import Fairing
 from ..verdict.properties import store
@@ -23,11 +23,11 @@ from .engine import Progress
 
 
 @dataclass
-class Asked(AskedInEditMode):
+class Request(RequestInEditMode):
     notes: tuple[str, ...] = ()  # on objects that there is nothing to do for
     remedy: str = ""  # tried after a run that was not good, and written only where the verdict improves
     again: bool = False  # on faces of the last run, which are selected where the result is written
-    moves = True
+    keeps_vertices = True
 
     def work(self, progress: Progress) -> list[Fairing]:
         return job.solve(self.tasks, self.options, progress)

@@ -40,7 +40,7 @@ class MESH_OT_fair_masked(FairsOutside, bpy.types.Operator):
     bl_label = "Fair Masked"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
-    source: EnumProperty(name="What", description="What says which faces are faired", items=_SOURCES, default="MASK")
+    source: EnumProperty(name="What", description="Which faces are faired", items=_SOURCES, default="MASK")
     face_set: IntProperty(
         name="Face Set",
         description="Number of the face set, as it was clicked; 0: the only visible one",
@@ -54,7 +54,7 @@ class MESH_OT_fair_masked(FairsOutside, bpy.types.Operator):
         default=False,
         options={"HIDDEN", "SKIP_SAVE"},
     )
-    group: StringProperty(name="Faces Of", description="Name of the vertex group; empty: the active one")
+    group: StringProperty(name="Group", description="Name of the vertex group; empty: the active one")
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.prop(self, "source")

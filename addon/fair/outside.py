@@ -20,9 +20,9 @@ from ..mesh import levels, painted
 from ..options.options import FairOptions
 from ..options.properties import FairProperties
 from ..run import compare, last_run
-from ..run.asked import Asked, Say
 from ..run.job import refusing
 from ..run.redo import Redone
+from ..run.request import Request, Say
 from ..translations import translated
 from ..verdict.outcome import Fairing
 from ..verdict.properties import store
@@ -79,7 +79,7 @@ def as_read(obj: bpy.types.Object) -> Iterator[bpy.types.Object]:
         yield shown
 
 
-class AskedOutside(Asked):
+class OutsideRequest(Request):
     def __init__(self, task: Task) -> None:
         self.task, self._shown = task, task.before
 
@@ -153,7 +153,7 @@ class FairsOutside(FairProperties, Redone):
             and require_idle(cls, context)
         )
 
-    def _read(self, context: bpy.types.Context) -> AskedOutside:
+    def _read(self, context: bpy.types.Context) -> OutsideRequest:
         obj = active_object(context)
         if obj.mode == "SCULPT" and not self.is_repeated(context):
             bpy.ops.ed.undo_push(message="Before Fair Masked")  # strokes are steps of another kind
@@ -163,7 +163,7 @@ class FairsOutside(FairProperties, Redone):
             level = levels.shown_level(obj)
             self._check_level(level, options)
             with in_object_mode(obj):
-                return AskedOutside(self._read_object(obj, options, level))
+                return OutsideRequest(self._read_object(obj, options, level))
 
     def _check_level(self, level: int, options: FairOptions) -> None:
         """Raise ValueError where this can't be done on a level of a Multiresolution modifier."""

@@ -16,9 +16,9 @@ from ..mesh.spanned import selected_wires
 from ..options.other_options import FillOptions
 from ..options.properties import FillProperties
 from ..run import compare, last_run
-from ..run.asked import AskedInEditMode, Say, done
 from ..run.job import Refused, Task, each_of, read_for_new_faces, show_vertices, write_each
 from ..run.operator import InEditMode
+from ..run.request import RequestInEditMode, Say, done
 from ..translations import translated
 from ..verdict.properties import store
 from ..verdict.report import summary
@@ -47,10 +47,10 @@ def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[F
 
     def fill(task: Task, part: Progress | None) -> Filled:
         try:
-            return fill_borders(task.about, task.matrix, options, part)
+            return fill_borders(task.target, task.matrix, options, part)
         except REFUSALS as cause:
             refusals.append(Refused(task.object_name, cause))
-            return Filled([], (*task.about.left, left_by(cause, task.about.vertices)))
+            return Filled([], (*task.target.left, left_by(cause, task.target.vertices)))
 
     outcomes = each_of(tasks, fill, progress)
     if refusals and not any(found.pieces for found in outcomes):
@@ -58,13 +58,13 @@ def solve(tasks: list[Task], options: FillOptions, progress: Progress) -> list[F
     return outcomes
 
 
-class Asked(AskedInEditMode):
+class Request(RequestInEditMode):
     """What one run was asked for; tasks are about borders."""
 
     @cached_property
     def size(self) -> float:
         """About as many vertices as will be new."""
-        new = sum(task.about.expected_vertices(task.matrix, self.options.bridge) for task in self.tasks)
+        new = sum(task.target.expected_vertices(task.matrix, self.options.bridge) for task in self.tasks)
         return float(new / self.options.spacing**2)
 
     def work(self, progress: Progress) -> list[Filled]:
@@ -85,7 +85,7 @@ class Asked(AskedInEditMode):
         added = write_each(context, [pair for pair in named if pair[1].pieces], filled.add_to_edit_mesh)
         for name, of_one in named:
             show_vertices(context, name, of_one.left_vertices)
-        notes = tuple(note for task in self.tasks for note in task.about.notes)
+        notes = tuple(note for task in self.tasks for note in task.target.notes)
         report = make_fill_report(named, self.options, time.perf_counter() - self.begin, added, notes)
         store(context.window_manager.fairing_report, report)
         return done(say, report.warnings, summary(report))
@@ -100,11 +100,11 @@ class MESH_OT_fair_fill(FillProperties, InEditMode, bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO", "PRESET"}  # noqa: RUF012 - the form that Blender asks for
     needs = said("select_boundary")
 
-    def _read(self, context: bpy.types.Context) -> Asked | None:
+    def _read(self, context: bpy.types.Context) -> Request | None:
         options = FillOptions.of(self)
         tasks = read(context, options)
         if tasks:
-            return Asked(tasks, options)
+            return Request(tasks, options)
         wires = any(selected_wires(obj.data).any() for obj in edited_objects(context))
         self.nothing(context, WIRES_ALONE if wires else NO_BORDER)
         return None

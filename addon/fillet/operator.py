@@ -23,10 +23,10 @@ from ..options.options import FairOptions
 from ..options.other_options import FilletOptions
 from ..options.properties import FilletProperties
 from ..run import compare, last_run
-from ..run.asked import AskedInEditMode, Say, done
 from ..run.background import MOMENT, TICK, Watched, has_events
 from ..run.job import Refused, Task, each_of, read_for_new_faces, write_each
 from ..run.operator import InEditMode
+from ..run.request import RequestInEditMode, Say, done
 from ..run.runner import Run
 from ..show.preview import show
 from ..translations import translated
@@ -55,24 +55,24 @@ def read(context: bpy.types.Context, group: str) -> list[Task]:
 
 def _middle(task: Task) -> Floats:
     """Return the middle of the seams, (3,) in world space."""
-    ends = task.mesh.positions[np.unique(task.mesh.edges[task.about])].mean(axis=0)
+    ends = task.mesh.positions[np.unique(task.mesh.edges[task.target])].mean(axis=0)
     place: Floats = task.matrix[:3, :3] @ ends + task.matrix[:3, 3]
     return place
 
 
 def _length(task: Task) -> float:
     """Return that of all seams, in world space."""
-    ends = task.mesh.positions[task.mesh.edges[task.about]] @ task.matrix[:3, :3].T
+    ends = task.mesh.positions[task.mesh.edges[task.target]] @ task.matrix[:3, :3].T
     return float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
 
 
 def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list[Rounded]:
     """Round the seams of every task; raises Refused, and what its cause is not."""
-    return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.about, task.matrix, options, part), progress)
+    return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.target, task.matrix, options, part), progress)
 
 
 @dataclass
-class Asked(AskedInEditMode):
+class Request(RequestInEditMode):
     """What one run was asked for; tasks are about seams, (e,) masks."""
 
     @cached_property
@@ -107,14 +107,14 @@ class Asked(AskedInEditMode):
 
 
 class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
-    """Round the selected edges, or the hard edges of the selected faces, by a fair surface within a width"""
+    """Round the selected edges, or the hard edges of the selected faces, with a fair surface"""
 
     bl_idname = "mesh.fair_fillet"
     bl_label = "Fair Fillet"
     bl_options = {"REGISTER", "UNDO"}  # noqa: RUF012 - the form that Blender asks for
 
     needs = NO_SEAM
-    _asked: Asked
+    _asked: Request
     _timer: Any = None
     _search: Run[list[Rounded]] | None = None  # aside, for the options of `_asked`
     if TYPE_CHECKING:  # made from a table
@@ -241,9 +241,9 @@ class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
             search = Run(self._asked.work)
         return self._await(context, search, MOMENT)
 
-    def _read(self, context: bpy.types.Context) -> Asked | None:
+    def _read(self, context: bpy.types.Context) -> Request | None:
         options = self._options()
         tasks = read(context, options.width_group)
         if not tasks:
             self.nothing(context, NO_SEAM)
-        return Asked(tasks, options) if tasks else None
+        return Request(tasks, options) if tasks else None

@@ -17,9 +17,9 @@ from ..host.context import edited_objects
 from ..host.polling import NO_FACE, SELECT_FACES, require_edit_mode, require_idle
 from ..mesh import mesh_io
 from ..options.options import FairOptions
-from ..run.asked import Asked, Say
 from ..run.background import Watched
 from ..run.job import each_of, objects_in_mode, refusing
+from ..run.request import Request, Say
 from ..selection.inspection import last_options
 from ..translations import translated
 from ..words.words import said
@@ -53,7 +53,7 @@ def first(session: Session, progress: Progress | None) -> Found:
 
 
 @dataclass
-class AskedLive(Asked):
+class LiveRequest(Request):
     candidates: list[Session]
     options: FairOptions
 
@@ -90,10 +90,10 @@ class MESH_OT_fair_live_region(Watched, bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         return require_edit_mode(cls, context, SELECT_FACES) and require_idle(cls, context)
 
-    def _read(self, context: bpy.types.Context) -> AskedLive | None:
+    def _read(self, context: bpy.types.Context) -> LiveRequest | None:
         options = last_options(context)
         candidates = read(context, options)
         if not candidates:
             self.report({"ERROR"}, translated(NO_FACE))
             return None
-        return AskedLive(candidates, options)
+        return LiveRequest(candidates, options)

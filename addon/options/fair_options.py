@@ -39,8 +39,8 @@ class FairTable(Chosen):
     continuity_group: str = shared.group(
         SURFACE,
         "Continuity Group",
-        "Only where the boundary is in this vertex group it has that Continuity, Position with a slope that the "
-        "surface finds; elsewhere Tangent",
+        "Continuity counts only where the boundary is in this vertex group; elsewhere it is Tangent. Position leaves "
+        "the slope free",
         counts=lambda o: o.continuity != "G1",
     )
     boundary_normals: str = option(
@@ -91,15 +91,15 @@ class FairTable(Chosen):
     vertex_group: str = shared.group(
         PARTS,
         "Vertex Group",
-        "The weights of this vertex group scale the Factor of each vertex, outside the selection too, as far as "
-        "weights lead on from it. Paint them to fade the change out",
+        "Each vertex's weight in this group scales its Factor, also outside the selection as far as paint reaches "
+        "without a gap. Paint to fade the change out",
         counts=lambda o: o.can_fade,
     )
     use_mask: bool = option(
         PARTS,
         "Use Mask",
-        "The mask of sculpt mode scales the Factor of each vertex, outside the selection too: masked vertices have "
-        "all of it, half-masked ones half",
+        "Sculpt mode's mask scales the Factor of each vertex, also outside the selection: masked vertices move fully, "
+        "half-masked ones half",
         False,
         counts=lambda o: o.can_fade,
     )
@@ -113,8 +113,8 @@ class FairTable(Chosen):
     all_keys: bool = option(
         PARTS,
         "All Keys",
-        "With the Basis every shape key that bends the selection is faired, each from its own surroundings. Otherwise "
-        "only the active one, and keys relative to it follow",
+        "With the Basis active, every shape key that bends the selection is faired, too. Off: only the active key, and "
+        "keys relative to it follow",
         False,
         counts=lambda o: not o.remesh,
     )
@@ -127,20 +127,17 @@ class FairTable(Chosen):
     pin_radius: float = shared.factor(
         PINS,
         "Pin Radius",
-        "Over which part of the patch's size a single pinned vertex lifts or holds the surface; 0: in a point, which "
+        "How far a single pinned vertex lifts the surface, relative to the selection's size; 0: in a point, which "
         "leaves a dent",
         0.1,
         slider=(0.0, 0.3),
         counts=lambda o: bool(o.pin_group),
     )
-    pin_edges: str = option(
-        PINS, "Pin Edges", "Marked edges that the surface passes through", "AUTOMATIC", items=PINNED
-    )
+    pin_edges: str = option(PINS, "Pin Edges", "Inner edges that the surface keeps", "AUTOMATIC", items=PINNED)
     fair_pinned_edges: bool = option(
         PINS,
         "Fair Pinned Edges",
-        "Hard edges that run through the selection become fair curves, with what is around them. Otherwise they stay "
-        "where they are",
+        "Hard edges that run through the selection become fair curves. Otherwise they stay where they are",
         True,
         counts=lambda o: o.pins_sharp,
     )

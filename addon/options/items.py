@@ -9,9 +9,9 @@ SHAPES: tuple[Item, ...] = (
     (
         "AUTOMATIC",
         "Automatic",
-        "Between two boundary loops the first of all three that keeps their girth, Harmonic for all else",
+        "Harmonic; between two boundary loops the first of the three that neither narrows nor swells",
     ),
-    ("HARMONIC", "Harmonic", "Curvature runs steadily across the patch. Restores spheres and pipes"),
+    ("HARMONIC", "Harmonic", "Curvature changes evenly. Restores spheres and pipes"),
     ("MINIMAL_ENERGY", "Minimal Energy", "Bends as little as possible: rounder near tight boundaries"),
     (
         "LEAST_VARIATION",

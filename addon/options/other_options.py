@@ -35,7 +35,7 @@ class FillOptions(Chosen):
     quads: bool = shared.quads()
     longest: int = option(
         HOLES,
-        "Most Edges",
+        "Max Edges",
         "Borders with more edges than that stay open; 0: any number",
         0,
         bounds=shared.ANY_COUNT,
@@ -69,18 +69,16 @@ class FilletOptions(Chosen):
     width: float = shared.length(
         SURFACE,
         "Width",
-        "How far the fillet reaches along the surface, in world space, on the larger side of each seam; 0: a fifth of "
-        "the shortest adjacent side",
+        "How far the fillet reaches on the larger side of each seam, in world space; 0: a fifth of the shortest way to "
+        "the next edge",
         0.0,
         slider=(0.0, 10.0),
     )
-    width_2: float = shared.length(
-        SURFACE, "Width 2", "The same on the smaller side; 0: as wide", 0.0, slider=(0.0, 10.0)
-    )
+    width_2: float = shared.length(SURFACE, "Width 2", "On the smaller side; 0: same as Width", 0.0, slider=(0.0, 10.0))
     clamp: bool = option(
         SURFACE,
         "Clamp",
-        "No wider than each edge has room for, and a message says where. Otherwise such a width is refused",
+        "Narrows the fillet where there is no room, and says where. Otherwise a too large width is refused",
         True,
     )
     profile: float = option(
@@ -95,8 +93,8 @@ class FilletOptions(Chosen):
     spacing: float = shared.length(
         VERTICES,
         "Edge Length",
-        "Length of the new edges, in world space, with Quads across the seam; less where the fillet is narrower; "
-        "0: a quarter of its width",
+        "Length of new edges (world space), less where the fillet narrows. With Quads: only across the seam; "
+        "0: a quarter of Width",
         0.0,
         slider=(0.0, 1.0),
     )
@@ -118,7 +116,7 @@ class DenoiseOptions(Chosen):
     size: float = shared.length(
         SURFACE,
         "Size",
-        "What is shorter than this goes, what is longer stays, in world space; 0: twelve of the edges around",
+        "Bumps smaller than this go, larger ones stay (world space); 0: twelve edge lengths",
         0.0,
         slider=(0.0, 10.0),
     )
@@ -132,7 +130,7 @@ class CurvesOptions(Chosen):
     fill_openings: bool = option(
         SURFACE,
         "Fill Openings",
-        "What the curves only go around gets a surface, too: a bottle's mouth, the rim of a boat",
+        "Closes openings inside a curve, too: a bottle's mouth, the rim of a boat",
         False,
     )
     spacing: float = shared.spacing()

@@ -18,14 +18,14 @@ class _Runs:
 
 
 class MESH_MT_fair_region_runs(_Runs, bpy.types.Menu):
-    """Fair Region as it is mostly needed"""
+    """Presets for Fair Region"""
 
     bl_label = "Fair Region Presets"
     operator = "mesh.fair_region"
 
 
 class MESH_MT_fair_fill_runs(_Runs, bpy.types.Menu):
-    """Fair Fill as it is mostly needed"""
+    """Presets for Fair Fill"""
 
     bl_label = "Fair Fill Presets"
     operator = "mesh.fair_fill"

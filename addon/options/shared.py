@@ -23,7 +23,7 @@ spacing = partial(
     option,
     VERTICES,
     "Spacing",
-    "Length of the new edges away from the boundary, measured by the boundary's edges: 0.5 is twice as fine",
+    "Length of the new edges, relative to those of the boundary: 0.5 is twice as fine",
     1.0,
     bounds=(0.05, 1e6),
     slider=(0.25, 4.0),
@@ -34,8 +34,8 @@ quads = partial(
     option,
     VERTICES,
     "Quads",
-    "Quads in rows that continue the boundary's loops, with edges as long as its own. Where no pattern fits, pairs of "
-    "triangles, none across a border of materials or face sets",
+    "Quads in rows that continue the boundary's loops, with edges of its length. Where no rows fit, triangles joined "
+    "in pairs, within each material and face set",
     False,
 )
 allow_folds = partial(

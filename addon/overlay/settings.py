@@ -11,12 +11,12 @@ from .signals import content_changed, look_changed
 
 _MODES = (
     ("ZEBRA", "Reflection Lines", "Stripes of light mirrored in the surface: they break at creases, bend at bad joins"),
-    ("CURVATURE", "Mean Curvature", "Red bulges out, blue caves in, white is flat on average; fair is without spots"),
+    ("CURVATURE", "Mean Curvature", "Red bulges out, blue caves in, white is flat on average; fair means no spots"),
     ("DEVIATION", "Deviation", "How far the last run has moved the surface: red outwards, blue inwards"),
 )
 _SCOPES = (
     ("SELECTION", "Selection", "The selected faces; in object mode the object"),
-    ("OBJECT", "Object", "All of every object being edited"),
+    ("OBJECT", "Object", "All faces of the edited objects"),
 )
 
 
@@ -50,13 +50,13 @@ class FairOverlay(bpy.types.PropertyGroup):
     )
     automatic: BoolProperty(
         name="Automatic Range",
-        description="Full colour at the largest value shown",
+        description="Full colour at the largest value, peaks of curvature left out",
         default=True,
         update=look_changed,
     )
     range: FloatProperty(
         name="Range",
-        description="The value with full colour: in 1 / length, for deviations the tolerance as a length",
+        description="Value shown in full colour: curvature in 1 / length, deviation as a length",
         default=1.0,
         min=1e-6,
         update=look_changed,

@@ -21,7 +21,7 @@ from . import job, last_run
 # Each button, what helps most first: what it changes in the options, its name and its tooltip.
 _REMEDIES: dict[str, tuple[dict[str, Any], str, str]] = {
     ALL_KEYS: ({"all_keys": True}, "All Keys", "Fair every shape key as well, each from its own surroundings"),
-    ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Select the faces as well that were left out within, and fair again"),
+    ADD_LEFT_OUT: ({}, "Add Left-Out Faces", "Add gaps of up to four faces that the lasso missed, and fair again"),
     AS_SELECTED: (
         {"smooth_boundary": False},
         "Boundary As Selected",
@@ -81,5 +81,5 @@ class MESH_OT_fair_again(bpy.types.Operator):
             self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
             return {"CANCELLED"}
         finally:
-            last_run.remedy_to_try()  # a run that did not begin has not taken it
+            last_run.take_remedy()  # cleared here, too, if no run has taken it
         return {"CANCELLED"} if "CANCELLED" in status else {"FINISHED"}

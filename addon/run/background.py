@@ -14,8 +14,8 @@ from ..host.status import CANCEL, hide_progress, over_buttons, show_progress
 from ..translations import translated
 from ..words.words import said
 from . import job, runner
-from .asked import Asked, Work, refuse
 from .preview import Preview
+from .request import Request, Work, refuse
 from .runner import under_way
 
 CANCELLED = said("cancelled")
@@ -48,9 +48,9 @@ def at_once(context: bpy.types.Context, work: Work) -> Any:
 
 
 class Signs:
-    """What shows that a run is under way: the timer that looks at it, the pointer's counter, status bar and sidebar.
+    """The timer and progress displays of a run: pointer, status bar, sidebar.
 
-    Ended once, by whoever comes first: the run's operator, or `stop_all` without it.
+    `end` works once, called by the run's operator or by `stop_all`.
     """
 
     def __init__(self, context: bpy.types.Context, preview: Preview | None = None) -> None:
@@ -107,14 +107,14 @@ def stop_all() -> None:
 
 
 class Watched:
-    """What an operator needs besides `_read` to begin and watch a run."""
+    """Base of operators that begin and watch a run; they add `_read`."""
 
     if TYPE_CHECKING:
         report: Callable[[set[str], str], None]
-        # What the run is to work on; None, after a word on it, where there is nothing to do.
-        _read: Callable[[bpy.types.Context], Asked | None]
+        # Reads the request; None where there is nothing to do, which it has reported.
+        _read: Callable[[bpy.types.Context], Request | None]
 
-    _asked: Asked
+    _asked: Request
     _run: runner.Run[Any] | None = None
     _signs: Signs | None = None
 
@@ -171,7 +171,7 @@ class Watched:
         self._stop_watching()
 
     def _start(self, context: bpy.types.Context) -> set[str]:
-        """Begin; return when done where that takes but a moment, but for large ones at once."""
+        """Start the thread; wait for it a moment, unless the request is large."""
         if not has_events(context):
             return self._at_once(context)
         # The size bounds the time from below only: a selection without a fair surface may be searched for minutes.
@@ -179,7 +179,7 @@ class Watched:
         return self._await(context, runner.Run(self._asked.work_aside(large)), 0.0 if large else MOMENT)
 
     def _await(self, context: bpy.types.Context, run: runner.Run[Any], seconds: float) -> set[str]:
-        """Have the answer of a run within so many seconds, or watch it."""
+        """Wait for a run at most so many seconds, then watch it."""
         self._run = run
         if run.wait(seconds):
             return self._asked.complete(context, run.result, self.report)

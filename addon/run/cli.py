@@ -159,7 +159,8 @@ def _parser() -> argparse.ArgumentParser:
         "--vertex-group",
         dest="region_group",
         help="fair the faces inside this vertex group; default: the faces that are selected in the file. With --fill: "
-        "fill the holes that have a vertex in it; with --fillet: round the edges inside it; default: all",
+        "fill the holes that have a vertex in it; with --fillet: round the edges inside it; default: all holes, all "
+        "hard edges",
     )
     parser.add_argument("--fill", action="store_true", help="fill holes instead")
     parser.add_argument("--fillet", action="store_true", help="round edges instead")

@@ -20,7 +20,7 @@ from ..verdict.outcome import Moves
 from ..words.words import said
 from .job import objects_in_mode
 
-ENOUGH = 1000  # vertices that tell whether a run was undone: each step of undo asks
+SAMPLED = 1000  # vertices compared to see whether a run was undone, at each undo
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ def remember(tasks: Sequence[Any], outcomes: Sequence[Moves]) -> None:
     """Keep both states of a run that will be written now; tasks: with `object_name` and `mesh`."""
     _last.pairs = tuple(_pair(task, outcome) for task, outcome in zip(tasks, outcomes, strict=True))
     if any(isinstance(outcome, Remeshed) or outcome.keys for outcome in outcomes):
-        forget()  # there are no pairs, or more than these
+        forget()  # new meshes and shape keys can't be swapped by these pairs
 
 
 def _pair(task: Any, outcome: Moves) -> Pair:
@@ -94,7 +94,7 @@ def _is_before(pair: Pair) -> bool:
     if obj is None or obj.type != "MESH" or selecting.count(obj.data) != pair.vertex_count:
         return False
     moved = np.flatnonzero((pair.before != pair.after).any(axis=1))
-    asked = moved[:: len(moved) // ENOUGH + 1]
+    asked = moved[:: len(moved) // SAMPLED + 1]
     places = selecting.places(obj.data, pair.vertices[asked]) if len(asked) else None
     return places is not None and np.array_equal(places, pair.before[asked])
 

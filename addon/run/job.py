@@ -51,7 +51,7 @@ class Refused(Exception):
 
 @contextmanager
 def refusing(name: str, errors: type[Exception] | tuple[type[Exception], ...] = REFUSALS) -> Iterator[None]:
-    """Have what keeps an object of this name from being done raise Refused."""
+    """Turn these errors into Refused with the object's name."""
     try:
         yield
     except errors as cause:
@@ -67,8 +67,8 @@ class Task:
     matrix: Floats  # (4, 4) to world space
     key: str = ""  # the shape key that was read, as mesh_io.writable_key names it
     free_count: int = 0
-    whole: Whole | None = None  # where the mesh is half of what is faired
-    about: Any = None  # where new faces are to be: borders, wires
+    whole: Whole | None = None  # the mesh with its mirror images, where it is one half
+    target: Any = None  # what new faces are made over: borders, wires
 
     @property
     def faired_mesh(self) -> MeshArrays:
@@ -79,7 +79,7 @@ class Task:
 def read(context: bpy.types.Context, options: FairOptions, faces: Mapping[str, Ints] | None = None) -> list[Task]:
     """Read every object in edit mode that has selected faces, free vertices or not; raises Refused.
 
-    faces: by the names of objects, which stand in for the selection.
+    faces: of each object by name, in place of its selection.
     """
     tasks = []
     for obj in edited_objects(context):
@@ -103,7 +103,7 @@ def read_object(obj: bpy.types.Object, options: FairOptions, faces: Ints | None 
     matrix = np.array(obj.matrix_world, dtype=np.float64)
     whole = whole_of(mesh)
     free = whole.free_count if whole is not None else int(np.count_nonzero(free_vertices(mesh)))
-    if options.remesh:  # which makes its own
+    if options.remesh:  # a new mesh has free vertices of its own
         free = max(free, int(np.count_nonzero(mesh.in_patch)))
     return Task(obj.name, mesh, matrix, key, free, whole)
 
@@ -111,12 +111,12 @@ def read_object(obj: bpy.types.Object, options: FairOptions, faces: Ints | None 
 def read_for_new_faces(
     context: bpy.types.Context,
     chosen: Callable[[bpy.types.Mesh], Mask],
-    about: Callable[[bpy.types.Object, MeshArrays, Floats, Mask], Any],
+    target: Callable[[bpy.types.Object, MeshArrays, Floats, Mask], Any],
     options: FairOptions | None = None,
 ) -> list[Task]:
     """Read every object in edit mode of which something is chosen; raises Refused.
 
-    about: given object, mesh, matrix and what is chosen, where new faces are to be; None: nowhere.
+    target: returns what new faces are made over, from object, mesh, matrix and mask; None: nothing.
     """
     tasks = []
     for obj in edited_objects(context):
@@ -128,9 +128,9 @@ def read_for_new_faces(
             key = mesh_io.writable_key(obj)
             mesh = mesh_io.read_edit_mesh(obj, options or FairOptions(), widens=False)
             matrix = np.array(obj.matrix_world, dtype=np.float64)
-            there = about(obj, mesh, matrix, mask)
+            there = target(obj, mesh, matrix, mask)
         if there is not None:
-            tasks.append(Task(obj.name, mesh, matrix, key, about=there))
+            tasks.append(Task(obj.name, mesh, matrix, key, target=there))
     return tasks
 
 
@@ -142,8 +142,8 @@ def solve(
 ) -> list[Fairing]:
     """Solve task after task, on arrays alone; raises Refused and fairing.Cancelled.
 
-    ahead: prepare for a change of options, which takes a while: in the background.
-    give: is given each task's first surface, where that is shown as it is.
+    ahead: also prepare for a change of options, which takes a while (background runs only).
+    give: receives each task's first surface, where the mesh can show it.
     """
 
     def solve_one(task: Task, part: Progress | None) -> Fairing:
@@ -236,7 +236,7 @@ def write_each(
 ) -> list[Done]:
     """Write each answer to the object in edit mode that it is named with.
 
-    Where one can't have it all are as they were: raises Refused, and what else goes wrong.
+    If one fails, all objects are restored and Refused, or the error itself, is raised.
     """
     objects, pairs, done = objects_in_mode(context), list(named), []
     with _without_collector(), restored([objects[name] for name, _ in pairs]):
@@ -248,7 +248,7 @@ def write_each(
 
 @contextmanager
 def _without_collector() -> Iterator[None]:
-    """Keep Python from looking for garbage, a third of the time, while ten thousands of elements are in use."""
+    """Turn garbage collection off, which takes a third of the time with tens of thousands of elements."""
     is_on = gc.isenabled()
     gc.disable()
     try:
@@ -259,7 +259,7 @@ def _without_collector() -> Iterator[None]:
 
 
 def write_one(obj: bpy.types.Object, outcome: Moves) -> remeshed.Written | None:
-    """Move the free vertices of an object, or put its new mesh in; return what is new where it is."""
+    """Move the free vertices of an object, or put its new mesh in; return what was written where the mesh is new."""
     if isinstance(outcome, Remeshed):
         return remeshed.write_edit_mesh(obj, outcome)
     mesh_io.write_edit_mesh(obj.data, outcome.vertices, outcome.positions)

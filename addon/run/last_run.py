@@ -1,4 +1,4 @@
-"""What the last run was asked for, so that it can be examined and run again with one change."""
+"""The last run: its options, regions and spots, for inspection and for a rerun with one change."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def _region(task: Task, spots: Ints) -> Region:
 
 
 def point_out(context: bpy.types.Context, name: str, vertices: Ints) -> None:
-    """Keep which vertices of an object a refusal is about, where that is in edit mode."""
+    """Remember the vertices that a refusal is about, if the object is in edit mode."""
     if len(vertices) and context.mode == "EDIT_MESH":
         count = selecting.face_count(objects_in_mode(context)[name].data)
         _last.refused = (Region(name, count, nothing(), vertices),)
@@ -76,11 +76,11 @@ def forget() -> None:
 
 
 def try_remedy(remedy: str, faces: dict[str, Ints]) -> None:
-    """Have the next run take these faces, and written only where it comes out better than the last; "": in any case."""
+    """Set the next run's faces; with a remedy it is written only if better than the last one, with "" always."""
     _last.next = (remedy, faces)
 
 
-def remedy_to_try() -> tuple[str, dict[str, Ints] | None]:
+def take_remedy() -> tuple[str, dict[str, Ints] | None]:
     """Return what try_remedy has set, once."""
     found, _last.next = _last.next, ("", None)
     return found

@@ -1,4 +1,4 @@
-"""What the operators of edit mode share."""
+"""Base class of the operators of edit mode."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from .redo import Redone
 
 
 class InEditMode(Redone):
-    """An operator on the selection of all objects in edit mode, but for `_read`."""
+    """Base of operators on the selection in edit mode; they add `_read`."""
 
-    needs = SELECT_FACES  # what is to be selected where edit mode is missing
+    needs = SELECT_FACES  # the poll message outside edit mode
     layout: Any
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Cheap, as it is asked at every redraw; what takes a look at the mesh is answered by a report."""
+        """Cheap, as it is asked at every redraw; what needs a look at the mesh is reported by the run."""
         return require_edit_mode(cls, context, cls.needs) and require_idle(cls, context)
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -1,6 +1,6 @@
 """The first surfaces of a run under way: shown in the mesh until the run ends, and taken back before anything else.
 
-The run's thread gives them, the main thread shows them. What the mesh was comes back to the bit, whatever the end.
+The run's thread gives them, the main thread shows them. The mesh is restored bit for bit, however the run ends.
 """
 
 from __future__ import annotations

@@ -1,10 +1,10 @@
 # mypy: disable-error-code="valid-type"
-"""Changes in the redo panel: the result before them at once, the answer in its place as soon as it is found.
+"""Changes in the redo panel: the previous result is shown at once and replaced when the new one is found.
 
-Blender takes the last run's step of undo back and calls `execute`. Small selections get PROMPT to be answered there.
-Otherwise the result before is shown: vertices are moved there again, or where there are new ones the operator is
-cancelled, for which Blender goes back to it. A thread searches, which begins once the operator has ended. With its
-answer Blender is made to repeat the operator: as ever there is one step of undo, with the answer in it.
+Blender undoes the last run and calls `execute`. Small selections are solved there within PROMPT. Otherwise the previous
+result is shown: moved vertices are moved again; with new vertices the operator is cancelled, and Blender restores it. A
+thread, begun after the operator has ended, solves. Then Blender repeats the operator, which writes the answer: one undo
+step, as always.
 
 No postponed annotations here: Blender reads them as property definitions.
 """
@@ -25,8 +25,8 @@ from ..host.status import hide_following, redraw_sidebars, show_following
 from ..verdict.properties import clear, kept, message, store_awaited
 from ..words.words import said
 from . import background, runner
-from .asked import Asked, Say
 from .background import TICK, Watched, has_events
+from .request import Request, Say
 from .runner import under_way
 
 PROMPT = 0.06  # seconds for reading and an answer; with writing and undo a change stays below 0.1
@@ -40,8 +40,8 @@ GIVEN_UP = said("given_up")
 class Following:
     """One change whose answer is awaited while Blender goes on."""
 
-    def __init__(self, change: Asked, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
-        """operator: the one in the panel, maybe a macro. Of both only where Blender keeps them: they may be freed."""
+    def __init__(self, change: Request, operator: bpy.types.Operator, window: bpy.types.Window) -> None:
+        """operator: the panel's, or a macro. Only addresses of it and its window are kept: Blender may free them."""
         self.change, self.step = change, operator.name
         self.operator, self.window = operator.as_pointer(), window.as_pointer()
         self.unwanted = False  # a button has asked for the end
@@ -65,7 +65,7 @@ class Following:
         show_following(context, 0.0 if self.run is None else self.run.fraction)
 
     def end(self, reason: str = GIVEN_UP) -> None:
-        """Await it no more; the result before stays, for which the report then gives this reason."""
+        """Stop waiting; the previous result stays, and the report says why."""
         if self in under_way:
             under_way.remove(self)
         if self.timer is not None:
@@ -78,7 +78,7 @@ class Following:
         bpy.context.window_manager.fairing_report.reason = reason
 
     def is_last(self, context: bpy.types.Context) -> bool:
-        """Return whether it is this operator that Blender would repeat, for which it needs an area."""
+        """Return whether Blender would repeat this operator, for which it needs an area."""
         kept = context.window_manager.operators
         is_same = len(kept) > 0 and kept[-1].as_pointer() == self.operator
         return is_same and context.area is not None and bool(bpy.ops.ed.undo_redo.poll())
@@ -105,12 +105,12 @@ class Redone(Watched):
     if TYPE_CHECKING:
         options: Any
         as_pointer: Callable[[], int]
-        _asked: Asked
+        _asked: Request
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Return when done, but for a change in the redo panel.
 
-        Where that is not usable, Blender goes back to the result before it.
+        Where a change gives nothing usable, Blender goes back to the result before it.
         """
         if _Repeat.now is not None:
             return _Repeat.now.complete(context, self.report)
@@ -119,7 +119,7 @@ class Redone(Watched):
         return super().execute(context)
 
     def is_repeated(self, context: bpy.types.Context) -> bool:
-        """Return whether the redo panel calls, of a macro as well: its steps are not told."""
+        """Return whether the redo panel is calling. A macro's steps are known by address: `is_repeat` isn't set."""
         if self.options.is_repeat:
             return True
         kept = context.window_manager.operators
@@ -165,7 +165,7 @@ def look(context: bpy.types.Context) -> bool:
 
 
 def watch() -> None:
-    """Have looks taken as soon as the operator has ended."""
+    """Start polling as soon as the operator has ended."""
     call_later(_watch, 0.0)
 
 
@@ -186,13 +186,13 @@ def _watch() -> float | None:
 
 
 class _Hand:
-    """The mouse button, when it was asked about last."""
+    """The mouse button's state when it was last queried."""
 
     is_down = False
 
 
 def is_held() -> bool:
-    """Return whether the mouse button is: a field may be pulled. An operator's event alone tells it."""
+    """Return whether the mouse button is down, as while a field is dragged. Only an operator's event shows it."""
     bpy.ops.mesh.fair_follow("INVOKE_DEFAULT", asks=True)
     return _Hand.is_down
 
@@ -213,7 +213,7 @@ class MESH_OT_fair_follow(bpy.types.Operator):
     _following: Following | None = None
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin, or ask."""
+        """Start polling, or with `asks` read the mouse button only."""
         if self.asks:
             _Hand.is_down = event.type == "LEFTMOUSE" and event.value not in ("RELEASE", "CLICK")
             return {"CANCELLED"}
@@ -245,7 +245,7 @@ def _collect(context: bpy.types.Context, following: Following) -> None:
         if current and following.is_last(context):
             _Repeat.now = following
             try:
-                bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: a step of undo for the next one to go back by
+                bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)  # True: an undo step, by which the next change goes back
             finally:
                 _Repeat.now = None
         elif current and change.swap(context):  # something else was selected meanwhile
@@ -269,7 +269,7 @@ def _on_undo(*_arguments: object) -> None:
 
 
 def _on_redo(*arguments: object) -> None:
-    """Likewise, but for the one by which Blender itself goes back to the result before a change."""
+    """The same, except for the redo by which Blender itself restores the previous result."""
     following = _following()
     if following is not None and following.run is not None:
         _on_undo(*arguments)

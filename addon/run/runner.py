@@ -1,6 +1,6 @@
 """Work in a thread of its own, watched from outside, and who has the meshes meanwhile. Knows nothing of Blender.
 
-Every thread is known here, from its begin on, so that `stop_all` can end them all. None of them is a daemon: Python
+Every thread is known here, from its start on, so that `stop_all` can end them all. None of them is a daemon: Python
 kills a daemon when the process ends, in the middle of the engine, and that aborts the process. Python joins the
 other threads instead, and a run gives up by itself as soon as the main thread has come to its end.
 """
@@ -26,7 +26,7 @@ class Owner(Protocol):
     unwanted: bool
 
     def end(self) -> None:
-        """Have them no more."""
+        """Give the meshes up."""
 
 
 under_way: list[Owner] = []
@@ -34,13 +34,13 @@ _holding: list[bool] = []
 
 
 def is_free() -> bool:
-    """Return whether nobody has the meshes: then alone Live writes to them."""
+    """Return whether nobody has the meshes: only then does Live write to them."""
     return not under_way and not _holding
 
 
 @contextmanager
 def holding() -> Iterator[None]:
-    """Have them as long as one step takes."""
+    """Own the meshes during a `with` block."""
     _holding.append(True)
     try:
         yield
@@ -94,7 +94,7 @@ class Run(Generic[Result]):
 
     @property
     def stage(self) -> str:
-        """What the work is at."""
+        """The current stage of the work."""
         return self._stage
 
     @property

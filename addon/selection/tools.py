@@ -81,7 +81,7 @@ _WHAT = (
         "Select the vertices of the boundary whose surroundings are folded, noisy or slivers: "
         "the surface would follow them",
     ),
-    ("LEFT_OUT", "Add Left-Out Faces", "Select the single faces that a lasso missed"),
+    ("LEFT_OUT", "Add Left-Out Faces", "Select faces that a lasso missed: gaps of up to four"),
     ("LIVE", "Select Live Region", "Select the faces of the live region, to see which they are"),
 )
 NAMES = {identifier: name for identifier, name, _ in _WHAT}

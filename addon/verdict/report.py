@@ -143,10 +143,10 @@ def kink_checks(joins: Sequence[Join]) -> tuple[Check, ...]:
     if not any(len(join.vertices) for join in joins):
         return ()
     worst, seen = max(joins, key=lambda join: join.worst), any(len(join.seen) for join in joins)
-    short = ", short" if worst.worst > worst.limit and not seen else ""
+    few = ", few" if worst.worst > worst.limit and not seen else ""
     return (
-        Check("Kink at the boundary", f"≤ {angle_text(worst.worst)}{short}", _state(not seen)),
-        Check("Kinks show from", f"{worst.limit:.0f}°"),
+        Check("Kink at the boundary", f"≤ {angle_text(worst.worst)}{few}", _state(not seen)),
+        Check("Kink limit", f"{worst.limit:.0f}°"),
     )
 
 
@@ -170,10 +170,10 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
     inside, boundary = max((o.curvature for o in outcomes), key=lambda pair: pair[0] - pair[1])
     codes = sorted({warning.code for result in results for warning in result.warnings})
     lines = (
-        ("Equation solved", _endings(outcomes)),
+        ("Surface found", _endings(outcomes)),
         ("Residual", _residual_text(max(results, key=lambda result: result.residual))),
         ("Usual kink", angle_text(_worst_join(outcomes)[0])),
-        ("Off the slope", angle_text(max(_widest(result) for result in results))),
+        ("Slope error", angle_text(max(_widest(result) for result in results))),
         ("Curvature inside", f"{inside:.3g} {'≤' if inside <= boundary else '>'} {boundary:.3g}"),
         (
             "Strategies tried",
@@ -187,7 +187,7 @@ def _details(outcomes: list[Fairing]) -> tuple[Check, ...]:
 def _endings(outcomes: list[Fairing]) -> str:
     endings = dict.fromkeys(outcome.result.termination for outcome in outcomes)
     ended = joined([said(f"ended_{ending}") for ending in endings])
-    # Then the vertices lie on a surface that was computed on the engine's own mesh.
+    # Then the vertices lie on a surface that was computed on the proxy mesh.
     by_proxy = any(outcome.result.converged and not outcome.result.polished for outcome in outcomes)
     return said("on_proxy", ended=ended) if by_proxy else ended
 

@@ -80,7 +80,7 @@ def accuracy_table(sizes: tuple[int, ...]) -> str:
 
 
 def _star(run: fairing.FairResult) -> str:
-    """Marks runs that did not converge, and those that hold on the engine's own mesh only."""
+    """Marks runs that did not converge, and those that hold on the proxy mesh only."""
     return "" if run.converged and run.polished else "†" if run.converged else "\\*"
 
 

@@ -87,7 +87,7 @@ Indices torn_beside(const Problem& problem, const Solution& solution) {
     return forced ? Indices{} : torn;
 }
 
-// Far pins with a radius have spurious surfaces, too: a needle on one ring of triangles, whatever the radius.
+// Far pins with a radius have spurious surfaces, too: a spike on one ring of triangles, whatever the radius.
 bool is_sharp(const Problem& problem, const Solution& solution) {
     return solution.pins == Pins::spread && !sharp_pins(problem.patch, solution.points).empty();
 }

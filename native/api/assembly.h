@@ -10,7 +10,7 @@ class Assembly {
 public:
     explicit Assembly(int old_count) : old_count_(old_count) {}
 
-    // `to_input`: of the local vertices from `free_count` on; those before are new.
+    // `to_input`: mesh numbers of the local vertices after `free_points`, which are new.
     void add(const Triangles& triangles, const Points& free_points, std::span<const int> to_input) {
         const int first = old_count_ + static_cast<int>(points_.size());
         const int free_count = static_cast<int>(free_points.cols());

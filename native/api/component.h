@@ -21,7 +21,7 @@ Points gather(const Eigen::Ref<const Points>& points, std::span<const int> verti
 Normalisation normalise(const Points& fixed_points);
 
 // a: the RMS distance of a component's boundary from its centroid. The boundary is the vertices of edges with the
-// component on one side only; all fixed vertices of a closed component that pins hold. 3 × fixed points.
+// component on one side only; in a closed component, which pins hold, all fixed vertices. 3 × fixed points.
 double boundary_radius(const Patch& patch, const Points& fixed_points);
 
 // Columns belong to the input's vertices.
@@ -35,7 +35,7 @@ struct ComponentData {
     const std::vector<char>& faired;  // border vertices that become fair
 };
 
-// Local vertices 0 … n − 1 of a patch, input numbers: free ones, then fixed ones.
+// Input numbers of a patch's free vertices, and of its fixed ones.
 std::span<const int> free_vertices(const Patch& patch);
 std::span<const int> fixed_vertices(const Patch& patch);
 

@@ -48,7 +48,7 @@ Normalisation checked_unit(const Patch& patch, const Points& fixed_points) {
     }
     if (!(unit.diameter > 0.0)) {
         throw MeshError({Code::no_boundary,
-                         "a component is held in a single point: fix more of its vertices",
+                         "a component is held in one point only: put more in `fixed`",
                          Indices(fixed.begin(), fixed.end()),
                          ElementKind::vertex,
                          {{"points", 1}}});
@@ -155,17 +155,17 @@ Equation ComponentSolver::equation_of(const Problem& problem, const ComponentDat
 // λ stays as long as what it is read off does, which one call does not change.
 void ComponentSolver::read_reference(const View<Points>& input, const Normalisation& unit) {
     const bool reads = reads_reference(options_.inner_fairness);
-    if (read_ && (!reads || !options_.repeated)) return;
+    if (reference_read_ && (!reads || !options_.repeated)) return;
     Points reference = reads ? gather(input, patch_.to_input) : Points();
-    if (read_ && reference == given_reference_) return;
-    read_ = false;
+    if (reference_read_ && reference == given_reference_) return;
+    reference_read_ = false;
     if (reads) reference_ = unit.to_unit(reference);
     reference_warnings_.clear();
     usable_ = !reads || is_usable_reference(patch_, reference_, reference_warnings_);
     lambda_ = make_lambda(patch_, reference_, fairness(), options_);
     warm_.new_weights();
     if (reads && options_.repeated) given_reference_ = std::move(reference);
-    read_ = true;
+    reference_read_ = true;
 }
 
 ComponentAnswer ComponentSolver::dressed(ComponentAnswer answer, const ComponentData& data,
@@ -261,7 +261,7 @@ std::optional<Solution> ComponentSolver::solve_near_last(const Problem& problem,
     return solve_stand_in(problem, replaced_->kind, progress);
 }
 
-// Needles across a curvature count as turned over in the reference already.
+// Slivers across a curvature count as turned over in the reference already.
 std::size_t ComponentSolver::tolerated_folds() const {
     return reads_reference(fairness()) ? flipped_by_solution(patch_, reference_).size() : 0;
 }

@@ -27,9 +27,9 @@ public:
     // same.
     [[nodiscard]] Points first_surface(const ComponentData& data, const Progress& progress);
 
-    // The next answer is that of a new solver.
+    // Forgets all that depends on the options: the next answer is a new solver's.
     void options_changed() {
-        read_ = false;
+        reference_read_ = false;
         warm_.forget();
         replaced_.reset();
         chosen_.reset();
@@ -50,11 +50,11 @@ private:
     // `input`: M0, in the caller's units.
     void read_reference(const View<Points>& input, const Normalisation& unit);
     [[nodiscard]] BaseBoundary boundary_as_given(const ComponentData& data) const;
-    // The problem, in an answer without a solution.
+    // An answer with its problem filled in, not solved yet.
     [[nodiscard]] ComponentAnswer posed(const ComponentData& data, const BaseBoundary& boundary);
     [[nodiscard]] ComponentAnswer solve_between(const ComponentData& data, const BaseBoundary& boundary,
                                                 const Progress& progress);
-    // With the detail put back; `boundary`: that the answer was solved between.
+    // With the detail put back; `boundary`: the one the answer was solved with.
     [[nodiscard]] ComponentAnswer dressed(ComponentAnswer answer, const ComponentData& data,
                                           const BaseBoundary& boundary, const Progress& progress);
     // Uniform where the reference is no surface.
@@ -74,10 +74,10 @@ private:
 
     const Patch& patch_;
     const FairOptions& options_;
-    bool read_ = false;  // the reference
+    bool reference_read_ = false;
     // 3 × local vertices, as the caller gave it; empty where λ is not read off it, or no call follows
     Points given_reference_;
-    Points reference_;  // in units of D; likewise, but the paper's method reads it, too
+    Points reference_;  // the same in units of D; empty where λ is not read off it
     KeptSkin skin_;
     bool usable_ = true;
     Diagnostics reference_warnings_;

@@ -56,19 +56,18 @@ Reason reason_of_folds(const Solution& solution) {
 // Angles: degrees at the fixed vertices.
 Reason reason_of(const Solution& solution, const VectorX& angles) {
     if (solution.reached_load > 0.0) {
-        return {"was solved with " + std::to_string(std::lround(100.0 * solution.reached_load)) +
-                    " % of the load only and keeps that surface; more load may have no solution",
+        return {"reached only " + std::to_string(std::lround(100.0 * solution.reached_load)) +
+                    " % of its bulge and keeps that surface; more may have no solution",
                 {{"load_share", solution.reached_load}}};
     }
     if (solution.flaw == Flaw::collapsed) {
-        return {"collapsed to a point or a line: fix more vertices around it", {{"area", 0.0}}};
+        return {"collapsed to a point or a line: add vertices to `fixed`", {{"area", 0.0}}};
     }
     if (solution.flaw == Flaw::behind) {
         const auto wrong = (angles.array() > turned_back).count();
         const auto all = (angles.array() > 0.0).count();
-        return {"runs into its boundary from behind at " + std::to_string(wrong) + " of " + std::to_string(all) +
-                    " vertices, which is not the surface asked for: where little of a shape is left outside, leave "
-                    "more of it",
+        return {"meets its boundary from the wrong side at " + std::to_string(wrong) + " of " + std::to_string(all) +
+                    " vertices: select less, so that more of the shape stays outside",
                 {{"from_behind", static_cast<double>(wrong)}, {"outline_vertices", static_cast<double>(all)}}};
     }
     return {"did not converge; its positions are the best that were found", {}};
@@ -77,19 +76,18 @@ Reason reason_of(const Solution& solution, const VectorX& angles) {
 Reason reason_of_join(const Solution& solution) {
     switch (solution.join) {
         case Join::other_mesh:
-            return {"the surface was solved on a mesh of the engine's own; make the triangles more regular",
-                    {{"proxy_mesh", 1.0}}};
+            return {"the triangles are too irregular to measure it on: remesh them", {{"proxy_mesh", 1.0}}};
         case Join::no_tangent_join:
             return {"the surface that is only tangent was not found either", {{"no_tangent_join", 1.0}}};
         case Join::not_found:
             return {"the iteration for it did not converge to an acceptable surface; let the boundary lie further out",
                     {{"not_found", 1.0}}};
         case Join::too_rough:
-            return {"what the tangent surface lacks looks like noise: waves of twelve vertices and more explain " +
-                        std::to_string(std::lround(100.0 * solution.smooth_share)) + " % of it, and " +
-                        std::to_string(std::lround(100.0 * least_smooth_share)) +
-                        " % are needed; smooth the surroundings",
-                    {{"smooth_share", solution.smooth_share}}};
+            return {
+                "the curvature around looks like noise (" + std::to_string(std::lround(100.0 * solution.smooth_share)) +
+                    " % of it is smooth over twelve vertices, " +
+                    std::to_string(std::lround(100.0 * least_smooth_share)) + " % are needed): smooth the surroundings",
+                {{"smooth_share", solution.smooth_share}}};
         default:
             return {"the surroundings determine it too little: leave three rings of regular triangles around the patch",
                     {}};
@@ -100,7 +98,7 @@ std::string_view reason_of(Pins pins) {
     switch (pins) {
         case Pins::too_close: return "some are nearer to each other than two radii; a smaller radius may do";
         case Pins::no_boundary: return "nothing but pins holds the surface";
-        case Pins::curvature_met: return "the surface that continues the curvature of its surroundings takes no radius";
+        case Pins::curvature_met: return "a radius has no effect with continuity 'G2'";
         case Pins::no_surface: return "the surface through the points was not found either";
         default: return "no acceptable surface was found with it";
     }
@@ -161,8 +159,7 @@ void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnos
     if (triangles.empty()) return;
     warnings.push_back({Code::flipped_triangles,
                         counted(triangles.size(), "triangle is", "triangles are") +
-                            " turned over by the detail put back: there is less room for it than there was; less of it "
-                            "or a smaller size avoids that",
+                            " turned over by the detail put back, for lack of room: lower `detail` or `detail_size`",
                         input_numbers(patch, triangles),
                         ElementKind::triangle,
                         {{"triangles", size_of(triangles)}}});
@@ -183,12 +180,13 @@ void warn_of_precision(const Patch& patch, const View<Points>& input, const Prec
     const double spacing = farthest * std::numeric_limits<double>::epsilon();
     const double edge = count > 0 ? length / count : wanted.diameter;
     if (spacing <= std::min(tolerated_share * edge, wanted.tolerance * wanted.diameter)) return;
-    warnings.push_back({Code::precision,
-                        "this far from the origin, coordinates can't be told apart as finely as the tolerance and the "
-                        "edges ask for: move the mesh nearer to the origin",
-                        {},
-                        {},
-                        {{"spacing", spacing}, {"edge", edge}}});
+    warnings.push_back(
+        {Code::precision,
+         "this far from the origin coordinates are too coarse for these edges: move the mesh nearer to the "
+         "origin",
+         {},
+         {},
+         {{"spacing", spacing}, {"edge", edge}}});
 }
 
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles) {
@@ -301,8 +299,7 @@ Diagnostic no_solution(const Problem& problem, const Solution& solution) {
     const std::string text = "no " + name + " fits the boundary of a component of " + free;
     if (solution.provenance == Provenance::low_passed) {
         figures["distance"] = distance_of_low_passed(problem);
-        return {Code::no_solution,
-                text + " as it is: the surface follows it smoothly, and the boundary stays beside it",
+        return {Code::no_solution, text + " as it is: the surface runs smoothly past it, with gaps",
                 Indices(free_vertices(patch).begin(), free_vertices(patch).end()), ElementKind::vertex, figures};
     }
     const auto all = free_vertices(patch);

@@ -15,8 +15,8 @@ bool is_usable_reference(const Patch& patch, const Points& reference, Diagnostic
 // Whether the triangles at some free vertex all lack area (3 × local vertices).
 bool has_collapsed_fan(const Patch& patch, const Points& points);
 
-// Diagnostics of detail: REFERENCE_UNUSABLE, with the figure `old_skin`, and FLIPPED_TRIANGLES where it turns triangles
-// over (local numbers).
+// REFERENCE_UNUSABLE (figure `old_skin`) where no detail can be read; FLIPPED_TRIANGLES where detail flips triangles
+// (local numbers).
 void warn_of_missing_detail(Diagnostics& warnings);
 void warn_of_folded_detail(const Patch& patch, const Indices& triangles, Diagnostics& warnings);
 
@@ -35,18 +35,17 @@ void warn_of_precision(const Patch& patch, const View<Points>& input, const Prec
 Diagnostics failures_of(const Patch& patch, const Solution& solution, Termination end, const VectorX& angles);
 
 // G2_NOT_MET with the fixed vertices where a curvature was asked for and the surface is only tangent. Figures:
-// "vertices", "boundary_vertices", and why: "smooth_share" (of the curvature that is lacking, below 0.5: noise), or 1
-// for "not_found", "proxy_mesh" or "no_tangent_join"; none where the curvature is not known.
+// "vertices", "outline_vertices", and why: "smooth_share" (how much of the curvature lacking is smooth; below 1/3:
+// noise), or 1 for "not_found", "proxy_mesh" or "no_tangent_join"; none where the curvature is not known.
 void warn_of_join(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 
 // PINS_NOT_SPREAD with the pins that act in a point although a radius was asked for. Another one, with the figure
 // "tips", names those at which the surface forms a spike (pins/spread_pins).
 void warn_of_pins(const Patch& patch, const Solution& solution, Diagnostics& warnings);
 // NO_SOLUTION: another surface was taken instead, with the free vertices. Figures: "free_vertices"; "harmonic", 1, for
-// that equation; for a loft "loft", 1, for
-// the shape before "smoothed", 1, and where one of these two leaves the prescribed tangent planes by more than 20°
-// "kinks", these boundary vertices, which are the elements then; for a low-passed boundary (method/proxy_surface)
-// "distance", how far it lies beside the surface, in units of D.
+// that equation; "loft", "smoothed" or "bilaplacian", 1, for a loft, the old shape or the first surface; "kinks", the
+// number of boundary vertices where one of these leaves the tangent planes by more than 20°; they are the elements
+// then; for a low-passed boundary (method/proxy_surface) "distance", how far it lies beside the surface, in units of D.
 Diagnostic no_solution(const Problem& problem, const Solution& solution);
 
 // Triangles of a patch by the numbers that the caller knows, ascending.

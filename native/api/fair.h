@@ -15,8 +15,8 @@ enum class Method { global, paper };
 // was seen to have none, what was taken in its place.
 enum class Start { boundary, given, least_variation, loft, smoothed };
 
-// What of the reference is put back on the fair surface (detail/skin.h). With it vertices sit conformally to the base
-// of the reference, whatever `inner_fairness` says.
+// The detail of the reference that is put back on the fair surface (detail/skin.h). With it vertices sit conformally to
+// the base of the reference, whatever `inner_fairness` says.
 struct DetailOptions {
     double share = 0.0;  // 0 … 1; 0: nothing
     double size = 0.0;   // what is shorter than this, in units of D, counts as detail; 0: detail_wavelength
@@ -39,8 +39,8 @@ struct FairOptions {
 };
 
 struct FairResult {
-    Equation equation = Equation::harmonic;        // that holds: least_variation where any component took it instead
-    Provenance provenance = Provenance::equation;  // the last of all components' in the order of the list
+    Equation equation = Equation::harmonic;        // that holds: least_variation where any component took a stand-in
+    Provenance provenance = Provenance::equation;  // of all components' the last in the order of the enumeration
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;
@@ -61,7 +61,7 @@ struct FairResult {
     Diagnostics warnings;
 };
 
-// Is shown the first surface (method/nested): all of the mesh's vertices, before better ones are sought. Called
+// Receives all vertices with the first surface (method/nested) before a better one is sought. Called
 // once, by the calling thread.
 using Preview = std::function<void(const Points& vertices)>;
 

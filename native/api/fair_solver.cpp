@@ -37,7 +37,7 @@ std::vector<Patch> solvable_patches(const CheckedMesh& mesh, Diagnostics& warnin
         return true;
     });
     if (closed.empty()) return patches;
-    const std::string text = "a closed component has no fixed vertices to hold it: fix some of them";
+    const std::string text = "a closed component has no vertices to hold it: put some in `fixed`";
     if (patches.empty()) {
         throw MeshError(about(Code::no_boundary, text, closed, ElementKind::vertex, "closed"));
     }

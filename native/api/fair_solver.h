@@ -9,8 +9,8 @@ namespace fairing {
 
 struct PreparedMesh;
 
-// One call at a time. The constructor throws what check_mesh (connectivity) and prepare throw, where the numbering has
-// no great gaps; otherwise the first solve does.
+// One call at a time. The constructor throws what check_mesh (connectivity) and prepare throw; where vertex numbers
+// have great gaps, the first solve does.
 class FairSolver {
 public:
     FairSolver(Triangles triangles, std::optional<Indices> fixed, HeldInside held, FairOptions options);
@@ -33,7 +33,7 @@ private:
     std::unique_ptr<PreparedMesh> prepared_;
 };
 
-// What a call makes of the mesh before it solves; repeated calls keep it.
+// The mesh prepared for solving; repeated calls keep it.
 struct PreparedMesh {
     CheckedMesh mesh;
     bool finite;                           // all coordinates; where one is not, the topology depends on which

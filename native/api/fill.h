@@ -16,7 +16,8 @@ struct FillOptions {
     bool in_rows = false;          // quads in rows, each as two triangles
     double spacing = 0.0;          // of new edges away from the boundary; 0: as long as its own
     Spread spread = Spread::boundary;
-    int max_vertices = 0;  // more are refused; 0: 20 times as many as over a flat surface, or 50,000, 4,000,000 at most
+    int max_vertices =
+        0;  // more are refused; 0: 20 times those of a flat surface, at least 50,000 and at most 4,000,000
 };
 
 // Curves that run through a hole, as creases of a surface of least variation. Numbers from the mesh's count on are
@@ -31,9 +32,9 @@ struct CurvesThrough {
 
 struct FilledHole {
     std::vector<Indices> loops;                   // vertices of the mesh, the surface on the left
-    std::optional<Diagnostic> left_because = {};  // why it stays open: nothing of what follows is set then
+    std::optional<Diagnostic> left_because = {};  // why it stays open; then all that follows is empty
     Points vertices = {};                         // the new ones, those on curves first,
-    Triangles triangles = {};                     // numbered behind all vertices of the mesh
+    Triangles triangles = {};                     // numbered after all vertices of the mesh
     FairResult report = {};  // `vertices` and `base` are empty; elements of warnings are numbered likewise
     bool is_cut = false;     // from another mesh's surface
     bool along_curves = false;

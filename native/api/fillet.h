@@ -10,10 +10,11 @@ struct FilletInput {
     Points vertices;
     Triangles triangles;
     std::vector<VertexPair> seams;
-    std::vector<VertexPair> walls;  // edges that a fillet does not reach over
-    SeamWidths widths;              // of each vertex; those of the seams are read, and are positive: on the left is the
-                                    // larger part, as fillet/seam_sides has it
-    bool through = false;  // whether ends of seams cut the faces there (fillet/end_cuts), and do not fade out before
+    std::vector<VertexPair> walls;  // edges that the fillet does not cross
+    SeamWidths widths;  // of each vertex, positive; only those on seams are read. Left: the side with the larger part
+                        // (fillet/seam_sides)
+    bool through =
+        false;  // seams that end on an edge of a plane face go on through it (fillet/end_cuts), instead of fading out
     double spacing = 1.0;  // of new edges where the fillet is widest; elsewhere in proportion to its width
 };
 

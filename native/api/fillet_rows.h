@@ -5,8 +5,8 @@
 
 namespace fairing {
 
-// A fillet's surface, solved on triangles within the pieces of a cut. Numbers: the mesh's vertices, the cut's points,
-// new ones.
+// A fillet's surface, solved on triangles within the pieces of a cut. Vertices are numbered: the mesh's, then the cut's
+// points, then new ones.
 struct FilletSurface {
     Points vertices;
     Triangles triangles;
@@ -23,9 +23,9 @@ struct WantedRows {
 };
 
 struct FilletRows {
-    FilletCut cut;                          // without the line's points that quads leave out
+    FilletCut cut;                          // without points of the cut line that no quad uses
     std::vector<std::array<int, 4>> quads;  // of the surface's vertices, and of new ones, which follow:
-    Triangles triangles;                    // beside them, and the surface's that stay
+    Triangles triangles;                    // beside the quads, and those of the surface that stay
     Points places;                          // the new ones on the surface,
     Indices solved;                         // the triangles of the surface that they lie on,
     Points on_solved;                       // and their weights there;

@@ -8,13 +8,13 @@
 
 namespace fairing {
 
-// Triangles over the boundary of a hole, and what holds there. Vertices: those of the split boundary, then new ones.
+// Triangles over a hole's boundary, with the boundary data. Vertices: those of the split boundary, then new ones.
 struct HolePatch {
     Points vertices;
     Triangles triangles;
     Indices fixed;
     std::optional<Points> normals;  // at `fixed`; none for minimal surfaces
-    VertexPairs taken = {};         // vertices of the boundary that are joined outside
+    VertexPairs taken = {};         // pairs of boundary vertices joined by an edge outside
 
     [[nodiscard]] MeshInput input(const HeldInside& held) const {
         return {vertices, triangles, fixed, normals, std::nullopt, Triangles(3, 0), held, taken};
@@ -36,7 +36,7 @@ public:
     // Throws MeshError, SolverError, MemoryShortage, Cancelled.
     [[nodiscard]] FilledHole filled(const Progress& progress) const;
 
-    // About how many new vertices there will be, were the surface flat.
+    // Expected number of new vertices if the surface were flat.
     [[nodiscard]] double flat_count() const;
 
 private:
@@ -100,14 +100,14 @@ struct Rows {
 std::optional<Rows> rows_over(const HolePatch& solved, int old_count, const Progress& progress);
 
 // A pattern of quads in rows over a solved patch, and the equation on it where it is fine enough; the same patch, with
-// a warning, where no pattern fits. `solve`: on such a patch from where it is; `loops`: how many it joins.
+// a warning, where no pattern fits. `solve`: solves on such a patch, from its positions; `loops`: how many it joins.
 using SolveAgain = std::function<FairResult(const HolePatch&)>;
 SolvedHole in_rows(SolvedHole solved, int loops, int old_count, const SolveAgain& solve, const Progress& progress);
 
 // Another mesh on the surface: its new vertices come last, each on a triangle of the solved patch.
 SolvedHole cut_from(const SolvedHole& solved, const HolePatch& patch, const Indices& triangle, const Points& weights);
 
-// The triangles of quads, without a pattern; no quad runs across the edges `kept`.
+// Pairs of triangles that make the best quads where no pattern fits; never across edges `kept`.
 VertexPairs pairs_among(const SolvedHole& solved, const VertexPairs& kept);
 
 // NO_QUAD_ROWS: why quads are pairs of triangles. `why` is also the figure.

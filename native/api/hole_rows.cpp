@@ -98,8 +98,8 @@ Diagnostic no_rows(Indices loop, const char* why, const char* text) {
     const auto edges = static_cast<double>(loop.size());
     std::sort(loop.begin(), loop.end());
     loop.erase(std::unique(loop.begin(), loop.end()), loop.end());
-    const std::string message = "the quads over the boundary of " + std::to_string(static_cast<int>(edges)) +
-                                " edges are pairs of triangles, in no rows: " + text;
+    const std::string message = "no rows of quads over the boundary of " + std::to_string(static_cast<int>(edges)) +
+                                " edges, only pairs of triangles: " + text;
     return {Code::no_quad_rows, message, std::move(loop), ElementKind::vertex, {{"edges", edges}, {why, 1.0}}};
 }
 

@@ -138,9 +138,8 @@ Diagnostics not_tangent(const FairResult& report, const std::vector<Indices>& lo
         found.push_back(leaves(back, worst_back, "folded_back", "turns back",
                                "triangles around are folded over there: unfold them"));
     if (!off.empty())
-        found.push_back(
-            leaves(off, worst_off, "coarse", "leaves its surroundings",
-                   "the wall is thinner there than the boundary's edges are long: refine these and what is around"));
+        found.push_back(leaves(off, worst_off, "coarse", "leaves its surroundings",
+                               "the boundary's edges are longer there than the wall is thick: subdivide them"));
     return found;
 }
 

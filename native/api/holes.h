@@ -16,15 +16,15 @@ struct BorderedMesh {
     VertexPairs marked = {};  // edges that are hard whatever they bend
 };
 
-// Loops named by the caller, in either direction; empty: all holes. Slopes and curvatures are those of the mesh's
-// vertices, or rows in the order of the loops, which are then not parted where they touch; none: fitted.
+// Loops named by the caller, in either direction; empty: all holes. Normals and curvatures: for all vertices of the
+// mesh, or a row per vertex of each loop (loops that touch are then not split); none: fitted.
 struct NamedLoops {
     std::vector<Indices> loops = {};
     std::vector<Points> normals = {};
     std::vector<VectorX> curvatures = {};
     Points vertex_normals = {};
     VectorX vertex_curvatures = {};
-    int longest = 0;  // without names: edges of a loop that is not too long; 0: any
+    int longest = 0;  // without names: the most edges that a loop may have; 0: any
     double longest_length = 0.0;
 
     [[nodiscard]] bool are_parted() const { return normals.empty() && curvatures.empty(); }
@@ -36,7 +36,7 @@ struct LeftOpen {
     bool is_outer = false;  // around the outside of a sheet
 };
 
-// What one surface is to be made over: a loop, or several that are joined.
+// A loop, or several loops, to be closed by one surface.
 struct Hole {
     std::vector<BoundaryLoop> loops;  // vertices of the mesh, the surface on the left
     VertexPairs hard = {};            // edges around, across which no slope is fitted
@@ -56,7 +56,7 @@ public:
     ~HoledMesh() = default;
 
     [[nodiscard]] const BorderedMesh& mesh() const { return mesh_; }
-    // These vertices, others, and finite triangles within the rings that slopes depend on.
+    // A local mesh of `vertices`, `also`, and the finite triangles within the rings that slopes depend on.
     [[nodiscard]] LocalMesh around(const Indices& vertices, const Indices& also = {}) const;
     [[nodiscard]] const Stars& stars() const { return stars_; }
 

@@ -1,4 +1,4 @@
-// Vertices inside a patch of few large faces, none of whose own is free: a new mesh begins with these.
+// Adds inner vertices to a patch of few large faces that has no free vertex of its own.
 #pragma once
 
 #include "geometry/hard_edges.h"
@@ -14,7 +14,7 @@ struct RefinedPatch {
 };
 
 // Edges inside that are not `kept` are halved four times, and triangles without such an edge get a vertex in their
-// middle. Nothing where a vertex is free already, as the patch has a surface of its own then, or one inside is held.
+// middle. Nothing where some vertex is free already or a vertex inside is held.
 std::optional<RefinedPatch> with_inner_vertices(const Points& points, const Triangles& triangles,
                                                 const std::optional<Indices>& fixed, const VertexPairs& kept);
 

@@ -7,7 +7,7 @@
 
 namespace fairing {
 
-// Points that no triangle has may be anything; of the others, triangles with a corner that isn't finite don't count.
+// Unused points may be anything. Triangles of `others` with a corner that isn't finite are left out.
 struct JudgedMesh {
     Points points;
     Triangles surface;
@@ -17,7 +17,7 @@ struct JudgedMesh {
 };
 
 // The same mesh as it was, with other triangles where the surface is. `moved`: vertices whose edges are compared,
-// ascending; none where the triangles are others. `marked`: of these edges, those that are to stay.
+// ascending; none where the triangles are others. `marked`: edges among these that were marked as hard.
 struct JudgedBefore {
     Points points;
     Triangles surface;
@@ -34,11 +34,11 @@ struct Faults {
 struct Judged {
     VisibleJoin join;
     Faults now;
-    std::optional<Faults> before;  // crossings only where there are some now
+    std::optional<Faults> before;  // the old surface's; crossings are looked for only if `now` has some
     Indices pierced;               // triangles of the surface that pass through others, and did not before
-    Indices rounded;  // moved vertices at hard edges that ran on outside or outside alone, and are flat now
-    Indices blunt;    // the same at marked edges of the surface
-    Indices seams;    // see shape/kinks
+    Indices rounded;               // moved vertices at hard edges, outside or going on there, that are flat now
+    Indices blunt;                 // the same at marked edges of the surface
+    Indices seams;                 // see shape/kinks
 };
 
 // Vertices by the mesh's numbers. `is_clear`: no triangle of the surface is known to cross another one. Throws what

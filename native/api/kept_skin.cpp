@@ -149,7 +149,7 @@ std::vector<Patch> patches_with_vertices(const CheckedMesh& mesh) {
     std::vector<Patch> patches = make_patches(mesh.cut, mesh.roles);
     std::erase_if(patches, [](const Patch& patch) { return patch.free_count == patch.vertex_count(); });
     if (!patches.empty()) return patches;
-    throw MeshError({Code::no_free_vertices, "there is no vertex that may move, or none that holds them", {}, {}, {}});
+    throw MeshError({Code::no_free_vertices, "no vertex may move, or no vertex is held: check `fixed`", {}, {}, {}});
 }
 
 }  // namespace fairing

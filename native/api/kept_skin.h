@@ -12,7 +12,7 @@ namespace fairing {
 struct BaseBoundary {
     Points points;
     Points normals;      // unit; zero at pins
-    bool moved = false;  // whether it is not the boundary itself
+    bool moved = false;  // whether it is low-passed
 };
 
 // A surface with detail: 3 × local vertices each, in the caller's units.
@@ -49,13 +49,13 @@ private:
     std::unique_ptr<Skin> skin_;
     Points read_off_;                        // 3 × local vertices, the caller's
     std::optional<BaseBoundary> just_read_;  // data.reference's boundary, until `boundary` is asked for
-    Normalisation unit_{};                   // of that
+    Normalisation unit_{};                   // of the boundary of read_off_
     double wavelength_ = 0.0;                // share of D
     double seconds_ = 0.0;
     Diagnostics warnings_;
 };
 
-// In units of D. The arguments must outlive it.
+// A component of the input with its normals, in units of D, for sizing new meshes. The arguments must outlive it.
 struct OldSurface {
     OldSurface(const MeshInput& input, const CheckedMesh& mesh, const Patch& component);
 
@@ -70,7 +70,7 @@ private:
     void fit_at_creases(const std::vector<char>& free_slope);
 };
 
-// Those with free vertices. Throws NO_FREE_VERTICES where there are none.
+// Patches with free and with fixed vertices. Throws NO_FREE_VERTICES where there are none.
 std::vector<Patch> patches_with_vertices(const CheckedMesh& mesh);
 
 }  // namespace fairing

@@ -8,7 +8,7 @@ namespace fairing {
 // All loops along the border that are not too long. Throws NO_BOUNDARY where there are none.
 Holes found_loops(const HoledMesh& mesh, const NamedLoops& named);
 
-// Those that the caller names. Throws NOT_A_LOOP for those that are to be joined, or share an edge.
+// The loops that the caller names. Throws NOT_A_LOOP where two share an edge, and with `bridge` where one is no loop.
 Holes named_loops(const HoledMesh& mesh, const NamedLoops& named, bool bridge, bool are_parted = true);
 
 }  // namespace fairing

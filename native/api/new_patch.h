@@ -21,7 +21,7 @@ struct NewPatch {
     bool is_cut = false;  // from the surface of the old mesh
     Indices triangle;     // of the old mesh, for each new vertex,
     Points weights;       // and its barycentric coordinates there
-    Indices old;          // the old vertex that it is, one at a kept edge, or `none`
+    Indices old;          // the old vertex it equals, where that lies on a kept edge, or `none`
     std::optional<VertexPairs> pairs = {};  // `in_rows`: the triangles of each quad
 };
 

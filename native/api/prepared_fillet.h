@@ -6,14 +6,15 @@
 
 namespace fairing {
 
-// A mesh without what stops a cut at its seams: edges of no length, whose ends go apart, and caps.
+// The input with what would stop the cut removed: zero-length seam edges (their ends are moved apart) and caps at
+// seams.
 struct PreparedFillet {
     explicit PreparedFillet(const FilletInput& given);
     PreparedFillet(const PreparedFillet&) = delete;
     PreparedFillet& operator=(const PreparedFillet&) = delete;
 
     FilletInput input;
-    Indices plane;  // of each triangle: one given in whose plane it is
+    Indices plane;  // of each triangle: the given triangle in whose plane it lies
     SeamMesh mesh;
     SeamDistance distance;
     SideNormals sides;
@@ -27,11 +28,11 @@ struct GivenPlace {
 };
 GivenPlace given_place(const FilletInput& given, const PreparedFillet& made, int triangle, const Vector3& place);
 
-// Where the fillet is narrowest.
+// The spacing of new edges where the fillet is narrowest.
 double finest_spacing(const FilletInput& input);
-// Where it is cut.
+// The lines along which the mesh is cut: where the fillet ends.
 LevelLine fillet_line(PreparedFillet& made);
-// Finds what of a cut is not its mesh.
+// Fills in all of a cut but its mesh: boundary, spacings, weights.
 void finish_cut(const FilletInput& given, PreparedFillet& made, FilletCut& cut);
 
 }  // namespace fairing

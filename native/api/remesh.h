@@ -11,7 +11,7 @@ namespace fairing {
 struct NewMesh {
     Points vertices;      // new ones
     Points normals;       // of the surface there, unit
-    Triangles triangles;  // numbers below the count of old vertices are those, the others new ones
+    Triangles triangles;  // numbers below the count of old vertices are old vertices
     Indices triangle;     // of the old mesh, for each new vertex,
     Points weights;       // and its barycentric coordinates there
     Indices old;          // the old vertex that it is, one at a kept edge, or `none`

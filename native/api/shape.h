@@ -1,4 +1,4 @@
-// What surfaces look like: shape/, measured on whole meshes and by input vertices. Positions must be finite.
+// shape/ for whole meshes, by input vertices. Positions must be finite.
 #pragma once
 
 #include "api/input.h"

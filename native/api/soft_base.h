@@ -1,4 +1,4 @@
-// The base of a faired patch and its surroundings, and the same without short waves, towards which a feather moves it.
+// The base of a faired patch and its surroundings, and the low-passed one, towards which a feather moves it.
 #pragma once
 
 #include "api/input.h"
@@ -7,7 +7,8 @@
 namespace fairing {
 
 struct FairedSurface {
-    const MeshInput& mesh;            // faired, all detail put back; patches, bands and more around; free what may move
+    const MeshInput&
+        mesh;  // the faired mesh with all its detail: patches, bands and their surroundings; free: what may move
     const Points& base;               // of the fair surfaces
     const std::vector<char>& faired;  // the vertices, among the free ones, that `base` belongs to
 };
@@ -21,7 +22,7 @@ struct SoftBaseSizes {
 // 3 × vertices; where a vertex is fixed, and in patches without area, its place.
 struct SoftBase {
     Points base;  // where faired the fair surface, elsewhere the low-pass surface (detail/skin)
-    Points soft;  // that without what repeats within less than two widths or D/2: its join is round
+    Points soft;  // `base` without waves shorter than two widths (D/2 at most): its join is round
 };
 
 // Throws what check_mesh throws, NO_BOUNDARY and Cancelled.

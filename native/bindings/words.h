@@ -24,7 +24,7 @@ struct Words {
         for (const auto& [name, enumerator] : list) {
             if (enumerator == value) return std::string(name);
         }
-        throw std::invalid_argument(std::string(option) + ": a value without a word");
+        throw std::invalid_argument(std::string(option) + ": unknown value");
     }
 };
 

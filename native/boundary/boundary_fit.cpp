@@ -23,7 +23,7 @@ VertexPairs without(const VertexPairs& all, const VertexPairs& some) {
     return rest;
 }
 
-// Places in `vertices` of those all of whose boundary edges are among `chosen`.
+// Indices into `vertices` of those whose boundary edges are all in `chosen`.
 Indices places_between(const VertexPairs& chosen, const VertexPairs& boundary, const Indices& vertices,
                        Eigen::Index count) {
     const Indices all = counts_at(boundary, count);
@@ -47,7 +47,7 @@ void take(SidedFits& side, const Indices& vertices, const Indices& places, Surro
 // Whether the patch's own slopes are to be relied on: those of a dome are, those of noise or of a pocket's wall not.
 bool is_clean(const SurroundingFit& own, const SurroundingFit& film, const Indices& places) {
     constexpr double most_uncertain = 0.01;  // radians
-    constexpr double most_apart = 5.0;       // degrees from the first row: more is a curve through few rows
+    constexpr double most_apart = 5.0;       // degrees off the adjacent triangles: more is a curve through few rows
     const auto clean = std::count_if(places.begin(), places.end(), [&](int k) {
         const auto& fit = own.fits[k];
         return fit && fit->error < most_uncertain && degrees_between(fit->normal, own.averaged.col(k)) < most_apart &&

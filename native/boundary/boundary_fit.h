@@ -8,7 +8,7 @@ namespace fairing {
 
 enum class SideRule { automatic, inside };
 
-// Any triangles of the same vertices.
+// A patch and the triangles around it, both as indices into `points`.
 struct Surroundings {
     const Points& points;
     const Triangles& patch;
@@ -17,12 +17,12 @@ struct Surroundings {
 
 struct BoundaryNormals {
     SurroundingNormals normals;
-    std::vector<char> from_inside;  // of each vertex: not the slope outside
+    std::vector<char> from_inside;  // of each vertex: the slope is the patch's own or the film's, not the outside's
 };
 
 // At `vertices`, which don't move. `automatic`: along walls (walls_of) the slope is that of the patch's own triangles
 // where these are clean, else that of a film over the boundary. `inside`: all boundary edges take that of the patch's
-// own triangles. A vertex between edges of both kinds takes the slope outside. One that is on no boundary edge, too.
+// own triangles. A vertex between edges of both kinds, or on no boundary edge, takes the slope outside.
 BoundaryNormals boundary_normals(const Surroundings& mesh, const Indices& vertices, const VertexPairs& creases,
                                  SideRule rule);
 

@@ -52,7 +52,7 @@ SparseMatrix third_differences(const Run& run) {
     return result;
 }
 
-// What a difference makes of a wave of so many vertices.
+// The factor by which a first difference scales a wave of `wave` vertices.
 double frequency(double wave) { return 2.0 * std::sin(std::numbers::pi / wave); }
 
 // The mean and the first wave around a closed run: an ellipse, which no smoothing is to shrink.

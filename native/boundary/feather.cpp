@@ -20,8 +20,8 @@ std::vector<Edge> shared_edges(const Triangles& inside, const Triangles& outside
     return shared;
 }
 
-// A walk from the boundary outwards, the nearest first: from vertex to vertex goes the nearest edge, with those next to
-// it.
+// Dijkstra outwards from the boundary: a vertex offers its neighbours its own nearest boundary edge and the edges next
+// to that.
 class Walk {
 public:
     Walk(const Points& points, const Triangles& outside, std::vector<Edge> edges, const std::vector<char>& stops)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double least_noise = 0.02;  // edges
 constexpr double farthest = 0.25;     // edges
-constexpr int rings_outside = 2;      // that follow
+constexpr int rings_outside = 2;      // move by part of the distance
 
 // How much of the distance each vertex goes: 1 on the boundary, ⅔ and ⅓ on the rings outside, 0 beyond.
 VectorX shares(const Triangles& triangles, const Indices& boundary, Eigen::Index count) {
@@ -82,7 +82,7 @@ Indices hold_folds(const Points& points, const Triangles& triangles, Points& mov
 
 constexpr double least_error = 0.15;    // radians
 constexpr double least_height = 0.3;    // edges
-constexpr double times_median = 4.0;    // what is usual along this boundary
+constexpr double times_median = 4.0;    // the median is what is usual here
 constexpr double largest_share = 0.15;  // of the boundary
 
 // For places with triangles: standard errors and heights over the fit, in edges; infinite without a fit.

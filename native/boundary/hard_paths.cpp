@@ -8,13 +8,13 @@ namespace fairing {
 
 namespace {
 
-constexpr double least_hard = 0.75;  // of the path through a patch: less is no edge of it
-constexpr double hard_cost = 1e-3;   // as much of a hard edge's length counts: the path leaves these where it must
+constexpr double least_hard = 0.75;  // share of a path's length that must be hard
+constexpr double hard_cost = 1e-3;   // weight of a hard edge's length: paths leave hard edges only where they must
 
 // From one vertex to all within reach.
 struct Tree {
     std::vector<char> reached;
-    VectorX far;
+    VectorX distance;
     Indices before;
     Indices by;  // the edge from there
 };
@@ -34,12 +34,12 @@ public:
             total += 2.0 * length;
             if (is_hard) hard_length += length;
         }
-        // Longer than that no soft part of a path may be.
+        // The longest soft part that any accepted path can have.
         const double most = (1.0 / least_hard - 1.0) * hard_length;
         farthest_ = (1.0 + hard_cost) * most + hard_cost * total;
     }
 
-    // The edges of the paths from each end to the place where all of them meet; none where they are soft.
+    // Edges of the paths from each end to the vertex where they meet; none where too little of them is hard.
     [[nodiscard]] std::set<int> path(const Indices& ends) const {
         std::vector<Tree> trees;
         trees.reserve(ends.size());
@@ -78,7 +78,7 @@ private:
                 found.by[other] = edge;
             }
         }
-        found.far = std::move(ahead).take();
+        found.distance = std::move(ahead).take();
         return found;
     }
 
@@ -88,7 +88,7 @@ private:
         double least = std::numeric_limits<double>::infinity();
         for (int v = 0; v < static_cast<int>(at_.size()); ++v) {
             double sum = 0.0;
-            for (const Tree& each : trees) sum += each.reached[v] != 0 ? each.far[v] : least;
+            for (const Tree& each : trees) sum += each.reached[v] != 0 ? each.distance[v] : least;
             if (!(sum < least)) continue;
             least = sum;
             best = v;
@@ -99,7 +99,7 @@ private:
     const VertexPairs& edges_;
     std::vector<Indices> at_;  // edges at each vertex
     std::vector<double> lengths_;
-    std::vector<double> soft_;  // as much of each is not hard
+    std::vector<double> soft_;  // of each edge: its length, or 0 where it is hard
     double farthest_ = 0.0;
 };
 

@@ -12,7 +12,7 @@ struct BoundaryData {
     Points normals;
 };
 
-// How much any surface with this boundary has to vary: (dκ/ds)² along the boundary's edges, each over a square on it,
+// How much any surface with this boundary has to vary: Σ (dκ/ds)² |e|² over the boundary's edges e,
 // with dκ/ds = 6 ⟨n_i + n_j, e⟩ / |e|³ along an edge e. Zero for boundary loops on spheres and cylinders; in units of
 // length⁻².
 double boundary_variation(const Patch& patch, const BoundaryData& boundary);
@@ -22,8 +22,8 @@ double boundary_variation(const Patch& patch, const BoundaryData& boundary);
 // and what lies on no loop stay.
 BoundaryData low_passed_boundary(const Patch& patch, const BoundaryData& boundary, double wave);
 
-// Every vertex of the triangles that is not held at the mean of its neighbours: discs over flat loops are flat.
-// Vertices that hang together with no held one stay.
+// Puts every vertex that is not `held` at the mean of its neighbours: discs over flat loops are flat.
+// Vertices connected to no held one stay.
 Points closing_surface(const Points& points, const Triangles& triangles, const std::vector<char>& held);
 
 // Surroundings that are broken along creases.

@@ -37,7 +37,7 @@ BoundaryEdges border_edges(const Triangles& triangles, const Indices& place) {
     return border;
 }
 
-// A two-sided edge counts twice.
+// Mean lengths of the edges at each vertex; an edge inside counts twice.
 VectorX edge_lengths(const Points& points, const Triangles& triangles, const Indices& vertices) {
     VectorX sum = VectorX::Zero(points.cols());
     VectorX count = VectorX::Zero(points.cols());
@@ -60,7 +60,7 @@ struct Pair {
     int i;
     int j;
     Vector3 disagreement;  // of the normals found at both ends with the predicted turn: n̂_i − n̂_j − g_ij
-    double weight;         // times σ_i σ_j: μ where both fits predict the same turn
+    double weight;         // μ σ_i σ_j/(σ_i σ_j + δ_ij²): μ where both fits predict the same turn
 };
 
 Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
@@ -74,7 +74,7 @@ Pair make_pair(const SurroundingFit& fit, const VectorX& errors, int i, int j) {
             strength / (1.0 + variance / (errors[i] * errors[j]))};
 }
 
-// The equations for m, n_i = n̂_i + σ_i m_i: a symmetric M-matrix of moderate size whatever the σ.
+// The equations for m, n_i = n̂_i + σ_i m_i: a symmetric M-matrix with entries of moderate size whatever the σ.
 class FilterSystem {
 public:
     explicit FilterSystem(const SurroundingFit& fit)
@@ -176,10 +176,9 @@ SurroundingNormals surrounding_normals(const Points& points, const Triangles& tr
     return normals_of(fit_surroundings(points, triangles, vertices, creases));
 }
 
-// Those within so many rings of the vertices: fits reach Neighbourhood::most_rings, and what is usual around a hard
-// edge three more.
+// Those within so many rings of the vertices.
 Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Eigen::Index count) {
-    constexpr int rings = Neighbourhood::most_rings + 3;  // see above
+    constexpr int rings = Neighbourhood::most_rings + 3;  // fits, and the usual bend around a hard edge
     std::vector<char> reached(static_cast<std::size_t>(count), 0);
     for (int v : vertices) reached[v] = 1;
     std::vector<Eigen::Index> near;

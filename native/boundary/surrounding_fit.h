@@ -12,17 +12,17 @@ using BoundaryEdges = std::vector<std::array<int, 2>>;
 
 struct SurroundingFit {
     std::vector<std::optional<SlopeFit>> fits;  // of each vertex asked for, in units of `size`
-    std::vector<char> parted;                   // by hard edges, and no side counts: the fit sees all
-    Points centres;                             // 3 × k, likewise
+    std::vector<char> parted;                   // hard edges meet there and no side is preferred: the fit uses all
+    Points centres;                             // 3 × k: the vertices, in units of `size`
     Points averaged;                            // 3 × k: unit mean normals of the adjacent triangles, zero without any
-    VectorX lengths;                            // k: mean lengths of the adjacent edges, likewise; zero without any
-    Indices first;                              // k: the first place of the same vertex
-    BoundaryEdges edges;                        // border edges between first places, each once
-    double size = 1.0;                          // of the coordinates
-    VertexPairs hard = {};                      // edges at which the surface around is broken
+    VectorX lengths;        // k: mean lengths of the adjacent edges, in units of `size`; zero without any
+    Indices first;          // k: the first place of the same vertex
+    BoundaryEdges edges;    // border edges between the vertices asked for, as indices into these
+    double size = 1.0;      // of the coordinates
+    VertexPairs hard = {};  // edges at which the surface around is broken
 };
 
-// The same without fits and averaged normals yet.
+// A SurroundingFit whose fits and averaged normals are still to be filled in.
 SurroundingFit blank_fit(const Points& points, const Triangles& triangles, const Indices& vertices, double size);
 
 // Fits with free centres, from one side of each hard edge (SidedFits); `creases` are hard edges, too.
@@ -49,7 +49,8 @@ Triangles triangles_near(const Triangles& triangles, const Indices& vertices, Ei
 class SidedFits {
 public:
     // For the vertices `at` on the surface that `triangles` form. Coordinates: as for SurfaceFits. Edges in `marked`
-    // are hard. `elsewhere`, ascending: border edges that choose no side. Keeps a reference to the points.
+    // are hard. `elsewhere`, ascending: border edges that have no say in which side counts. Keeps a reference to the
+    // points.
     SidedFits(const Points& points, const Triangles& triangles, const Indices& at, const VertexPairs& marked,
               const VertexPairs& elsewhere = {});
 

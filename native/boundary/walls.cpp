@@ -23,33 +23,34 @@ struct Means {
     Eigen::Vector2d film = Eigen::Vector2d::Zero();   // likewise; between loops the path to the next one
     Eigen::Vector2d rows = Eigen::Vector2d::Zero();   // likewise, of the arc that the first two rows outside lie on
     double rows_bend = 0.0;                           // its curvature times distance to the loop's middle
-    Eigen::Vector2d cut = Eigen::Vector2d::Zero();    // likewise, of an arc over half of that distance, times
+    Eigen::Vector2d cut = Eigen::Vector2d::Zero();    // likewise, of an arc over half of that distance
     double cut_bend = 0.0;                            // likewise, its curvature
-    double cut_weight = 0.0;                          // the arc's squared length: short ones are noisy
-    Vector3 rulings = Vector3::Zero();                // of edges without one: where their only row goes
+    double cut_length = 0.0;                          // of the edges that have one
+    Vector3 rulings = Vector3::Zero();                // of edges with a single row outside: its direction
     double length = 0.0;
-    double least = fading_bend;  // degrees of a wall
+    double least = fading_bend;  // degrees off the surroundings from which on it is a wall
 };
 
 double angle_of(const Eigen::Vector2d& sum) { return std::atan2(sum.y(), sum.x()) / degree; }
 
 constexpr double flat = 1.0;          // degrees: the two triangles of a quad
-constexpr double explained = 0.25;    // of the dip: balls .8 to 1.1, ellipsoids .35 to 2, boxes and cans 0 to .05
+constexpr double explained = 0.25;    // least share of the film's bend that curvature explains where there is no wall:
+                                      // balls .8 to 1.1, boxes 0 to .05
 constexpr double noise_margin = 3.0;  // as of hard edges: bends to the other side come from noise
 constexpr double parallel = 0.996;    // cosine: 5 degrees, the tilt of a draft; more is a ball's row
-constexpr double rounder = 1.25;      // bend of which there is no ball: it has 1 at most
-constexpr double far_rounder = 3.0;   // times the dip
-// Share of a loop: real meshes have single edges like walls everywhere.
+constexpr double rounder = 1.25;      // curvature times distance to the middle: balls have at most 1
+constexpr double far_rounder = 3.0;   // times the sine of off_rows
+// Share of a loop: real meshes have single wall-like edges everywhere.
 constexpr double shortest_row = 0.125;
 
-// Degrees, from where the arc across goes on.
+// Degrees between a direction and the continued cross-section outside.
 double off_cut(const Means& part, const Eigen::Vector2d& sum) { return angle_of(sum) - angle_of(part.cut); }
 
 bool may_be_wall(const Means& part) {
     return std::abs(off_cut(part, part.patch)) > fading_bend || part.rows_bend > rounder * part.length;
 }
 
-// What the first two rows say bends more than any ball, and goes on in the film.
+// Whether the arc through the first two rows curves more than any ball, and the film continues it.
 bool is_bevel(const Means& part) {
     const double off_rows = std::abs(angle_of(part.film) - angle_of(part.rows));
     const double least = std::max(rounder, far_rounder * std::sin(off_rows * degree));
@@ -61,7 +62,7 @@ bool is_wall(const Means& part) {
     const double patch = off_cut(part, part.patch);
     const double dip = std::sin(film * degree);
     const double row = part.rulings.norm() < parallel * part.length ? dip : 0.0;
-    const double bend = part.cut_weight > 0.0 ? part.cut_bend / part.cut_weight : row;
+    const double bend = part.cut_length > 0.0 ? part.cut_bend / part.cut_length : row;
     const bool is_unexplained = bend * dip < explained * dip * dip;
     const bool bends_away = std::min(film, patch) > part.least;
     const bool bends_back = std::max(film, patch) < -part.least;
@@ -90,7 +91,7 @@ public:
         Walls result{{}, closing_surface(mesh_.points, mesh_.whole, held)};
         const std::vector<Place> places = places_of(loops);
         for (int k = 0; k < size(); ++k)
-            add_film(edges_[k], way_to_next_loop(places, k), result.film, means[parts.root(k)]);
+            add_film(edges_[k], path_to_next_loop(places, k), result.film, means[parts.root(k)]);
         std::vector<char> marks(edges_.size(), 0);
         for (int k = 0; k < size(); ++k) marks[k] = is_wall(means[parts.root(k)]) ? 1 : 0;
         UnionFind rows = joined([](int) { return true; }, marks);
@@ -106,7 +107,7 @@ public:
 private:
     [[nodiscard]] int size() const { return static_cast<int>(edges_.size()); }
 
-    // Edges that meet at vertices that join them; all edges, or those that are marked.
+    // Sets of edges, joined at vertices where `joins` is true; of the marked edges only, where marks are given.
     template <typename Joins>
     [[nodiscard]] UnionFind joined(const Joins& joins, const std::vector<char>& marks = {}) const {
         std::map<int, int> at_vertex;
@@ -157,7 +158,7 @@ private:
         return (turned ? -1.0 : 1.0) * direction(between(edge));
     }
 
-    // Of the first row outside, wound as the patch.
+    // The normal of the triangle outside, turned to the patch's winding.
     [[nodiscard]] Vector3 normal_at(const Meeting& edge) const {
         return winding(edge) * normal_of(mesh_.points, mesh_.outside, edge.outside);
     }
@@ -167,7 +168,7 @@ private:
         return turn(edge, normal_of(points, mesh_.inside, edge.inside).cross(along(edge)));
     }
 
-    // A direction square to the edge.
+    // The same for a direction `inwards`, square to the edge.
     [[nodiscard]] Eigen::Vector2d turn(const Meeting& edge, const Vector3& inwards) const {
         const Vector3 normal = normal_at(edge);
         return between(edge).norm() * Eigen::Vector2d(inwards.dot(normal.cross(along(edge))), -inwards.dot(normal));
@@ -205,7 +206,7 @@ private:
     }
 
     // From the edge to the nearest one of another loop of its piece, if there is one.
-    static std::optional<Vector3> way_to_next_loop(const std::vector<Place>& places, int k) {
+    static std::optional<Vector3> path_to_next_loop(const std::vector<Place>& places, int k) {
         std::optional<Vector3> onward;
         for (const Place& other : places) {
             if (other.piece != places[k].piece || other.loop == places[k].loop) continue;
@@ -215,8 +216,8 @@ private:
         return onward;
     }
 
-    // The surroundings cut across the edge, from its middle: where triangles end, and which of these ends are rows'
-    // (faces in a plane are one row). `near`: how many there are up to the first beyond `reach` or at a hard edge.
+    // The cross-section of the surroundings from the edge's middle: crossed edges, and which of them end a row
+    // (coplanar faces are one row). `near`: count of crossings up to the first beyond `reach` or at a hard edge.
     struct Cut {
         std::vector<Vector3> ends;
         std::vector<std::size_t> rows;
@@ -261,7 +262,7 @@ private:
         return cut;
     }
 
-    // The arcs through the edge's middle and these ends, seen along the edge.
+    // Adds the arcs through the edge's middle and the crossings outside, seen along the edge.
     void add_rows(const Meeting& edge, double reach, Means& means) const {
         const Cut cut = cut_beyond(edge, 0.5 * reach);
         const Vector3 normal = normal_at(edge);
@@ -281,11 +282,10 @@ private:
         };
         const double length = between(edge).norm();
         if (cut.near > 1) {
-            const double weight = length * cut.ends[cut.near - 1].squaredNorm();
             const auto [bend, onward] = arc(cut.near / 2 - 1, cut.near - 1);
-            means.cut += weight * onward;
-            means.cut_bend += weight * reach * bend;
-            means.cut_weight += weight;
+            means.cut += length * onward;
+            means.cut_bend += length * reach * bend;
+            means.cut_length += length;
         } else if (cut.near == 1) {
             means.rulings += length * direction(cut.ends[0]);
         }

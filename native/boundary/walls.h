@@ -13,7 +13,7 @@ struct PatchInMesh {
     const Triangles& whole;  // patch
 };
 
-// All edges with one triangle on either side, smaller index first, ascending.
+// Edges between a triangle inside and one outside, smaller index first, ascending.
 VertexPairs boundary_edges(const PatchInMesh& mesh);
 
 struct Walls {
@@ -21,16 +21,16 @@ struct Walls {
     Points film;  // closing_surface over the vertices that don't move; empty without any wall
 };
 
-// The boundary edges at which the surroundings are walls. A film over the boundary dips below their tangents there, and
-// their curvature does not explain it: on a ball, curvature times distance to the loop's middle is the sine of the dip,
-// on the sides of boxes, cans and cones it is nearly nothing; of a single row up to a border nobody knows it, and the
-// row of a wall goes one way all along. Or their first two rows lie on an arc that curves more than any ball that spans
-// the loop, and goes on in the film: a bevel. Tangents and curvatures are those of cuts across the edges: no fits, as
-// any three rows lie on a ball or a strip. Between several loops the path to the next one takes the film's place, which
-// has a waist where a tube goes on, and `hard_bend` that of half of it. A boundary is parted where `hard` edges outside
-// end at it, and each part decides as a whole; walls shorter than an eighth of their loop don't count. The patch counts
-// in its mean alone, so that noise does not: a part is no wall where the patch's own triangles go on along the
-// surroundings, as at the end of a finger; along a bevel it doesn't count at all. `still`: vertices that don't move.
+// The boundary edges at which the surroundings are walls. There a film over the boundary and the patch's own triangles
+// both bend off the tangents outside, and the curvature outside explains less than a quarter of the film's bend (all of
+// it on a ball, nothing on a box). A single row shows no curvature: it is a wall where it leads off in one direction
+// all along. Bevels are walls, too: the first two rows lie on an arc that curves more than any ball that spans the
+// loop, and the film continues it. Tangents and curvatures come from cuts across the edges, not from fits, which make a
+// ball or a strip of any three rows. Between several loops the direction to the next loop replaces the film, which has
+// a waist, and the limit is `hard_bend` instead of half of it. A boundary is parted where `hard` edges outside end at
+// it, and each part decides as a whole; walls shorter than an eighth of their loop don't count. The patch's triangles
+// count by their mean, against noise: where they continue the surroundings, as at the end of a finger, there is no
+// wall. For bevels they do not count. `still`: vertices that don't move.
 Walls walls_of(const PatchInMesh& mesh, const Indices& still, const VertexPairs& hard);
 
 }  // namespace fairing

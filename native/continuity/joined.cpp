@@ -56,7 +56,7 @@ std::optional<Solution> acceptable(const Problem& problem, const KnownCurvature&
 }
 
 // With the fastest waves of H first. On boundaries in steps these may not answer to the multipliers, and the iteration
-// does not settle: long waves do, and meet what is smooth of H as well.
+// does not converge: long waves do, and meet what is smooth of H as well.
 std::optional<Solution> with_curvature(const Problem& problem, const KnownCurvature& known, const Solution& tangent,
                                        const Progress& progress) {
     // Slower waves where faster ones have no surface.

@@ -65,7 +65,7 @@ Eigen::VectorXcd solved(const ComplexMatrix& form, const Eigen::VectorXcd& rhs) 
         const VectorX pivots = factor.vectorD().real();
         if (pivots.minCoeff() > roundoff * pivots.maxCoeff()) return factor.solve(rhs);
     }
-    throw SolverError("the map is not determined: a piece of the mesh has no area, or less than two fixed vertices");
+    throw SolverError("the map is not determined: a piece of the mesh has no area, or fewer than two fixed vertices");
 }
 
 }  // namespace

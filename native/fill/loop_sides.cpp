@@ -82,10 +82,8 @@ void check_walls(const std::vector<BoundaryLoop>& loops) {
     if (one.dot(loops[1].shape.normals.rowwise().mean()) < facing) return;
     Indices all = loops[0].vertices;
     all.insert(all.end(), loops[1].vertices.begin(), loops[1].vertices.end());
-    throw MeshError(
-        refusal("both are holes in walls that face one way, no surface joins them smoothly: pull their "
-                "rims out into ends of a tube first",
-                std::move(all), "one_way"));
+    throw MeshError(refusal("both holes face the same way: extrude their borders towards each other first",
+                            std::move(all), "one_way"));
 }
 
 }  // namespace
@@ -149,7 +147,7 @@ Diagnostic not_joined(const std::vector<BoundaryLoop>& loops) {
     if (loops[worst].is_bare)
         return refused(loops, worst, "the surface would lead away from the others there",
                        "turn its normals or its direction");
-    return refusal(named(loops, worst) + ": the triangles around it lie between: cut them back, or leave it out",
+    return refusal(named(loops, worst) + ": its own triangles are in the way: cut them back, or leave it out",
                    loops[worst].vertices, "between");
 }
 

@@ -28,9 +28,9 @@ void Limit::check(double count, Indices around, bool found) const {
     constexpr double small = 1000.0;  // that are solved in any case
     const double limit = found || is_chosen ? most : std::min(most, std::max(small, out_of_proportion * flat));
     if (count <= limit) return;
-    std::string text = "the surface would take about " + rounded(count) + " new vertices, and " + rounded(limit) +
-                       " are accepted: raise `spacing`, or allow more by `max_vertices`";
-    if (!found) text = "no surface was found on a small mesh, and " + text;
+    std::string text = "the surface would need about " + rounded(count) + " new vertices, the limit is " +
+                       rounded(limit) + ": raise `spacing`, or allow more by `max_vertices`";
+    if (!found) text = "a coarse mesh gave no surface, and " + text;
     std::sort(around.begin(), around.end());
     around.erase(std::unique(around.begin(), around.end()), around.end());
     throw MeshError({Code::out_of_proportion,

@@ -145,8 +145,7 @@ void refuse_pinched(const Indices& loop) {
         if (!once.insert(v).second) twice.insert(v);
     const Indices where(twice.begin(), twice.end());
     if (!where.empty())
-        refuse_wires(Code::no_cell,
-                     "the boundary of a cell passes " + listed(where) + " twice: add a wire that divides it", where,
+        refuse_wires(Code::no_cell, "an area touches " + listed(where) + " twice: add a wire that divides it", where,
                      "pinched");
 }
 
@@ -174,9 +173,7 @@ void add_cells(WireCells& cells, std::vector<Vector3>& normals, const WireNetwor
     const std::vector<Face> faces = faces_of(network, points);
     for (const Face& face : faces)
         refuse_both_sides(network, face.darts(),
-                          " divide nothing, as one cell lies on both of their sides: remove them, or add wires that "
-                          "divide it",
-                          "both_sides");
+                          " have the same area on both sides: remove them, or add wires that divide it", "both_sides");
     std::vector<const Face*> filled;
     std::vector<const Face*> lids;
     std::vector<const Face*> outside;
@@ -184,8 +181,7 @@ void add_cells(WireCells& cells, std::vector<Vector3>& normals, const WireNetwor
         (face.is_cell() ? filled : closed && face.turn() > most_outside ? lids : outside).push_back(&face);
     Indices loose;
     for (const Face* face : outside) loose.insert(loose.end(), face->darts().begin(), face->darts().end());
-    refuse_both_sides(network, loose,
-                      " bound no cell: on both sides is an opening; add wires across these, or have them closed",
+    refuse_both_sides(network, loose, " bound only openings: add wires across these, or pass `closed=True`",
                       "openings");
     const Vector3 middle = middle_of(network, points);
     double volume = 0.0;

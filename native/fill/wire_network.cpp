@@ -86,8 +86,8 @@ void turn_to_one_side(WireNetwork& network, const View<Points>& points) {
         std::ranges::sort(where);
         where.erase(std::ranges::unique(where).begin(), where.end());
         refuse_wires(Code::unclear_cells,
-                     "a surface along the wire at " + listed(where) + " comes back to its own other side: remove it",
-                     where, "one_sided");
+                     "a surface along the wire at " + listed(where) + " would be a Möbius strip: remove it", where,
+                     "one_sided");
     }
     for (auto& [v, node] : network.nodes)
         if (sides.find(v).second) node.normal = -node.normal;
@@ -111,9 +111,8 @@ void put_in_order(int vertex, WireNode& node, const Points& directions) {
     for (const auto& [angle, dart] : by_angle) {
         if (angle - before < least_gap)
             refuse_wires(Code::unclear_cells,
-                         "wires leave " + listed({vertex}) +
-                             " one above the other, so that their order around it can't be told: part them, or "
-                             "remove one",
+                         "wires overlap at " + listed({vertex}) +
+                             ", so that their order is unclear: move them apart, or remove one",
                          {vertex});
         before = angle;
         node.darts.push_back(dart);

@@ -206,16 +206,16 @@ void BoxTree::descend(int level, const Pair& pair, const Walk& walk) const {
 }
 
 void BoxTree::visit_triangles(const Pair& pair, const Walk& walk) const {
-    bool settles = false;
+    bool decides = false;
     compare(0, pair, [&](int k, const Four& gaps) {
         std::array<int, 4> others;
         std::size_t count = 0;
         for (int l = pair.first == pair.second ? k + 1 : 0; l < 4; ++l) {
             if (gaps[l] < 0.0) others[count++] = order_[4 * pair.second + l];
         }
-        if (count > 0 && walk.visit(order_[4 * pair.first + k], std::span(others).first(count))) settles = true;
+        if (count > 0 && walk.visit(order_[4 * pair.first + k], std::span(others).first(count))) decides = true;
     });
-    if (!settles) return;
+    if (!decides) return;
     for (const int leaf : {pair.first, pair.second}) {
         if (is_settled(leaf, walk.is_settled)) walk.nodes.add(leaf);
     }

@@ -10,11 +10,11 @@ namespace fairing {
 
 namespace {
 
-constexpr double width_of_weights = 0.6;   // over the distance of the farthest point: it counts for 6 % in each row
-constexpr double least_pivot = 1e-4;       // of the largest, where the columns are about of one size
-constexpr int most_rounds = 10;            // a bound: rounds end when they change nothing
-constexpr double settled = 1e-12;          // radians, rounding: the normal has converged
-constexpr double settled_in_noise = 1e-3;  // standard errors
+constexpr double width_of_weights = 0.6;     // over the distance of the farthest point: it counts for 6 % in each row
+constexpr double least_pivot = 1e-4;         // of the largest, where the columns are about of one size
+constexpr int most_rounds = 10;              // a bound: rounds end when they change nothing
+constexpr double converged = 1e-12;          // radians, rounding: the normal has converged
+constexpr double converged_in_noise = 1e-3;  // standard errors
 
 // Columns of the system: quadratic and cubic terms, the constant where the centre is free, then x and y; the heights
 // stand in the last one.
@@ -234,7 +234,7 @@ std::optional<SlopeFit> fit_slopes(const Vector3& centre, std::span<const Vector
         const Vector3 direction = is_strip ? axes.x : most_curved(round->terms, axes);
         take(result, *round, axes);
         axes = turned_into(direction, result.normal);
-        if (change < std::max(settled, settled_in_noise * round->error)) break;
+        if (change < std::max(converged, converged_in_noise * round->error)) break;
     }
     if (!(result.normal.dot(start) > cos_of_widest_turn)) return std::nullopt;
     result.curvature_error = fit.error_of_curvature() / fit.scale();

@@ -35,7 +35,7 @@ std::vector<Indices> Patch::loops() const {
 
 void Patch::refuse(int side) const {
     throw MeshError({Code::nonmanifold_edge,
-                     "triangle " + std::to_string(input_triangle[side / 3]) + " can't be joined to its neighbours",
+                     "triangle " + std::to_string(input_triangle[side / 3]) + " clashes with its neighbours: delete it",
                      {to_input[side_tail(triangles, side)], to_input[side_head(triangles, side)]},
                      ElementKind::vertex,
                      {{"edges", 1}}});

@@ -67,7 +67,7 @@ void check_fans(const Fans& fans, const VertexRoles& roles) {
     throw MeshError(about(Code::nonmanifold_vertex,
                           "free vertex " + std::to_string(offenders.front()) + " (and " +
                               std::to_string(offenders.size() - 1) +
-                              " more) joins several fans of triangles: split it, or fix it",
+                              " more) joins triangles in a point: split it, or add it to `fixed`",
                           offenders, ElementKind::vertex, "vertices"));
 }
 
@@ -313,7 +313,7 @@ std::vector<char> find_cut_edges(const Triangles& triangles, const EdgeTable& ed
     if (!offenders.empty()) {
         throw MeshError({Code::nonmanifold_edge,
                          "more than two triangles meet at the edge " + std::to_string(offenders[0]) + "–" +
-                             std::to_string(offenders[1]) + ": delete the extra ones, or fix both ends",
+                             std::to_string(offenders[1]) + ": delete some, or add both ends to `fixed`",
                          offenders,
                          ElementKind::vertex,
                          {{"edges", size_of(offenders) / 2}}});

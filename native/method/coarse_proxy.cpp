@@ -31,15 +31,16 @@ private:
         return start_.proxy ? start_.membrane : proxy_membrane(source(), progress_);
     }
 
-    // Columns of a surface of the problem's patch.
+    // The source's vertices of a surface of the problem's patch.
     [[nodiscard]] Points on_source(const Points& points) const override {
         return points(Eigen::all, source().patch.to_input);
     }
 
-    // Large patches that find nothing from their start would not find it without it either.
+    // Where this start leads nowhere, a large patch has no better one.
     [[nodiscard]] std::optional<CoarseProxy> known_proxy() const override { return start_.proxy; }
 
-    // By springs where nothing folds then, otherwise from where the coarsest vertices lie without them.
+    // Relaxed by inner fairness where that folds nothing; else untangled from the unrelaxed coarsest vertices, if
+    // better.
     Projected projected(const SolvedProxy& proxy, const TargetSurface& target,
                         const std::optional<Points>& own) override {
         const bool is_set_up = levels_.work(0).tangential != nullptr;

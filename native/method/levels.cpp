@@ -10,7 +10,7 @@ namespace {
 constexpr int largest_factorised = 7000;
 constexpr int evening_sweeps = 3;  // of an interpolated surface
 
-// A level needs no shape before.
+// The problem without `before`, which levels do not read.
 Problem finest(const Problem& problem) {
     return {problem.patch,          problem.fixed_points, problem.fixed_normals,
             problem.weights,        problem.options,      problem.tolerated_folds,
@@ -35,7 +35,7 @@ Points with_fixed(const Patch& patch, const Points& fixed) {
 Levels::Levels(const Problem& problem, const Problem& below, Boundaries boundaries, int coarsest) {
     const Points points = with_fixed(problem.patch, below.fixed_points);
     const Points normals = with_fixed(problem.patch, below.fixed_normals);
-    const Points unknown = Points::Zero(3, points.cols());  // keeps an boundary as it is
+    const Points unknown = Points::Zero(3, points.cols());  // normals of zero: boundary loops stay whole
     const FixedPlaces boundary{points, boundaries == Boundaries::thinned ? normals : unknown};
     coarse_ = with_edges(problem.patch, problem.weights,
                          [&](const InnerWeights& edges) { return coarsen(problem.patch, edges, boundary, coarsest); });

@@ -11,7 +11,7 @@
 
 namespace fairing {
 
-// Steps within the surface on a level that begins where the coarser one has ended.
+// Most tangential steps on a level, which starts from the coarser level's surface.
 inline constexpr int most_slides = 8;
 
 // Whether coarse levels keep all of the boundary's vertices, or halve it where it is straight.
@@ -20,8 +20,8 @@ enum class Boundaries { thinned, kept };
 // Level 0 is the problem's patch, `coarsest()` the coarsest one. Refers to the problem.
 class Levels {
 public:
-    // Down to about `coarsest` free vertices. `below`: the problem whose boundary the coarse levels have, on the same
-    // patch.
+    // Down to about `coarsest` free vertices. `below`: a problem on the same patch whose boundary the coarse
+    // levels take.
     Levels(const Problem& problem, Boundaries boundaries, int coarsest)
         : Levels(problem, problem, boundaries, coarsest) {}
     Levels(const Problem& problem, const Problem& below, Boundaries boundaries, int coarsest);
@@ -39,15 +39,14 @@ public:
     // Vertices of each level, coarse to fine.
     [[nodiscard]] std::vector<int> sizes() const;
 
-    // Has factors and restrictions of the tangential steps made beside other work: no surface is needed for them.
+    // Makes factors and restrictions of the tangential steps in the background: they need no surface.
     void prepare_beside();
 
     // Makes the tangential step of a level; that of the next coarser one comes first.
     void set_up_tangential(std::size_t k, RingMatrix laplacian, const Progress& progress);
     void set_up_tangential(std::size_t k, const Progress& progress) { set_up_tangential(k, laplacian(k), progress); }
 
-    // About where the free vertices of level k are, from a surface of the coarser level `from`. Other threads may leave
-    // levels meanwhile.
+    // Approximate free vertices of level k, from a surface of level `from`. Safe while other threads `leave` levels.
     [[nodiscard]] Points layout(std::size_t k, std::size_t from, const Points& surface) const;
 
     // A surface of level k + 1 (3 × local vertices) on level k, with its normals and shape operators. `laplacian`: of
@@ -73,13 +72,13 @@ private:
     [[nodiscard]] std::unique_ptr<FactorisedLaplacian> factorised(std::size_t k, const Progress& progress) const;
 
     std::vector<CoarseLevel> coarse_;  // coarse_[k] lies below levels_[k]
-    std::vector<PatchMembers> left_;   // of coarse_[k], whose patch has its vertices only; empty where it is whole
+    std::vector<PatchMembers> left_;   // parts of coarse_[k].patch while that is released; empty otherwise
     std::vector<Level> levels_;
 };
 
-// Levels as a solve from coarse to fine has them. No coarse mesh can show short waves of an boundary: taken from every
-// second vertex of a jagged one they would be noise as large and twice as long. So coarse levels have the low-passed
-// boundary there; only the finest one meets the boundary as it is.
+// The levels of a solve from coarse to fine. No coarse mesh resolves short waves of a boundary: sampled at every second
+// vertex they would be noise as large and twice as long. So coarse levels have the low-passed boundary there; only the
+// finest one meets the boundary as it is.
 Levels levels_of(const Problem& problem, const Traits& traits, int coarsest);
 
 // A value for all vertices of which only the fixed ones are known; 0 at free ones.

@@ -17,20 +17,20 @@ namespace fairing {
 
 namespace {
 
-// Over smooth boundaries between which one surface fits so few tell it, and to solve them costs a third. Where they
-// don't the next level does, from the boundaries alone.
+// Free vertices of the coarsest level over smooth boundaries that only one surface fits: enough to find it, for a third
+// of the cost. If not, the next level is solved from the boundary.
 constexpr int smallest_coarsest = 150;
-constexpr double small_tolerance = 7e-4;  // units of D, there: triangles are too large for more
+constexpr double small_tolerance = 7e-4;  // of that level, units of D: its triangles are too large for more
 // Levels between are good enough as starts even where single poor triangles keep them from converging.
 constexpr int most_between = 6;
-constexpr int most_small = 14;  // where little is lost: graded meshes that don't carry their surface took 19 and 20
+constexpr int most_small = 14;  // on the finest level of patches that are not large: another strategy is cheap there
 // Free vertices of a level whose ordering is kept while coarser ones are solved; larger ones have no room for it.
 constexpr int largest_prepared = 200'000;
 // Shares of the time, measured at 100k and 256k.
 constexpr double begin = 0.06;  // the hierarchy
 constexpr double share_of_start = 0.3;
 
-// Share of folds in a level's start: the iteration irons single ones out.
+// Folds that a level's start may have: the iteration irons single ones out.
 std::size_t tolerated_folds(const Problem& problem) {
     constexpr std::size_t share = 100;  // one triangle in so many
     return problem.tolerated_folds + problem.patch.triangle_count() / share;
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    // From the boundary alone.
+    // Level k solved from its boundary, without a coarser level's surface.
     [[nodiscard]] Solution solved_alone(std::size_t k) const {
         Problem problem = levels_.problem(k);
         if (is_small(k)) {
@@ -95,14 +95,14 @@ private:
         return solution;
     }
 
-    // Whether a level has fewer vertices than tell any surface.
+    // Whether it is the extra-coarse level, which need not show the surface.
     [[nodiscard]] bool is_small(std::size_t k) const { return begins_small_ && k == levels_.coarsest(); }
 
     [[nodiscard]] bool may_be_alone(std::size_t k) const {
         return levels_.problem(k).patch.free_count <= 2 * coarsest_size;
     }
 
-    // Analyses the operators of finer levels beside other work: the first surface shows roughly where vertices are.
+    // Orders the factorisations of finer levels in the background: the first surface shows roughly where vertices are.
     void prepare_beside(std::size_t from, const Points& surface) {
         operators_.resize(from);
         for (std::size_t k = operators_.size(); k-- > 0;) {
@@ -202,8 +202,8 @@ private:
     std::vector<Operator> operators_;  // of levels to come
 };
 
-// Free vertices of the level that the surface is made on, and up to which none is made. Between several loops coarse
-// levels lose the shape before: limbs of a few hundred vertices turn over on them.
+// Free vertices of the level on which the first surface is made, and up to which no levels are made. Between several
+// loops coarse levels lose the shape before: limbs of a few hundred vertices turn over on them.
 struct Fineness {
     int level;
     int largest_direct;

@@ -14,9 +14,9 @@ namespace fairing {
 // interpolated; nothing is measured there. No solution where the patch is too small for levels.
 std::optional<Solution> solve_nested(const Problem& problem, const Traits& traits, const Progress& progress);
 
-// The surface that every run begins with: at once, and always. 3 × local vertices, finite. start/quick_surface; of
-// large patches on a level of some hundred vertices, the others between them. Where there is none, the shape before
-// over the boundary as it is now. Throws Cancelled.
+// The surface that every run begins with: at once, and always. 3 × local vertices, finite. quick_surface
+// (start/quick_surface), for large patches on a coarse level and interpolated from there. Where it has none: the old
+// shape with the new boundary. Throws Cancelled.
 Points first_surface(const Problem& problem, const Progress& progress);
 
 }  // namespace fairing

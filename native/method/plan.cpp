@@ -13,8 +13,8 @@ namespace fairing {
 
 namespace {
 
-// Half of these waves of the loops is left. Eight vertices left regions of an ear and a cheek with turned triangles,
-// 32 moved more.
+// The low pass halves waves of this length. With 8, regions of an ear and a cheek kept flipped triangles; 32 moves the
+// boundary farther.
 constexpr double wave = 16.0;  // vertices
 // Variation along the boundary (boundary/low_passed_boundary). Least variation was found over loops of pipes up to 6e3,
 // never from 4e4 on; regions of scans with noise of a quarter edge have 4e6 to 2e9.
@@ -38,19 +38,18 @@ bool is_short(const Problem& problem) {
     return straight_length_between(problem.patch, fixed_alone(problem)) <= longest_single;
 }
 
-// Large moves wrinkle a fine mesh, and a coarse mesh of the engine's own makes them for less (hemispheres: 1.2 times
-// slower at 20,000, 1.4 times faster at 40,000; at 100,000 it alone gets there).
+// Beyond, large moves wrinkle the fine mesh, and the proxy mesh is faster (hemispheres: 1.2 times slower at 20,000, 1.4
+// times faster at 40,000; at 100,000 only it gets there).
 constexpr int largest_direct = 25'000;
 
-// Whether what levels don't find is sought on the user's mesh alone, too. What a coarse level of a large disc refuses,
-// the whole mesh would only refuse later; but between smooth loops pipes and blends may have no surface on a coarse
-// mesh and keep it on their own.
+// Whether `direct` is tried after `levels`. Where a coarse level of a large disc fails, the whole mesh would fail
+// later; but between smooth loops pipes and blends may have no surface on a coarse mesh and keep it on their own.
 bool goes_on_directly(const Problem& problem, const Traits& traits) {
     const bool is_smooth = problem.patch.loop_count() > 1 && !traits.is_jagged;
     return !traits.is_large || (is_smooth && problem.patch.free_count <= largest_direct);
 }
 
-// Between real loops whose membrane is poor the old shape nearly always decides (method/plan).
+// Between real loops whose membrane is poor the old shape nearly always decides (see Traits::poor_share_of_membrane).
 bool has_little_chance(const Traits& traits) {
     constexpr double most_poor = 0.02;  // of its triangles
     return traits.has_old_shape && traits.is_jagged && traits.poor_share_of_membrane() > most_poor;
@@ -71,9 +70,8 @@ std::vector<Step> equation_steps(const Problem& problem, const Traits& traits) {
     return steps;
 }
 
-// None of least variation was found between loops as jagged as those of scans: of 570 random patches it decides none.
-// Between loops that are no tubes' ends it takes up to 17 s, and crumples (a neck moved aside on a sphere), where the
-// least bent of the lofts takes a tenth of a second.
+// Between jagged loops no surface of least variation was found (570 random patches). Between loops that are not ends of
+// tubes its search takes up to 17 s and may crumple, a loft a tenth of a second.
 std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     const SolverOptions& options = problem.options;
     const bool wanted = options.otherwise == Otherwise::least_variation && options.equation != Equation::soap_film &&
@@ -84,7 +82,7 @@ std::vector<Step> stand_ins(const Problem& problem, const Traits& traits) {
     if (!traits.is_jagged && may_vary_least) steps.push_back(Step::least_variation);
     if (traits.has_old_shape) steps.push_back(Step::old_shape);
     if (problem.patch.loop_count() > 1) steps.push_back(Step::loft);
-    if (isolated_pins(problem.patch).empty()) steps.push_back(Step::first_surface);  // its slivers are no better
+    if (isolated_pins(problem.patch).empty()) steps.push_back(Step::first_surface);  // else slivers, no better
     return steps;
 }
 

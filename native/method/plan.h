@@ -24,14 +24,13 @@ public:
     // Several loops, each of them the end of a tube (shape/girth): their surface of least variation keeps its girth.
     bool is_between_tubes;
 
-    // Several loops and nothing else hold the patch, and the shape before is known: it stands in for a surface that is
-    // not found.
+    // Only several loops hold the patch, and its old shape is known, which can replace a surface that is not found.
     bool has_old_shape;
 
     // The problem between loops without their short waves.
     [[nodiscard]] const Problem& low_passed() const { return *low_passed_; }
-    // Share of poor triangles of the membrane by uniform weights. Between several real loops 15 of 113 random patches
-    // with more than a fiftieth had a harmonic surface, most of these at once; 80 of 128 with less.
+    // Share of poor triangles of the membrane by uniform weights. Of random patches between several real loops, 15 of
+    // 113 with a larger share than 1/50 had a harmonic surface, and 80 of 128 with less.
     [[nodiscard]] double poor_share_of_membrane() const { return *poor_share_; }
 
 private:
@@ -42,7 +41,7 @@ private:
 // The problem between loops without their short waves (boundary/low_passed_boundary).
 Problem low_passed(const Problem& problem);
 
-// How far the loops lie beside those at most, units of D.
+// The largest distance from the loops to the low-passed ones, units of D.
 double distance_of_low_passed(const Problem& problem);
 
 enum class Step {

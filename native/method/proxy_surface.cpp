@@ -12,7 +12,7 @@ namespace fairing {
 
 namespace {
 
-// A coarse level's vertices would lose which of a tube's surfaces a solved one is.
+// A tube has several surfaces: a coarse level could lose the one that was solved.
 bool begins_coarse(const Traits& traits, const std::optional<OwnSurface>& guess) {
     return traits.is_large && !(traits.is_tube && guess && guess->solved);
 }
@@ -56,7 +56,7 @@ const CoarseStart& start_of(const Problem& problem, const Traits& traits, Attemp
     return *attempts.start;
 }
 
-// Projected alone: for a surface that the problem's own mesh has no equal of. `traits`, `attempts`: of the problem
+// Without polishing: for a surface that does not meet the problem's own boundary. `traits`, `attempts`: of the problem
 // whose loops may have been low-passed since.
 std::optional<Solution> project_onto_proxy_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                                 const Progress& progress) {
@@ -65,8 +65,8 @@ std::optional<Solution> project_onto_proxy_mesh(const Problem& problem, const Tr
                                  progress);
 }
 
-// The projected vertices beside the boundary that lies off their surface by these offsets. The rows next to it follow
-// it; where that leaves triangles torn and the rows that stay have fewer, these do.
+// The projected vertices joined to a boundary that lies off their surface by `offsets`. The rows next to it follow it,
+// or stay where that tears fewer triangles.
 Points beside(const Patch& patch, const Points& offsets, const Points& projected) {
     Points followed = projected;
     follow_boundary(patch, offsets, followed);
@@ -79,8 +79,8 @@ Points beside(const Patch& patch, const Points& offsets, const Points& projected
     return torn_triangles(patch, kept).size() < torn ? kept : followed;
 }
 
-// The last digits come unevenly: on a graded hemisphere of 5,000 vertices no step from 1e-9 D on was the shortest for
-// more than four. A cap of 140° is solved in 45 steps.
+// Near 1e-9 D steps shrink unevenly (a graded hemisphere of 5,000 vertices), so tight tolerances get more steps in
+// vain. A cap of 140° takes 45 steps.
 Problem for_few_steps(const Problem& problem) {
     Problem result = problem;
     result.conduct.limits = problem.options.tolerance < SolverOptions{}.tolerance ? brisk : nearby;
@@ -141,8 +141,8 @@ std::optional<Solution> polished(const Problem& problem, Workspace& work, const 
     return own;
 }
 
-// The user's vertices on a proxy's surface, polished where that comes to something. Where springs alone fold triangles,
-// the equation's solution by them would be folded, too.
+// The user's vertices on a proxy's surface, polished where the polished surface is accepted. Where springs alone fold
+// triangles, the equation's solution by them would be folded, too.
 Solution OnOwnMesh::on_surface(const SolvedProxy& proxy, const std::optional<Points>& own, Polish polish) {
     const TargetSurface target(proxy.mesh.patch, proxy.mesh.points, proxy.normals);
     const Projected best = projected(proxy, target, own);
@@ -155,7 +155,7 @@ Solution OnOwnMesh::on_surface(const SolvedProxy& proxy, const std::optional<Poi
     return polished && agree(problem_, *polished, surface) ? *polished : solution;
 }
 
-// The membrane tells the sheets of a tube, whose vertices the history of a proxy may lay across it.
+// For a tube the membrane is the guess: placements from the proxy's history may put its vertices on the wrong sheet.
 std::optional<Solution> OnOwnMesh::run(const std::optional<OwnSurface>& guess, Polish polish) {
     const Points begin = membrane();
     const SurfaceState start = measured_surface(source(), begin);

@@ -15,7 +15,7 @@ namespace fairing {
 
 struct CoarseStart;  // method/coarse_proxy
 
-// What the steps of a plan have come to so far.
+// Results of the strategies tried so far.
 struct Attempts {
     std::vector<Solution> found;  // none of them accepted
     std::vector<StrategyTried> log;
@@ -37,8 +37,8 @@ struct Attempts {
 std::optional<Solution> solve_on_proxy_mesh(const Problem& problem, const Traits& traits, Attempts& attempts,
                                             const Progress& progress);
 
-// The surface between the low-passed loops, solved there, where none meets the loops as they are. These stay; the rows
-// of vertices next to them follow where they lie beside that surface. Nothing where no surface is found.
+// The surface between the low-passed loops, where none meets the loops as given. The loops stay as given; the rows of
+// vertices next to them follow. Nothing where no surface is found.
 std::optional<Solution> solve_low_passed(const Problem& problem, const Traits& traits, Attempts& attempts,
                                          const Progress& progress);
 
@@ -59,6 +59,8 @@ std::optional<Solution> polished(const Problem& problem, Workspace& work, const 
 // Whether the equation is solved on the user's mesh, too, where that carries it.
 enum class Polish { wanted, unwanted };
 
+// Solves on a proxy mesh, projects the user's vertices onto it, and polishes; the subclasses say what the proxy is made
+// from.
 class OnOwnMesh {
 public:
     OnOwnMesh(const Problem& problem, const Progress& progress) : problem_(problem), progress_(progress) {}
@@ -70,7 +72,8 @@ public:
     std::optional<Solution> run(const std::optional<OwnSurface>& guess, Polish polish);
 
 protected:
-    // What the mesh is made from: the problem, or a coarse level of it, whose membrane and columns these are.
+    // The problem that the proxy mesh is made from: this one or a coarse level of it; its membrane; the source's part
+    // of a surface of this patch.
     [[nodiscard]] virtual const Problem& source() const = 0;
     [[nodiscard]] virtual Points membrane() const = 0;
     [[nodiscard]] virtual Points on_source(const Points& points) const = 0;

@@ -15,7 +15,7 @@ constexpr int patience = 50;        // cycles without a hundredth less: 399 of 4
 
 constexpr double smallest_damping = 0.05;  // below, the iteration is lost
 
-// Mean edge length over that around each free vertex: the weight of its moves, so that crowded regions settle too.
+// Mean edge length over that around each free vertex: the weight of its moves, so that crowded regions converge too.
 Eigen::RowVectorXd crowding(const Patch& patch, const Points& points) {
     Eigen::RowVectorXd inverse(patch.free_count);
     for (int i = 0; i < patch.free_count; ++i) {

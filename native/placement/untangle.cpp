@@ -168,15 +168,15 @@ private:
 
     // Until nothing has been folded for some sweeps, or as much as a window of sweeps before.
     void spread(const Region& where) {
-        constexpr int settling_sweeps = 3;  // without a fold
+        constexpr int quiet_sweeps = 3;     // without a fold
         constexpr std::size_t window = 15;  // sweeps
         std::vector<double> folded{count_folded(where)};
-        int settled = 0;
-        for (int sweep = 0; sweep < most_iterations && settled < settling_sweeps; ++sweep) {
+        int quiet = 0;
+        for (int sweep = 0; sweep < most_iterations && quiet < quiet_sweeps; ++sweep) {
             sweep_once(where);
             folded.push_back(count_folded(where));
-            settled = folded.back() > 0 ? 0 : settled + 1;
-            if (settled == 0 && folded.size() > window && folded.back() >= folded[folded.size() - 1 - window]) return;
+            quiet = folded.back() > 0 ? 0 : quiet + 1;
+            if (quiet == 0 && folded.size() > window && folded.back() >= folded[folded.size() - 1 - window]) return;
         }
     }
 

@@ -287,18 +287,18 @@ int ProxyMesh::split_long(const VectorX& target, int free_limit) {
 void ProxyMesh::adapt(const Sizing& sizing) {
     constexpr int most_rounds = 12;      // a bound: rounds end when they change little
     constexpr int shapeless_rounds = 2;  // a crumpled start has no shapes worth keeping
-    const int vertices_per_change = sizing.settles ? 50 : 100;
+    const int vertices_per_change = sizing.converges ? 50 : 100;
     for (int round = 0; round < most_rounds; ++round) {
         const VectorX target = target_lengths(sizing);
         const bool is_crumpled = round < shapeless_rounds;
         const bool is_careful = !is_crumpled || removed_.empty();
-        int changes = collapse_short(target, {is_careful, is_careful && sizing.settles});
+        int changes = collapse_short(target, {is_careful, is_careful && sizing.converges});
         if (is_crumpled) changes += collapse_short(target, {});
         changes += split_long(target_lengths(sizing), sizing.free_limit);
         remesh(5, 3);
         if (changes <= free_count_ / vertices_per_change) break;
     }
-    if (sizing.settles) remesh(5, 3);
+    if (sizing.converges) remesh(5, 3);
 }
 
 ProxyMesh::Snapshot ProxyMesh::snapshot() const {

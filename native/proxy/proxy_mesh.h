@@ -22,7 +22,7 @@ struct Sizing {
     // No collapse makes an edge that would be split again (Botsch & Kobbelt 2004): then four rounds are enough where
     // twelve would not end. Proxies of harmonic surfaces go without it: deep caps lose their surface on a mesh that
     // changes less.
-    bool settles = false;
+    bool converges = false;
 };
 
 // Vertices keep their number through all changes: those of the patch it was made from first, then vertices that were

@@ -85,7 +85,7 @@ public:
         return solve_fine(ProxyMesh(problem_.patch, surface), fine_sizing(shown_), true);
     }
 
-    // Lengths that grow slowly need more vertices but resolve more. Where the boundary is coarse, the needles between
+    // Lengths that grow slowly need more vertices but resolve more. Where the boundary is coarse, the slivers between
     // it and a fine interior may keep the iteration from converging: then the interior is coarse, too. Meshes whose
     // edges grow alike begin with one coarse proxy. Where that ends nowhere the finest interior is left out: of 20
     // small patches it led on to a surface on seven, and so did the next one on these.

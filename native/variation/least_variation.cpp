@@ -22,7 +22,7 @@ namespace {
 // Edges begin with the boundary's own and grow by `growth` per distance (proxy/proxy_mesh.h), up to `range_of_edges`
 // times a share of its mean edge; less where the surface turns by more than `turn` radians along them. Coarse meshes
 // need not resolve the boundary, only how the surface turns: their longest edges are those of loops of `most_around`.
-// On rougher coarse meshes, and coarser ones (coarse_edge), free slopes settle elsewhere.
+// On rougher coarse meshes, and coarser ones (coarse_edge), free slopes converge elsewhere.
 struct Fineness {
     double growth;
     double turn;
@@ -96,14 +96,14 @@ SolvedSheet solve_coarse(ProxyMesh& mesh, const Problem& problem, const Beginnin
     for (int k = 0; k < most_rounds; ++k) {
         mesh.adapt(sizing);
         NewtonLimits limits{tolerance, k == 0 ? 30 : 15, k == 0 ? beginning.damping : near_damping, 0.05};
-        limits.settled = enough;
+        limits.least_fall = enough;
         last.emplace(solve_on(mesh, problem, last, Measure::plain, limits, progress.range(0.1 * k, 0.1 * (k + 1))));
         if (last->result.converged) break;
         if (k > 0 && !(last->result.merit <= hopeless * most)) return std::move(*last);
     }
     mesh.adapt(sizing);
     NewtonLimits limits{tolerance, 30, near_damping};
-    limits.settled = enough_for_fine;
+    limits.least_fall = enough_for_fine;
     return solve_on(mesh, problem, last, Measure::scale_free, limits, progress.range(0.8, 1.0));
 }
 

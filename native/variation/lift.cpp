@@ -35,8 +35,8 @@ Motion fitted_motion(const SurfaceSample& sample, const Sheet& sheet, const Sten
     return matrix.ldlt().solve(rhs);
 }
 
-constexpr double share = 0.8;     // of the boundary's spacing
-constexpr double settled = 1e-3;  // units of D
+constexpr double share = 0.8;       // of the boundary's spacing
+constexpr double converged = 1e-3;  // units of D
 
 // Logarithms of the mean lengths of the two border edges at each fixed vertex, zero elsewhere.
 VectorX boundary_lengths(const Problem& problem) {
@@ -175,7 +175,7 @@ Points inflated(const Problem& problem, const Points& start, const Progress& pro
     if (!inflation.ready()) return points;
     for (int k = 0; k < most_iterations; ++k) {
         progress.report(static_cast<double>(k) / most_iterations, "inflation");
-        if (inflation.round(points) < settled) break;
+        if (inflation.round(points) < converged) break;
     }
     return points.allFinite() ? points : start;
 }

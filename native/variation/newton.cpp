@@ -86,7 +86,7 @@ private:
     // The first step, from another mesh's surface, may leave more than it takes away.
     [[nodiscard]] bool has_converged(int steps) const {
         const double share = steps > 1 ? 1.0 : 0.01;
-        if (steps > 1 && share_ == 1.0 && fall_ < limits_.settled * (merit_unit + present_.merit)) return true;
+        if (steps > 1 && share_ == 1.0 && fall_ < limits_.least_fall * (merit_unit + present_.merit)) return true;
         return share_ == 1.0 && used_damping_ <= least_damping && largest_height_ < share * limits_.tolerance &&
                largest_turn_ < limits_.turns;
     }
@@ -250,12 +250,12 @@ NewtonResult minimise(const VariationEnergy& energy, Sheet& sheet, const NewtonL
 }
 
 Points fitted_normals(const Problem& problem, const Points& points, Measure measure, const Progress& progress) {
-    constexpr double settled = 1e-5;                            // radians; the next step is of its square
+    constexpr double converged = 1e-5;                          // radians; the next step is of its square
     const int most_steps = measure == Measure::plain ? 3 : 20;  // a start needs no more
     Sheet sheet{points, max_normals(problem.patch, points, problem.fixed_normals)};
     const VariationEnergy energy(problem, Moving::normals, measure);
     if (energy.unknowns().count() > 0)
-        minimise(energy, sheet, {settled, most_steps, 0.0, 0.0, HUGE_VAL, settled}, progress);
+        minimise(energy, sheet, {converged, most_steps, 0.0, 0.0, HUGE_VAL, converged}, progress);
     return sheet.normals;
 }
 

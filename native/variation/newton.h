@@ -19,7 +19,7 @@ struct NewtonLimits {
     double shortest_share = 0.0;   // of a step; the descent ends where only a smaller share can be taken
     double most_merit = HUGE_VAL;  // the descent is given up where the merit is larger after ten steps
     double turns = HUGE_VAL;       // tolerance of the largest turn of a full step, radians
-    double settled = 0.0;          // it also ends where a full step lowers merit_unit + merit by less than this share
+    double least_fall = 0.0;       // it also ends where a full step lowers merit_unit + merit by less than this share
 };
 
 struct NewtonResult {

@@ -98,7 +98,7 @@ def test_a_hard_edge_outside_stays_and_one_that_is_rounded_inside_is_reported(sm
     mesh = cube_corner()
     answered = fair(mesh, smooth_boundary=smooth)
     assert answered.verdict.grade == LOOK
-    assert answered.verdict.reason.startswith("A hard edge runs on outside")
+    assert answered.verdict.reason.startswith("A hard edge from outside")
     assert AS_SELECTED not in answered.verdict.remedies
 
 
@@ -140,7 +140,7 @@ def test_a_border_without_faces_outside_is_reported_and_takes_the_patch_average(
     mesh = grid(4, 2.0)  # all of it
     patch = make_patch(mesh)
     normals, reported = normals_of(mesh, patch, "SURROUNDING")
-    assert reported == ("16 border vertices have no faces outside: their normals come from the patch",)
+    assert reported == ("16 border vertices have no faces outside: their slope is the selection's",)
     assert np.allclose(normals, [0.0, 0.0, 1.0])
     pinned = np.zeros(25, dtype=bool)
     pinned[12] = True
@@ -181,7 +181,7 @@ def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
     sides = np.isclose(np.abs(fixed[:, 0]), 0.5) & (np.abs(fixed[:, 1]) < 0.49)
     assert np.array_equal(known.from_inside, sides)
     assert known.notes == (
-        "14 boundary vertices lie on hard edges: the surface does not go on with the slope outside there",
+        "14 boundary vertices lie on hard edges: the surface keeps the slope inside there (Tangent To)",
     )
     assert np.array_equal(known.inward(patch), patch.vertices[patch.fixed[sides]])
     outer, reported = normals_of(mesh, patch, "SURROUNDING")
@@ -189,7 +189,7 @@ def test_along_hard_edges_the_slope_is_that_of_the_selected_faces() -> None:
     assert np.abs(outer[sides, 0]).min() > 0.8
     flat = boundary(table(16, 0.0), patch, "INSIDE", outside_triangles(mesh, patch))
     assert flat.from_inside.all()
-    assert flat.notes == ("The boundary is a hard edge all along: the surface does not go on with the slope outside",)
+    assert flat.notes == ("The boundary is a hard edge all along: the surface keeps the slope inside (Tangent To)",)
 
 
 def test_marked_edges_stop_the_fit_unless_most_are() -> None:

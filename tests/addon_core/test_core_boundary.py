@@ -25,9 +25,7 @@ def test_faces_outside_wound_the_other_way() -> None:
     selected = grid(6, 0.67).in_patch
     quads = [loop if chosen else loop[::-1] for loop, chosen in zip(quads, selected, strict=True)]
     mesh = polygon_mesh(grid_points(6), quads, selected)
-    assert boundary_notes(mesh) == (
-        "The faces on both sides of 16 boundary edges are wound against each other: recalculate normals",
-    )
+    assert boundary_notes(mesh) == ("The faces beside 16 boundary edges point opposite ways: recalculate normals",)
     rim = np.isclose(np.abs(mesh.positions).max(axis=1), 2.0 / 3.0)
     assert np.array_equal(turned_over(mesh), rim)
 

@@ -58,12 +58,12 @@ def test_of_several_objects_the_worst_counts(sphere: Fairing) -> None:
     assert both.free_vertices == 2 * len(sphere.vertices)
     assert both.join == (4.0, 30.0)
     assert values(both)["Kink at the boundary"] == "≤ 30°"
-    assert values(both)["Kinks show from"] == "12°"
-    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kinks show from"] == "25°"
+    assert values(both)["Kink limit"] == "12°"
+    assert values(report(replace(sphere, join=replace(seen, limit=25.0))))["Kink limit"] == "25°"
     assert states(both)["Kink at the boundary"] == MISSED
     alone = report(replace(sphere, join=replace(seen, kinks=np.empty(0, dtype=np.int64))))
-    assert (values(alone)["Kink at the boundary"], states(alone)["Kink at the boundary"]) == ("≤ 30°, short", MET)
-    assert values(both)["Equation solved"] == "no further progress, yes"
+    assert (values(alone)["Kink at the boundary"], states(alone)["Kink at the boundary"]) == ("≤ 30°, few", MET)
+    assert values(both)["Surface found"] == "no further progress, yes"
     assert (both.verdict.grade, both.verdict.reason) == (UNUSABLE, f"Object 0: {BAD.reason}")
     assert both.verdict.spots.tolist() == [3, 4]
 

@@ -156,10 +156,10 @@ ROWS = {
     ),
     "no texture": Row(warned("REFERENCE_UNUSABLE", ints()), GOOD),  # the surface is the same
     "eaten": Row(
-        seen(**EATEN), LOOK, "A hard edge runs on outside, but was rounded off at 2 vertices…", [3, 8]
+        seen(**EATEN), LOOK, "A hard edge from outside was rounded off at 2 vertices…", [3, 8]
     ),
     "eaten, with a kink": Row(
-        seen(**EATEN, join=kinked(12.5, 3.0, 41.0)), LOOK, "A hard edge runs on outside…", [3, 8]
+        seen(**EATEN, join=kinked(12.5, 3.0, 41.0)), LOOK, "A hard edge from outside…", [3, 8]
     ),
     "marked": Row(
         seen(**MARKED), LOOK, "Edges marked sharp were rounded off at 1 vertex…", [4], good=(FACTOR, FILM)
@@ -194,7 +194,7 @@ def test_a_verdict(fine: Evidence, name: str) -> None:
 @pytest.mark.parametrize(
     ("elements", "figures", "reason"),
     [
-        ((3,), {"code": "PINS_NOT_SPREAD", "tips": 1.0}, "The surface forms a spike at 1 pinned vertex"),
+        ((3,), {"code": "PINS_NOT_SPREAD", "tips": 1.0}, "Spike at 1 pinned vertex"),
     ],
 )
 def test_what_the_engine_names_is_shown(fine: Evidence, elements: Any, figures: Any, reason: str) -> None:
@@ -257,7 +257,7 @@ def test_no_answer_is_not_usable(fine: Evidence, termination: Any) -> None:
     assert verdict.remedies == ()
     border = judged(lost, fair_open_borders=True)
     assert HOLD_BORDER in border.remedies
-    assert border.reason.startswith("Why: a fair border may not exist where it is rough next to the selection")
+    assert border.reason.startswith("Why: the open border may be too rough beside the selection")
     assert HOLD_BORDER not in judged(fine, fair_open_borders=True).remedies
 
 

@@ -154,7 +154,7 @@ def test_the_last_case_of_a_code_holds_without_any_figure_but_those_it_names(cod
          "No fair surface fits these boundary loops: a loft joins them"),
         (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0, worse=1.0),
          "Smooth Boundary was left out: with 2 boundary vertices moved, the result is worse"),
-        (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0), "2 vertices of a noisy boundary can't move without folds"),
+        (diagnostic("OUTLINE_KEPT", [0, 2], vertices=2.0), "Smooth Boundary can't move 2 vertices without folds"),
         # Ends of hard edges are counted as `ends`, which in sentences are those of an edge.
         (diagnostic("EDGES_LEFT_ALONE", [1, 3], ends=2.0, ambiguous=1.0),
          "2 hard edges end at the hole, at vertex 20 and others, and may be joined in several ways: draw edges (select "

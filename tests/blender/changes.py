@@ -31,7 +31,7 @@ class Kind:
     """An operator that is run, and where its answers come from."""
 
     operator: str = "fair_region"
-    home: str = "fair.finish"  # the module whose `Asked` finds them
+    home: str = "fair.finish"  # the module whose `Request` finds them
     enter: Callable[[], None] = _dome  # makes an object and edits it, with what is to be selected
     first: dict[str, Any] = field(default_factory=dict)  # options of the run
     second: dict[str, Any] = field(default_factory=lambda: {"shape": "LEAST_VARIATION"})  # of a change
@@ -64,7 +64,7 @@ class Panel:
         self.waits = 0  # answers that were searched for in the main thread
         self.gates: list[threading.Event] = []
         self.given = threading.Event()
-        solve = home.Asked.work
+        solve = home.Request.work
         import fairing
 
         def slow(*arguments: Any, **rest: Any) -> Any:
@@ -94,7 +94,7 @@ class Panel:
         monkeypatch.setattr(self.redo.background, "LARGE", 0)
         monkeypatch.setattr(self.redo, "watch", lambda: None)
         monkeypatch.setattr(self.redo, "is_held", lambda: False)
-        monkeypatch.setattr(home.Asked, "work", slow)
+        monkeypatch.setattr(home.Request, "work", slow)
         module("run.job").memory.clear()
 
     @staticmethod

@@ -31,14 +31,16 @@ LAYOUT: dict[str, tuple[str, int, Any]] = {
 }
 
 
-def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch") -> bpy.types.Object:
-    """Add a mesh object and make it the active one."""
+def add(points: Any, faces: Sequence[Sequence[int]], name: str = "Patch", edges: Any = ()) -> bpy.types.Object:
+    """Add a mesh object, with edges that have no faces, and make it the active one."""
     mesh = bpy.data.meshes.new(name)
     # Not from_pydata: setting the selection of the edges that it makes crashes Blender 5.0.1.
     bm = bmesh.new()
     vertices = [bm.verts.new(tuple(map(float, point))) for point in points]
     for face in faces:
         bm.faces.new([vertices[v] for v in face])
+    for a, b in edges:
+        bm.edges.new((vertices[a], vertices[b]))
     bm.to_mesh(mesh)
     bm.free()
     obj = bpy.data.objects.new(name, mesh)

@@ -134,7 +134,7 @@ def test_a_seam_of_colours_begins_with_the_mean_and_is_reported(capfd: pytest.Ca
     assert values[:old].tolist() == sides
     assert ((values[old:] >= 0.0) & (values[old:] <= 1.0)).all()
     assert (values[old:] == 0.5).any()
-    assert "2 vertices of the boundary lie where colours of two faces differ" in "".join(capfd.readouterr())
+    assert "At 2 boundary vertices the colours of two faces differ" in "".join(capfd.readouterr())
 
 
 def test_custom_normals_outside_stay_and_new_corners_have_none() -> None:

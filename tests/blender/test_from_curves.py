@@ -3,7 +3,6 @@
 from itertools import pairwise
 from typing import Any
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -18,19 +17,7 @@ def wired(lines: list[Any], name: str = "Wires") -> bpy.types.Object:
     for line in lines:
         at = [numbers.setdefault(tuple(np.round(point, 6) + 0.0), len(numbers)) for point in line]
         edges |= {(min(a, b), max(a, b)) for a, b in pairwise(at) if a != b}
-    mesh = bpy.data.meshes.new(name)
-    bm = bmesh.new()
-    vertices = [bm.verts.new(point) for point in numbers]
-    for a, b in sorted(edges):
-        bm.edges.new((vertices[a], vertices[b]))
-    bm.to_mesh(mesh)
-    bm.free()
-    obj = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(obj)
-    for other in bpy.context.view_layer.objects:
-        other.select_set(other == obj)
-    bpy.context.view_layer.objects.active = obj
-    return obj
+    return meshes.add(list(numbers), [], name, sorted(edges))
 
 
 def circles(count: int = 32) -> list[Any]:

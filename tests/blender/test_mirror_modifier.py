@@ -280,4 +280,4 @@ def test_one_hole_stands_for_both(both: bool, capfd: pytest.CaptureFixture[str])
     meshes.leave()
     with meshes.rebuilt(obj, write=False) as filled:
         assert not any(edge.is_boundary for edge in filled.edges)
-    assert ("new faces are not symmetric" in "".join(capfd.readouterr())) != both
+    assert ("faces around are not symmetric" in "".join(capfd.readouterr())) != both

@@ -31,7 +31,7 @@ def started(obj: bpy.types.Object, faces: Any, go_on: threading.Event) -> Any:
         return job.solve(tasks, options, progress)
 
     stand = stand_in(module("fair.operator").MESH_OT_fair_region)
-    stand._asked = module("fair.finish").Asked(tasks, options)
+    stand._asked = module("fair.finish").Request(tasks, options)
     stand._signs = module("run.background").Signs(bpy.context)
     stand._run = module("run.runner").Run(work)
     return stand

@@ -79,7 +79,7 @@ def test_the_result_before_at_once_and_the_answer_in_the_same_step_of_undo(panel
     assert not panel.waits
     assert panel.follows
     assert panel.now == panel.first
-    assert "another one is shown meanwhile" in panel.report.reason
+    assert "the last result shows" in panel.report.reason
     panel.change()
     assert panel.now == panel.first
     check_one_step(panel, **panel.kind.second)
@@ -220,7 +220,7 @@ def test_what_is_refused_leaves_the_result_before(panel: Panel, at_once: bool, m
     assert panel.follows != at_once
     panel.complete()
     assert panel.report.verdict == "UNUSABLE"
-    assert at_once or "The surface before was kept" in panel.report.reason
+    assert at_once or "The last result stays" in panel.report.reason
     assert panel.now == panel.first
     operator = bpy.context.window_manager.operators[-1]
     for name in panel.kind.refused:
@@ -249,7 +249,7 @@ def test_what_blender_can_not_have_leaves_the_result_before(
         spoilt.setattr(home, name, refuses)
         panel.complete()
     assert gc.isenabled()
-    assert panel.report.reason == "a fault of a test. The surface before was kept"
+    assert panel.report.reason == "a fault of a test. The last result stays"
     assert panel.now == panel.first
     panel.change(**panel.kind.third)
     check_one_step(panel, **{**panel.kind.second, **panel.kind.third})
@@ -334,7 +334,7 @@ def test_what_is_refused_after_another_selection_leaves_what_is_shown(region: Pa
     bpy.ops.mesh.select_all("EXEC_DEFAULT", True, action="SELECT")
     region.complete()
     assert region.report.verdict == "UNUSABLE"
-    assert "The surface before was kept" in region.report.reason
+    assert "The last result stays" in region.report.reason
     assert region.now == region.first
 
 
@@ -372,7 +372,7 @@ def test_outside_edit_mode_nothing_waits_either(mode: str, source: str, monkeypa
     with in_view():
         bpy.ops.ed.undo_redo("EXEC_DEFAULT", True)
     try:
-        assert "another one is shown meanwhile" in meshes.report().reason
+        assert "the last result shows" in meshes.report().reason
         with in_view():
             assert redo.look(bpy.context)
         assert begun.wait(10.0)  # beyond which it runs no Python

@@ -133,7 +133,7 @@ def test_a_key_that_is_shown_and_keeps_its_hill_deserves_a_look_and_all_keys_hel
     meshes.edit(obj)
     meshes.run()
     assert (meshes.report().verdict, meshes.report().remedies.split(",")[0]) == ("LOOK", "ALL_KEYS")
-    assert "shape key that is shown" in meshes.report().reason
+    assert "visible shape key" in meshes.report().reason
     assert bpy.ops.mesh.fair_again(remedy="ALL_KEYS") == {"FINISHED"}
     assert meshes.report().verdict == "GOOD"
     meshes.leave()

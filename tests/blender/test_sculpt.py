@@ -115,7 +115,7 @@ def shape_key(obj: bpy.types.Object) -> None:
 REASONS = {"multires": multires, "shape_key": shape_key}
 
 
-@pytest.mark.parametrize(("spoiler", "says"), [("multires", "no mask of a"), ("shape_key", "'Smile' is active")])
+@pytest.mark.parametrize(("spoiler", "says"), [("multires", "Masks of a"), ("shape_key", "'Smile' is active")])
 def test_what_hides_the_mesh_is_refused(sculpted: Any, spoiler: str, says: str) -> None:
     obj, upper = half_sphere()
     paint_mask(obj, upper)

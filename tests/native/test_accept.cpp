@@ -58,7 +58,7 @@ TEST_CASE("folds are a flaw and are named, unless the weights come from as many"
     CHECK(flaw_of(solved.problem, solution) == Flaw::absent);
 }
 
-TEST_CASE("few triangles beside a low-passed outline may be the outline's own folds, many are a flaw") {
+TEST_CASE("few triangles beside a low-passed boundary may be the boundary's own folds, many are a flaw") {
     const test::Single single = test::single_patch(test::grid(80, 0.0, test::sphere));
     const Patch& patch = single.patch();
     const Points fixed = single.points.rightCols(patch.vertex_count() - patch.free_count);
@@ -107,7 +107,7 @@ TEST_CASE("crossings are a flaw where the surface itself has none") {
     CHECK(flaw_of(lenient, solution) == Flaw::crossing);
 }
 
-TEST_CASE("a surface without area and one that meets its outline from behind are no answers") {
+TEST_CASE("a surface without area and one that meets its boundary from behind are no answers") {
     const Solved solved;
     Solution behind = solved.solution();
     behind.boundary_normals = -behind.boundary_normals;

@@ -41,12 +41,12 @@ using Pairs = std::set<std::pair<int, int>>;
 TEST_CASE("each pair of boxes that overlap is visited once; those of two known triangles may be left out") {
     constexpr int count = 300;
     test::Mesh mesh = crumpled(count);
-    // The first half lies to the left, so that nodes of the tree are settled, and reaches into the second.
+    // The first half lies to the left, so that nodes of the tree are decided, and reaches into the second.
     for (int t = 0; t < count; ++t) {
         for (const int v : mesh.triangles.col(t)) mesh.points(0, v) += t < count / 2 ? -0.9 : 0.9;
     }
     const auto is_settled = [](int t) { return t < count / 2; };
-    Pairs open;  // with one that is not settled
+    Pairs open;  // with one that is not decided
     for (int a = 0; a < count; ++a) {
         for (int b = 0; b < a; ++b) {
             if (!is_settled(a) && overlap(box_of(mesh, a), box_of(mesh, b))) open.emplace(b, a);
@@ -54,7 +54,7 @@ TEST_CASE("each pair of boxes that overlap is visited once; those of two known t
     }
     REQUIRE(open.size() > count);
     int twice = 0;
-    int settled = 0;
+    int decided = 0;
     const BoxTree tree(mesh.triangles, mesh.points);
     Pairs visited;
     tree.for_overlaps(
@@ -62,7 +62,7 @@ TEST_CASE("each pair of boxes that overlap is visited once; those of two known t
             for (const int other : others) {
                 const std::pair<int, int> pair = std::minmax(t, other);
                 if (is_settled(pair.first) && is_settled(pair.second)) {
-                    ++settled;
+                    ++decided;
                 } else if (!visited.insert(pair).second) {
                     ++twice;
                 }
@@ -72,5 +72,5 @@ TEST_CASE("each pair of boxes that overlap is visited once; those of two known t
         is_settled);
     CHECK(visited == open);
     CHECK(twice == 0);
-    CHECK(settled < count * count / 16);
+    CHECK(decided < count * count / 16);
 }

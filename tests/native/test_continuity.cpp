@@ -16,7 +16,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-TEST_CASE("where the curvature of an outline is known") {
+TEST_CASE("where the curvature of a boundary is known") {
     const test::Single single = test::single_patch(test::grid(12, 0.0, test::flat));
     const Patch& patch = single.patch();
     Indices loop = patch.loops().front();

@@ -170,7 +170,7 @@ test::Single disc_on_ball(double half_angle, double side) {
 
 }  // namespace
 
-TEST_CASE("a start that bulges out beyond its outline lies on the ball of the outline's normals") {
+TEST_CASE("a start that bulges out beyond its boundary lies on the ball of the boundary's normals") {
     constexpr double degree = std::numbers::pi / 180.0;
     for (const double side : {1.0, -1.0}) {
         for (const double angle : {120.0, 150.0, 170.0}) {

@@ -53,7 +53,7 @@ TEST_CASE("a loft whose slopes make a balloon lets them go") {
     CHECK(pipe.area(solution->points) > 1.1 * least);
 }
 
-TEST_CASE("one outline, and vertices held elsewhere, have no loft") {
+TEST_CASE("one boundary loop, and vertices held elsewhere, have no loft") {
     const test::Single disc = test::single_patch(test::grid(8, 0.2, test::flat));
     const Points fixed = disc.points.rightCols(disc.points.cols() - disc.patch().free_count);
     const Points up = Vector3::UnitZ().replicate(1, fixed.cols());

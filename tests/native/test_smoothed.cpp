@@ -94,7 +94,7 @@ TEST_CASE("a pipe that is smoothed as a whole has the waist of the closed form")
     }
 }
 
-TEST_CASE("the shape before goes with its outline") {
+TEST_CASE("the shape before goes with its boundary") {
     Known pipe(20);
     const Vector3 move(0.3, -0.2, 0.1);
     pipe.problem.fixed_points.colwise() += move;

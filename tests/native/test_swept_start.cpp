@@ -79,7 +79,7 @@ TEST_CASE("a mesh is laid on a bent tube one to one and untwisted, however long 
     }
 }
 
-TEST_CASE("nothing is laid between outlines that don't face along one tube") {
+TEST_CASE("nothing is laid between boundaries that don't face along one tube") {
     const test::Single single = test::single_patch(half_ring(1, 0.0));
     Problem problem = problem_of(single);
     problem.fixed_normals.leftCols(around) *= -1.0;

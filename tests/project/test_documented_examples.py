@@ -73,7 +73,7 @@ def test_error_and_cancelling(page: dict[str, Any]) -> None:
 
 
 def test_the_solver_follows(page: dict[str, Any]) -> None:
-    free = np.setdiff1d(page["inside"], page["outline"])
+    free = np.setdiff1d(page["inside"], page["boundary"])
     for name in ("second", "third"):
         assert page[name].converged
         assert abs(radius(page[name].vertices[free]) - 1.02).max() < 5e-5

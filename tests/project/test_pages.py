@@ -11,6 +11,8 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 FILE = re.compile(r"`((?:addon|benchmarks|docs|native|scripts|tests)/[\w./-]+)`")
 # A file and what it defines or calls, as the walks of docs/architecture.md have them.
 WALK = re.compile(r"`((?:addon|native)/[\w/]+\.\w+)` \(((?:`\w+`(?:, )?)+)\)")
+# Words of which docs/method.md's glossary has the field's own; callers rely on outline="mended" and its like.
+SWEPT = re.compile(r"\b(needles?|settle[sd]?|engine's own mesh|outlines?)\b(?![=:\"'`,)(\]])")
 # Figures make some of their lines long.
 GENERATED = ("docs/paper.md", "docs/performance.md")
 
@@ -46,6 +48,13 @@ def test_links_lead_somewhere(page: Path) -> None:
 def test_files_that_are_named_exist(page: Path) -> None:
     for file in FILE.findall(page.read_text(encoding="utf-8")):
         assert (ROOT / file).exists() or list(ROOT.glob(f"{file}.*")), file
+
+
+@pytest.mark.parametrize("folder", ["addon", "docs", "native", "scripts", "tests"])
+def test_words_are_the_fields(folder: str) -> None:
+    texts = [file for kind in ("md", "py", "h", "cpp", "toml") for file in (ROOT / folder).rglob(f"*.{kind}")]
+    lines = [(file.name, line) for file in texts for line in file.read_text(encoding="utf-8").splitlines()]
+    assert [(name, line) for name, line in lines if SWEPT.search(line) and "SWEPT" not in line] == []
 
 
 def test_walks_name_functions_that_are_there() -> None:

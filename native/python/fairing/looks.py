@@ -62,11 +62,11 @@ class VisibleJoin(NamedTuple):
     """How much a join shows, and where the eye finds a kink."""
 
     degrees: FloatArray
-    """(k,) at each vertex of the outline."""
+    """(k,) at each vertex of the boundary."""
     limit: float
     """Degrees from which a kink stands out among triangles that bend as those outside do: 5 to 30."""
     seen: IntArray
-    """Places in the outline where one does, ascending; none where that is an eighth of it or less."""
+    """Places on the boundary where one does, ascending; none where that is an eighth of it or less."""
 
 
 class Faults(NamedTuple):
@@ -161,18 +161,18 @@ def visible_join(
     vertices: npt.ArrayLike,
     inside: npt.ArrayLike,
     outside: npt.ArrayLike,
-    outline: npt.ArrayLike,
+    boundary: npt.ArrayLike,
 ) -> VisibleJoin:
-    """How visible the join of the two lists of triangles is at the vertices of ``outline`` (k,), each named once.
+    """How visible the join of the two lists of triangles is at the vertices of ``boundary`` (k,), each named once.
 
-    ``degrees``: by how much the signed dihedral angles of the outline's edges exceed what is usual across their
+    ``degrees``: by how much the signed dihedral angles of the boundary's edges exceed what is usual across their
     direction within three rings on either side (the middle half of the angles, by length and direction); the mean over
-    the outline's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that goes on on either
+    the boundary's edges at the vertex. 0 on a sphere or tube however coarse, and on a crease that goes on on either
     side. ``limit``: of nine tenths of the edges outside the range of bends, as far as it lies between 5 and
     ``LIMITS["visible_kink"]`` = 12, or half of it where that is more, up to 30. 12 without triangles outside.
     """
     points = arguments.floats("vertices", vertices)
     sides = (arguments.vertices_of(*side, len(points), 3) for side in (("inside", inside), ("outside", outside)))
     within, beyond = (arguments.finite_triangles(points, side) for side in sides)
-    where = arguments.vertices_of("outline", outline, len(points))
+    where = arguments.vertices_of("boundary", boundary, len(points))
     return VisibleJoin(*_core.visible_join(points, within, beyond, where))

@@ -20,7 +20,7 @@ from driver import Story, in_view, middle, move_mouse, play, press, screenshot, 
 from panel import open_tab, wait_until
 
 FOLDER = os.environ["FAIRING_REPOSITORY"]
-SETTLED = 8.0  # seconds for a dialog to be drawn without a GPU
+DRAWN = 8.0  # seconds for a dialog to be drawn without a GPU
 
 
 class Links(HTMLParser):
@@ -81,17 +81,17 @@ def story() -> Story:
     press("ESC", *middle())
     yield 1.0
     drop()
-    yield SETTLED
+    yield DRAWN
     screenshot("install_drop")
     yield from confirm()
-    yield SETTLED
+    yield DRAWN
     screenshot("install_add")
     yield from confirm()  # leaves the field
     yield 2.0
     yield from confirm()
     yield from wait_until(is_added, 60.0)
     drop()
-    yield 3 * SETTLED  # Blender reads the repository first
+    yield 3 * DRAWN  # Blender reads the repository first
     screenshot("install_again")
     yield from confirm()
     yield from wait_until(is_enabled, 60.0)
@@ -101,7 +101,7 @@ def story() -> Story:
         bpy.ops.view3d.view_selected()
     yield 1.0
     open_tab()
-    yield SETTLED
+    yield DRAWN
     screenshot("install_used")
 
 

@@ -53,7 +53,7 @@ def test_a_load_that_is_too_much_keeps_the_surface_of_the_last_one(bulge: float)
     result = bulged(bulge)
     assert not result.converged
     (text,) = (w.message for w in result.warnings if w.code == "NOT_CONVERGED")
-    share = float(text.split(" % of the load")[0].split()[-1]) / 100
+    share = float(text.split(" % of its bulge")[0].split()[-1]) / 100
     assert 0.9 < share * bulge < 1.25
     reached = bulged(round(share * 32) / 32 * bulge)
     assert reached.converged

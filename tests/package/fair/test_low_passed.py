@@ -209,5 +209,5 @@ def test_a_sphere_that_covers_one_face_from_behind_does_not_count_as_solved() ->
     assert not result.converged
     assert result.termination == "stalled"
     (warning,) = (w for w in result.warnings if w.code == "NOT_CONVERGED")
-    assert "from behind at 4 of 4 vertices" in warning.message
+    assert "from the wrong side at 4 of 4 vertices" in warning.message
     assert warning.figures == {"from_behind": 4, "outline_vertices": 4, "free_vertices": len(warning.elements)}

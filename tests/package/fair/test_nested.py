@@ -61,7 +61,7 @@ def test_extraordinary_vertices_are_passed(quads: int) -> None:
     assert np.abs(np.linalg.norm(result.vertices, axis=1) - 1).max() <= 1e-8
 
 
-# Connectivity that can't carry the equation: the surface is solved on the engine's own mesh.
+# Connectivity that can't carry the equation: the surface is solved on a proxy mesh.
 def finger(around: int, layers: int) -> tuple[FloatArray, shapes.IntArray, FloatArray]:
     """A long thimble's connectivity over the rim of a hemisphere; rim first, with its normals.
 

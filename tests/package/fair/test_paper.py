@@ -90,7 +90,7 @@ def test_levels_are_as_many_as_wanted() -> None:
 
 def test_options_of_the_paper_are_refused_by_the_global_method() -> None:
     for options in (fairing.PaperOptions(), fairing.PaperOptions(damping=0.5)):
-        with pytest.raises(ValueError, match="paper: holds options of method 'paper'"):
+        with pytest.raises(ValueError, match="paper: accepted with method 'paper' only"):
             fair(shapes.cap(60), method="global", paper=options)
     with pytest.raises(ValueError, match=r"paper: a fairing\.PaperOptions is needed"):
         fair(shapes.cap(60), paper={"damping": 0.5})

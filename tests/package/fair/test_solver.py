@@ -116,7 +116,7 @@ PATCH = shapes.cap(300)
         (PATCH.vertices, PATCH.fixed_normals[:-1], "rows are needed"),
         (PATCH.vertices, np.zeros_like(PATCH.fixed_normals), "length zero"),
         (PATCH.vertices[:, :2], PATCH.fixed_normals, "vertices: shape"),
-        (np.zeros_like(PATCH.vertices), PATCH.fixed_normals, "single point"),
+        (np.zeros_like(PATCH.vertices), PATCH.fixed_normals, "one point only"),
     ],
 )
 def test_what_is_refused_leaves_the_solver_as_it_was(vertices: Any, normals: Any, error: str) -> None:

@@ -194,7 +194,7 @@ def test_bad_normals_are_refused_with_their_vertices() -> None:
     ("options", "message"),
     [
         ({"spacing": -1.0}, "spacing: a length"),
-        ({"spacing": 1e-7}, "new vertices, and 4e\\+06 are accepted: raise `spacing`"),
+        ({"spacing": 1e-7}, "new vertices, the limit is 4e\\+06: raise `spacing`"),
         ({"spacing": np.nan}, "spacing: a finite number"),
         ({"bridge": 2}, "bridge: True or False"),
         ({"longest": -1}, "longest: -1"),

@@ -162,7 +162,7 @@ def test_wrong_arguments() -> None:
     points, wires = ring(0.0)
     for message, options in (
         ("closed: True or False", {"closed": "yes"}),
-        ("creases: some of them", {"creases": [[0, 2]]}),
+        ("creases: some are not in", {"creases": [[0, 2]]}),
         ("spacing: a length", {"spacing": -1.0}),
     ):
         with pytest.raises(ValueError, match=message):

@@ -308,7 +308,7 @@ def foot(sides: int) -> tuple[FloatArray, IntArray, IntArray]:
 @pytest.mark.parametrize("width", [0.05, 0.1, 0.2])
 @pytest.mark.parametrize("sides", [4, 8])
 def test_it_goes_around_the_foot_of_a_boss_whose_walls_meet_in_edges(sides: int, width: float) -> None:
-    """The line passes each of these edges in one point: two, in the same place, have needles between them."""
+    """The line passes each of these edges in one point: two, in the same place, have slivers between them."""
     vertices, triangles, seam = foot(sides)
     result = fairing.fillet(vertices, triangles, seam, width=width)
     assert (result.converged, result.provenance, result.warnings) == (True, "equation", ())

@@ -42,7 +42,7 @@ def parsed(words: Sequence[str] | None) -> Namespace:
     if given.dask and find_spec("distributed") is None:
         parser.error("--dask needs distributed: pip install 'intrinsic-fairing[dask]'")
     if any("://" in each for each in given.files) and not given.dask:
-        parser.error("an address is read by the workers of --dask alone")
+        parser.error("addresses (://) work with --dask only")
     return given
 
 
@@ -66,7 +66,7 @@ def _common(parser: ArgumentParser, writes: bool = True) -> None:
         where.add_argument("--into", metavar="FOLDER", help="where results go; else beside their files")
         parser.add_argument("--format", metavar=".EXT", help="the results' format; else that of their files")
         parser.add_argument("--accept-all", action="store_true", help="write results that can't be used, too")
-        parser.add_argument("--threads", type=int, metavar="N", help="for one mesh; with --jobs: 1")
+        parser.add_argument("--threads", type=int, metavar="N", help="per mesh; 1 with --jobs")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="files at once")
     parser.add_argument("--dask", metavar="ADDRESS", help="the scheduler of a cluster that does the work (distributed)")
     parser.add_argument("--json", metavar="FILE", help="a report on each file; - for the standard output")
@@ -86,18 +86,18 @@ def _fill(parser: ArgumentParser) -> None:
     parser.add_argument("--longest-length", type=float, metavar="LENGTH", help="leave longer holes open")
     parser.add_argument("--bridge", action="store_true", default=None, help="one surface joins all boundary loops")
     parser.add_argument("--spacing", type=float, metavar="LENGTH", help="length of new edges")
-    parser.add_argument("--faces", choices=("triangles", "quads"), help="what new faces are; quads run in rows")
-    parser.add_argument("--edges", choices=("run_on", "ignored"), help="what hard edges at a hole do")
+    parser.add_argument("--faces", choices=("triangles", "quads"), help="kind of new faces; quads run in rows")
+    parser.add_argument("--edges", choices=("run_on", "ignored"), help="whether hard edges continue")
 
 
 def _fair(parser: ArgumentParser) -> None:
     _common(parser)
     _surface(parser)
     which = parser.add_mutually_exclusive_group(required=True)
-    which.add_argument("--select", metavar="NAME", help="data at faces that is not zero where they are selected")
+    which.add_argument("--select", metavar="NAME", help="face attribute, nonzero on selected faces")
     which.add_argument("--faces", metavar="FILE", help="a text file with the numbers of the faces, from 0")
     which.add_argument(
-        "--sphere", nargs=4, type=float, metavar=("X", "Y", "Z", "R"), help="faces with their middle in it"
+        "--sphere", nargs=4, type=float, metavar=("X", "Y", "Z", "R"), help="faces centred in this sphere"
     )
     parser.add_argument("--side", choices=("automatic", "outside", "inside"), help="whose slope counts at the boundary")
     parser.add_argument("--detail", type=float, metavar="0…1", help="how much of the old detail is put back")
@@ -107,11 +107,9 @@ def _fair(parser: ArgumentParser) -> None:
 def _fillet(parser: ArgumentParser) -> None:
     _common(parser)
     parser.add_argument("--continuity", choices=("G1", "G2"), help="meet the tangent planes, or the curvature, too")
-    parser.add_argument(
-        "--width", type=float, required=True, metavar="LENGTH", help="how far it reaches on either side"
-    )
+    parser.add_argument("--width", type=float, required=True, metavar="LENGTH", help="reach of the fillet on each side")
     parser.add_argument("--width-2", type=float, metavar="LENGTH", help="the same on the other side")
-    parser.add_argument("--profile", type=float, metavar="-1…1", help="flat to sharp")
+    parser.add_argument("--profile", type=float, metavar="-1…1", help="-1 flat, 0 round, 1 sharp")
     parser.add_argument("--spacing", type=float, metavar="LENGTH", help="length of new edges")
     parser.add_argument("--faces", choices=("triangles", "quads"), help="what new faces are; quads run along the edges")
 

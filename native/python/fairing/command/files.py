@@ -79,7 +79,7 @@ def check(kind: str) -> None:
 def _libraries(kind: str) -> Iterator[tuple[Any, Any]]:
     """Those of a format that are installed, with what reads and writes by them; ValueError where none is."""
     if kind not in _KINDS:
-        raise ValueError(f"{kind or 'a name without an ending'}: no format that is known; those are {' '.join(_KINDS)}")
+        raise ValueError(f"{kind or 'a name without an ending'}: unknown format; known are {' '.join(_KINDS)}")
     found = False
     for name, module in _KINDS[kind]:
         try:

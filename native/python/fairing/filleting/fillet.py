@@ -192,7 +192,7 @@ def fillet(
         task = _tapered(task, widest)
         cut = task.cut()
         bad: list[tuple[IntArray, Any]] = [part[:2] for part in cut["eaten"] if not part[2]]
-        what = "nothing would be left of a part between seams"
+        what = "fillets would meet between seams"
         if not bad:
             refuse_vertices_on_edges(points, corners, cut["parent"])
             task.watch.lap("cut")
@@ -202,7 +202,7 @@ def fillet(
                 raise _named(error, len(points)) from error
             near = _outside(task, made)
             bad = [(near, np.minimum(np.maximum(*task.widths), room)[near])] if len(near) else []
-            what = "the fillet would leave the shape that it rounds"
+            what = "the fillet would stick out of the shape"
         if not bad or not clamp:
             break
         for vertices, most in bad:
@@ -267,7 +267,7 @@ def _clamped(
         "width": float(wanted[where].max()), "widest": float(most[where].min()),
         "vertices": float(len(where)), "clamped": 1.0,
     }  # fmt: skip
-    text = f"width: there is less room at {len(where)} vertices, down to {figures['widest']:.4g}, which is taken there"
+    text = f"width: too little room at {len(where)} vertices; it shrinks to {figures['widest']:.4g} there"
     return (Diagnostic("WIDTH_TOO_LARGE", text, where, "vertex", figures),)
 
 
@@ -299,7 +299,7 @@ def _outside(task: Task, made: Made) -> IntArray:
 
 def _too_wide(what: str, where: IntArray, width: float, widest: float) -> MeshError:
     """widest: that fits there, or not less than what is wanted."""
-    text = f"width: {what}; a smaller width is needed, or one of its seams less"
+    text = f"width: {what}; lower it, or leave out one of the seams"
     figures = {"width": width, "vertices": float(len(where))}
     if widest < width:
         figures["widest"] = widest

@@ -83,7 +83,7 @@ def surface_from_curves(
         raise ValueError(f"closed: True or False is needed, not {closed!r}")
     _check(wires, points)
     if (arguments.places_of(sharp, wires) < 0).any():
-        raise ValueError("creases: some of them are none of `edges`")
+        raise ValueError("creases: some are not in `edges`")
     # Loops with their surface on the left, all of a network wound alike, and the normal of each (l, 3); what is no
     # cell, and edges (r, 2) around openings that are closed.
     cells, normals, left_open, rims = _core.wire_cells(wires, points, bool(closed))

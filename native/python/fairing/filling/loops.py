@@ -121,7 +121,7 @@ def drawn(loop: IntArray, wires: IntArray) -> Drawn:
         if len(leaves) < 2:
             continue
         if sum(map(len, links.values())) // 2 >= len(links):
-            raise refusal("enclose a place of their own", np.array(sorted(links)), "remove one")
+            raise refusal("form a ring", np.array(sorted(links)), "remove one")
         ends = [int(loop[leaf]) for leaf in leaves]
         paths = [_path(a, b, links) for a, b in zip(ends, ends[1:] + ends[:1], strict=True)]
         trees.append(Tree(tuple(leaves), tuple(np.array(path, dtype=np.int32) for path in paths)))

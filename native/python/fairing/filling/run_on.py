@@ -138,7 +138,7 @@ class Edges:
             if not trees if found.cut is None else not _is_tangled(found.cut[0], making):
                 return found
         where = np.unique(np.concatenate([arguments.NO_EDGES.ravel(), *drawn.curves]))
-        raise loops.refusal("meet its boundary or each other", where, "move them apart")
+        raise loops.refusal("touch its boundary or each other", where, "move them apart")
 
 
 def _bands(
@@ -190,10 +190,10 @@ def _apart(ends: Sequence[EdgeEnd], trees: Sequence[Tree]) -> list[list[EdgeEnd]
 
 
 _WHY = {
-    "lonely": "no other one goes on from there",
+    "lonely": "no edge across it matches",
     "ambiguous": "they may be joined in several ways",
     "too_many": "they are too many to be joined",
-    "crossing": "their paths onward cross the outline",
+    "crossing": "they would cross the boundary",
 }
 
 

@@ -152,7 +152,7 @@ def _wound_alike(parts: Parts) -> tuple[Parts, tuple[Diagnostic, ...]]:
     faces = np.unique(parts.faces.face_of[turned])
     if not len(faces):
         return parts, ()
-    text = f"{len(faces)} faces were wound against most of their piece and are turned"
+    text = f"{len(faces)} faces faced the other way than the rest and were flipped"
     said = Diagnostic("INCONSISTENT_WINDING", text, turned.astype(np.int32), "triangle", {"faces": float(len(faces))})
     return replace(parts, faces=parts.faces.turned(faces)), (said,)
 

@@ -99,7 +99,7 @@ class Parts:
         object.__setattr__(self, "points", arguments.floats("vertices", self.points))
         arguments.indices_within("faces", self.faces.corners, len(self.points))
         if (self.faces.sizes < 3).any() or self.faces.sizes.sum() != len(self.faces.corners):
-            raise ValueError("faces: one has less than three corners, or less than it says")
+            raise ValueError("faces: one has fewer than three corners, or not as many as its size says")
         for what, data, count in (
             ("vertex", self.vertex_data, len(self.points)), ("face", self.face_data, len(self.faces.sizes)),
         ):  # fmt: skip

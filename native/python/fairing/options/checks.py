@@ -28,8 +28,8 @@ def by_parts(boundary: Boundary, options: Options) -> tuple[Boundary, Options]:
     loose, curved = kinds == "G0", kinds == "G2"
     if loose.any() and (curved.any() or options.surface.continuity == "G2"):
         raise ValueError(
-            "continuity: 'G0' and 'G2' are not accepted in one boundary: a surface with free slopes is one of least "
-            "variation, and curvatures are met by the harmonic equation"
+            "continuity: 'G0' and 'G2' can't be mixed in one boundary: 'G0' takes the equation 'least_variation', "
+            "'G2' 'harmonic'"
         )
     if loose.any():
         creases = options.curves.creases
@@ -61,7 +61,7 @@ def checked(value: Any, vertices: Any) -> npt.NDArray[np.str_]:
 
 
 INNER_FAIRNESS = _core.WORDS["inner_fairness"]
-OUTLINES = ("given", "mended")
+BOUNDARIES = ("given", "mended")
 CONTINUITIES = ("G1", "G2")
 
 

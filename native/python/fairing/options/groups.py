@@ -41,7 +41,7 @@ def engine_options(method: str, levels: int, given: PaperOptions | None) -> _cor
     if given is not None and not isinstance(given, PaperOptions):
         raise ValueError(f"paper: a fairing.PaperOptions is needed, not {given!r}")
     if given is not None and method != "paper":
-        raise ValueError(f"paper: holds options of method 'paper'; method {method!r} has none of them")
+        raise ValueError(f"paper: accepted with method 'paper' only, not {method!r}")
     result = _core.PaperOptions()
     for name, value in vars(given or PaperOptions()).items():
         setattr(result, name, value)

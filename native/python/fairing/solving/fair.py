@@ -115,7 +115,7 @@ def solved(
             engine, progress, preview,
         )  # fmt: skip
 
-    fitted = arguments.choice("outline", surface.outline, checks.OUTLINES) == "mended"
+    fitted = arguments.choice("outline", surface.outline, checks.BOUNDARIES) == "mended"
     if fitted:
         surroundings.refuse_creases(curves.creases, around)
     refused = {"reference": m0 is not None, "outline": fitted, "continuity": joins}

@@ -77,8 +77,8 @@ def refuse_creases(creases: Any, around: Surroundings) -> None:
     ends = np.intersect1d([] if creases is None else creases, around.rim)
     if len(ends):
         raise ValueError(
-            f"outline: 'mended' can't follow creases outside, and {len(ends)} of `creases` lie on the boundary, "
-            f"vertex {int(ends[0])} among them: pass boundary 'given', or leave `creases` out"
+            f"outline: 'mended' would round creases outside; {len(ends)} of `creases` lie on the boundary, "
+            f"vertex {int(ends[0])} among them: pass outline='given', or leave `creases` out"
         )
 
 

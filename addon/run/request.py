@@ -1,4 +1,4 @@
-"""What a run was asked for, as it was read, and what becomes of its answer: written and reported, or why it isn't."""
+"""A request of a run: what was read, the work, and how the answer is written or refused."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ Say = Callable[[set[str], str], object]  # an operator's report
 Work = Callable[[Progress], Any]
 
 
-class Asked:
-    """One run. Each operator has a kind of its own, which says how it is answered and what is written."""
+class Request:
+    """One run. Each operator has a subclass, which does the work and writes the answer."""
 
     if TYPE_CHECKING:
         work: Work  # gives the answer, on arrays alone: any thread; raises job.Refused and fairing.Cancelled
         is_as_read: Callable[[bpy.types.Context], bool]  # whether the meshes are as they were read
         # Writes and reports; returns an operator's status, and raises job.Refused.
         finish: Callable[[bpy.types.Context, Any, Say], set[str]]
-        # Of those whose changes in the redo panel are awaited (redo.py), while the result before them is shown:
+        # For operators with a redo panel (redo.py), while the previous result is shown:
         keep_shown: Callable[[bpy.types.Context], None]  # remembers the meshes as they are now
         is_as_shown: Callable[[bpy.types.Context], bool]  # whether they still are
 
@@ -36,13 +36,13 @@ class Asked:
 
         @property
         def names(self) -> tuple[str, ...]:
-            """Of the objects."""
+            """Names of the objects."""
 
     begin: float = 0.0  # of reading, by the performance counter
     preview: Preview | None = None  # of what is shown while a thread is at work
 
     def work_aside(self, _large: bool) -> Work:
-        """Return the work as a thread does it, from the start where it is large."""
+        """Return the work for a background thread; `_large`: it goes there at once."""
         return self.work
 
     def complete(self, context: bpy.types.Context, answer: Callable[[], Any], say: Say) -> set[str]:
@@ -53,18 +53,18 @@ class Asked:
             return refuse(context, refusal, say)
 
     def swap(self, _context: bpy.types.Context) -> bool:
-        """Let the meshes as they were read show the result before, or the other way round; return whether they do."""
+        """Swap the meshes as read with the previous result; return whether that was possible."""
         return False
 
 
 @dataclass
-class AskedInEditMode(Asked):
+class RequestInEditMode(Request):
     """One run over all objects in edit mode."""
 
     tasks: list[Any]  # each a job.Task or the like
     options: Any
     begin: float = 0.0
-    moves: ClassVar[bool] = False  # whether vertices stay the same ones
+    keeps_vertices: ClassVar[bool] = False  # it moves vertices and makes none
     _shown: Sequence[job.AsRead] = field(default=(), init=False)
 
     @property
@@ -86,8 +86,8 @@ class AskedInEditMode(Asked):
         return len(self._shown) > 0 and job.is_current(context, self._shown)
 
     def swap(self, context: bpy.types.Context) -> bool:
-        """Move vertices; new ones stay, and so does what moved in all shape keys."""
-        if not self.moves or not compare.is_available():
+        """Only where vertices were moved: not for new ones, nor after a run on all shape keys."""
+        if not self.keeps_vertices or not compare.is_available():
             return False
         try:
             compare.toggle(context)
