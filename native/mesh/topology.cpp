@@ -64,10 +64,10 @@ void check_fans(const Fans& fans, const VertexRoles& roles) {
         if (++count[v] == 2 && !roles.fixed[v]) offenders.push_back(v);
     }
     if (offenders.empty()) return;
+    const std::string more = offenders.size() > 1 ? " and " + std::to_string(offenders.size() - 1) + " more" : "";
     throw MeshError(about(Code::nonmanifold_vertex,
-                          "free vertex " + std::to_string(offenders.front()) + " (and " +
-                              std::to_string(offenders.size() - 1) +
-                              " more) joins triangles in a point: split it, or add it to `fixed`",
+                          "triangles touch only in free vertex " + std::to_string(offenders.front()) + more +
+                              ": split it, or add it to `fixed`",
                           offenders, ElementKind::vertex, "vertices"));
 }
 

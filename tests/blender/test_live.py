@@ -207,7 +207,7 @@ def test_a_spoilt_boundary_is_reported_and_leaves_the_mesh(live: Any) -> None:
     before = now()
     beside = flank(before)
     drag(beside, (float("nan"), 0.0, 0.0))
-    assert "NaN or infinite" in live.message
+    assert "invalid coordinate" in live.message
     others = np.setdiff1d(np.arange(len(before)), beside)
     assert np.array_equal(now()[others], before[others])
 
@@ -259,7 +259,7 @@ def test_another_shape_key_is_never_written(live: Any, locked: bool) -> None:
     bpy.context.view_layer.update()
     drag([], (0.0, 0.0, 0.0))
     assert np.array_equal(now(), shown)
-    assert ("locked" if locked else "belongs to the Basis") in live.message
+    assert ("Unlock" if locked else "belongs to the Basis") in live.message
     assert live.sessions == {}
     drag(flank(shown), (0.0, 0.0, 0.05))
     assert set(np.flatnonzero(np.abs(now() - shown).max(axis=1))) == set(flank(shown))

@@ -101,6 +101,6 @@ def test_new_faces_that_come_twice_are_refused_before_any_is_made() -> None:
     once = SimpleNamespace(stay=stay, polygons=[(0, 1, 2), (0, 1, 3), (1, 2, 3)])
     new_faces.refuse_doubles(bm, once)
     twice = SimpleNamespace(stay=stay, polygons=[(0, 1, 3), (1, 2, 3), (3, 1, 0)])
-    with pytest.raises(ValueError, match="doubles back"):
+    with pytest.raises(ValueError, match="New faces would lie on"):
         new_faces.refuse_doubles(bm, twice)
     bm.free()

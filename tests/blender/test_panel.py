@@ -81,10 +81,10 @@ SPOILERS: dict[str, Callable[[bpy.types.Object], None]] = {
 @pytest.mark.parametrize(
     ("spoiler", "options", "says"),
     [
-        ("nan", {}, "finite"),
+        ("nan", {}, "invalid"),
         ("tent", {}, "More than two faces"),
         ("group", {"pin_group": "Missing"}, "Missing"),
-        ("locked", {}, "locked"),
+        ("locked", {}, "Unlock"),
     ],
 )
 def test_inspection_says_what_would_be_refused(spoiler: str, options: Any, says: str) -> None:

@@ -142,7 +142,7 @@ def test_what_changes_the_mesh_meanwhile_keeps_what_is_shown(panel: Panel, what:
     there = panel.now if what in ("move", "cancel", "extrude", "script") else None
     panel.complete()
     assert panel.report.verdict == "LOOK"
-    assert "Another surface was kept" in panel.report.reason
+    assert "The last result stays" in panel.report.reason
     if there is not None:
         assert panel.now == there
     if what == "mode":
@@ -161,7 +161,7 @@ def test_a_selection_meanwhile_stays(panel: Panel) -> None:
     moves = panel.kind in (KINDS["region"], KINDS["denoise"])
     assert bpy.data.objects[panel.name].data.count_selected_items()[0] == 0
     assert (panel.now == panel.first) != moves
-    assert ("Another surface was kept" in panel.report.reason) != moves
+    assert ("The last result stays" in panel.report.reason) != moves
     if moves:
         bpy.ops.ed.undo()
         assert panel.now == panel.first

@@ -189,10 +189,10 @@ def test_nothing_is_said_in_both_panels() -> None:
     meshes.run()
     watch = module("selection.watch").watch
     watch.look(bpy.context)
-    assert "wound against" in meshes.report().warnings  # scripts get all of it
-    assert "wound against" in drawn("VIEW3D_PT_fairing_selection").replace("\n", " ")
+    assert "point opposite ways" in meshes.report().warnings  # scripts get all of it
+    assert "point opposite ways" in drawn("VIEW3D_PT_fairing_selection").replace("\n", " ")
     shown = drawn("VIEW3D_PT_fairing_report").replace("\n", " ")
-    assert "wound against" not in shown
+    assert "point opposite ways" not in shown
     assert "Free Vertices" not in shown
 
 
