@@ -144,6 +144,6 @@ def test_a_locked_key_refuses_them_all() -> None:
     obj, faces = keyed()
     obj.data.shape_keys.key_blocks["Tilted"].lock_shape = True
     before = meshes.in_edit_mode_once(obj, faces)
-    with pytest.raises(RuntimeError, match="Unlock the .*'Tilted'"):
+    with pytest.raises(RuntimeError, match=r"Unlock the .*'Tilted'"):
         meshes.fair(obj, faces, all_keys=True)
     assert meshes.contents(obj) == before
