@@ -164,7 +164,6 @@ HeldInside HoleJob::held() const {
 
 FilledHole HoleJob::filled(const Progress& progress) const {
     const Stopwatch watch;
-    FilledHole result;
     const auto timed = [&](FilledHole made) {
         made.report.seconds["total"] = watch.seconds();
         return made;
@@ -180,16 +179,22 @@ FilledHole HoleJob::filled(const Progress& progress) const {
     const double flat = flat_count();
     Limit::of(flat, options_.max_vertices)
         .check(options_.bridge ? flat : fairing::least_count(loops_[0].shape, options_.spacing), vertices_of(hole_));
-    const auto begun = at_once(progress.range(0.0, 0.1));
-    if (begun && !is_stretched(*begun)) return timed(finished(coarser(*begun, progress.range(0.9, 1.0)), split_));
-    NewSurface first = begun
-                           ? NewSurface{begun->patch.vertices.rightCols(begun->patch.vertices.cols() - split_.count()),
-                                        begun->patch.triangles}
-                           : first_over(loops_, split_, taken(), first_equation(options_), progress.range(0.1, 0.2));
-    // Where none was found on a small mesh and another kind may close the hole, a fine one takes most of the time in
-    // vain.
+    const std::optional<SolvedHole> begun = at_once(progress.range(0.0, 0.1));
+    const bool is_begun = begun && is_usable(begun->report);
+    const bool is_found = is_begun && begun->report.provenance == Provenance::equation;
+    if (is_found && !is_stretched(*begun)) return timed(finished(coarser(*begun, progress.range(0.9, 1.0)), split_));
+    const NewSurface first =
+        is_found ? NewSurface{begun->patch.vertices.rightCols(begun->patch.vertices.cols() - split_.count()),
+                              begun->patch.triangles}
+                 : first_over(loops_, split_, taken(), first_equation(options_), progress.range(0.1, 0.2));
+    // Where none was found on two small meshes and another kind may close the hole, a fine one takes most of the time
+    // in vain.
     std::optional<SolvedHole> made;
-    if (first.converged || !may_differ) made = surface(first, progress.range(0.2, 0.9));
+    if (is_begun && !(first.converged && first.provenance == Provenance::equation)) {
+        made = coarser(*begun, progress.range(0.9, 1.0));
+    } else if (first.converged || !may_differ) {
+        made = surface(first, progress.range(0.2, 0.9));
+    }
     if (may_differ && !(made && is_usable(made->report))) {
         if (auto other = film(progress.range(0.9, 0.95))) return timed(std::move(*other));
         if (!made) made = surface(first, progress.range(0.95, 1.0));
@@ -263,11 +268,10 @@ std::optional<SolvedHole> HoleJob::at_once(const Progress& progress) const {
     if (!is_plain() || !(std::max(own, flat_count()) < solved_count)) return std::nullopt;
     const NewSurface flat = first_over(loops_, split_, taken(), std::nullopt, progress);
     if (!flat.converged) return std::nullopt;
-    const SolvedHole made = on_mesh(patch_over(flat), {options_.spacing, few_solved, options_.spread}, Start::given,
-                                    Otherwise::stop, progress);
-    if (!is_usable(made.report)) return std::nullopt;
+    SolvedHole made = on_mesh(patch_over(flat), {options_.spacing, few_solved, options_.spread}, Start::given,
+                              Otherwise::stop, progress);
     const double count = expected_remesh_count(made.patch.input({}), {options_.spacing, 0, options_.spread});
-    Limit::of(flat_count(), options_.max_vertices).check(count, vertices_of(hole_));
+    if (is_usable(made.report)) Limit::of(flat_count(), options_.max_vertices).check(count, vertices_of(hole_));
     return made;
 }
 

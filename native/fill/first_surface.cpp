@@ -125,8 +125,6 @@ VectorX equal_lengths(const Patch& patch, const Points& points) {
                         {std::sqrt(vertices_per_square * faces.areas.sum() / first_count), 0, Spread::equal});
 }
 
-bool has_converged(const FirstSurface& surface) { return end_of(surface.solution) == Termination::converged; }
-
 // A mesh of some 400 vertices on the surface found, or more where the boundary is fine.
 Meshed with_equal_edges(const OpenBoundary& boundary, const Patch& patch, const Points& points,
                         const SolverOptions& options) {
@@ -138,14 +136,6 @@ Meshed with_equal_edges(const OpenBoundary& boundary, const Patch& patch, const 
     return meshed(mesh, boundary.points);
 }
 
-std::optional<FirstSurface> near(const OpenBoundary& boundary, Meshed& equal, const SolverOptions& options,
-                                 const Progress& progress) {
-    std::optional<Solution> solution =
-        solve_near(problem_on(boundary, equal.patch, options), {equal.points, true}, progress);
-    if (!solution) return std::nullopt;
-    return FirstSurface{std::move(equal.patch), std::move(*solution)};
-}
-
 // Where the surface bulges out so far that it is found from a ball only.
 std::optional<FirstSurface> from_ball(const OpenBoundary& boundary, const Meshed& flat, const SolverOptions& options,
                                       const Progress& progress) {
@@ -153,7 +143,10 @@ std::optional<FirstSurface> from_ball(const OpenBoundary& boundary, const Meshed
     const std::optional<Points> ball = ball_start(flat.patch, flat.points, boundary.normals);
     if (!ball) return std::nullopt;
     Meshed equal = with_equal_edges(boundary, flat.patch, *ball, options);
-    return near(boundary, equal, options, progress);
+    std::optional<Solution> solution =
+        solve_near(problem_on(boundary, equal.patch, options), {equal.points, true}, progress);
+    if (!solution) return std::nullopt;
+    return FirstSurface{std::move(equal.patch), std::move(*solution)};
 }
 
 Meshed tube_mesh(const OpenBoundary& boundary, const SweptTube& swept, const SolverOptions& options) {
@@ -230,7 +223,8 @@ FirstSurface first_surface(const OpenBoundary& boundary, const SolverOptions& as
     SolverOptions options = asked;  // automatic chooses where the solution is sought
     if (asked.equation == Equation::automatic) options.equation = Equation::harmonic;
     FirstSurface result = sought(boundary, options, progress.range(0.0, 0.8));
-    if (has_converged(result) || !may_be_replaced(options) || boundary.loops.size() < 2) return result;
+    if (end_of(result.solution) == Termination::converged || !may_be_replaced(options) || boundary.loops.size() < 2)
+        return result;
     return with_loft(boundary, options, std::move(result), progress.range(0.8, 1.0));
 }
 

@@ -30,6 +30,18 @@ bool lies_on_another_edge(const LoopShape& loop, int k, double reach) {
     return false;
 }
 
+// Whether all triangles of a fan around the hub face as the loop's normals do, and these one way.
+bool is_star(const LoopShape& loop, const Vector3& hub) {
+    constexpr double flat_enough = 0.5;  // length of the mean normal: 0 at the end of a tube, where a fan faces nowhere
+    const Vector3 normal = loop.normals.rowwise().sum();
+    if (!(normal.norm() > flat_enough * loop.size())) return false;
+    for (int k = 0; k < loop.size(); ++k) {
+        const Vector3 next = loop.points.col((k + 1) % loop.size()) - hub;
+        if (!((loop.points.col(k) - hub).cross(next).dot(normal) > 0.0)) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 bool is_crack(const LoopShape& loop) {
@@ -93,17 +105,6 @@ VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face) {
         angles[k] = degrees_between(sum, loop.shape.normals.col(k));
     }
     return angles;
-}
-
-bool is_star(const LoopShape& loop, const Vector3& hub) {
-    constexpr double flat_enough = 0.5;  // length of the mean normal: 0 at the end of a tube, where a fan faces nowhere
-    const Vector3 normal = loop.normals.rowwise().sum();
-    if (!(normal.norm() > flat_enough * loop.size())) return false;
-    for (int k = 0; k < loop.size(); ++k) {
-        const Vector3 next = loop.points.col((k + 1) % loop.size()) - hub;
-        if (!((loop.points.col(k) - hub).cross(next).dot(normal) > 0.0)) return false;
-    }
-    return true;
 }
 
 bool takes_hub(const LoopShape& loop, const Vector3& hub) {

@@ -21,9 +21,6 @@ std::optional<Triangles> face_over(const BoundaryLoop& loop, const Triangles& ar
 // Degrees at each vertex of the loop between its normal and that of the face over it, area by area.
 VectorX angles_of_face(const BoundaryLoop& loop, const Triangles& face);
 
-// Whether all triangles of a fan around the hub face as the loop's normals do, and these one way.
-bool is_star(const LoopShape& loop, const Vector3& hub);
-
 // Whether a fan around the hub is a good mesh over a loop of five to eight edges.
 bool takes_hub(const LoopShape& loop, const Vector3& hub);
 
