@@ -27,7 +27,7 @@ class Request(RequestInEditMode):
         )
 
     def finish(self, context: bpy.types.Context, outcomes: list[Denoised], say: Say) -> set[str]:
-        last_run.forget()  # Again would fair
+        last_run.forget()  # Fair Again only fairs
         compare.remember(self.tasks, outcomes)
         job.write_each(context, zip(self.names, outcomes, strict=True), job.write_one)
         count = sum(len(outcome.vertices) for outcome in outcomes)

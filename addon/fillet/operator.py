@@ -67,7 +67,7 @@ def _length(task: Task) -> float:
 
 
 def solve(tasks: list[Task], options: FilletOptions, progress: Progress) -> list[Rounded]:
-    """Round the seams of every task; raises Refused, and what its cause is not."""
+    """Round the seams of every task; raises Refused and fairing.Cancelled."""
     return each_of(tasks, lambda task, part: round_arrays(task.mesh, task.target, task.matrix, options, part), progress)
 
 
@@ -228,7 +228,7 @@ class MESH_OT_fair_fillet(FilletProperties, InEditMode, bpy.types.Operator):
         say(context, translated(text) + keys)
 
     def _accept(self, context: bpy.types.Context) -> set[str]:
-        """Have the answer that is sought, in the background where that takes a while."""
+        """Finish with the options chosen, in the background where that takes a while."""
         self._follow_no_more(context)
         if not self._asked.is_as_read(context):
             self.report({"ERROR"}, translated(said("dropped")))

@@ -101,7 +101,7 @@ class FilletOptions(Chosen):
     quads: bool = option(
         VERTICES,
         "Quads",
-        "Quads in rows along the seam that continue the edges outside from side to side. Where none fit, triangles",
+        "Quads in rows along the seam; edges across it join those outside on both sides. Where none fit, triangles",
         False,
     )
     width_group: str = shared.group(

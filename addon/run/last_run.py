@@ -17,7 +17,7 @@ from ..verdict.report import Report, standing
 from ..words.words import said
 from .job import Task, objects_in_mode
 
-SIGHT = 25.0  # edges around a spot that are in sight
+SIGHT = 25.0  # in edge lengths: what the view shows
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class _Last:
         self.refused: tuple[Region, ...] = ()  # that a refusal is about
         self.options = FairOptions()
         self.standing: tuple[int, float] = (0, 0.0)
-        self.next: tuple[str, dict[str, Ints] | None] = ("", None)  # the remedy that it is to try, on which faces
+        self.next: tuple[str, dict[str, Ints] | None] = ("", None)  # the next run's remedy, and its faces
 
 
 _last = _Last()

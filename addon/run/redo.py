@@ -47,7 +47,7 @@ class Following:
         self.unwanted = False  # a button has asked for the end
         self.completed = False  # the answer is written
         self.run: runner.Run[Any] | None = None  # none yet while the operator is under way
-        self.timer: bpy.types.Timer | None = None  # of the looks
+        self.timer: bpy.types.Timer | None = None  # calls look()
 
     def begin(self, context: bpy.types.Context) -> None:
         """Let Blender go on; the search begins at the first look."""
@@ -94,7 +94,7 @@ class Following:
 
 
 class _Repeat:
-    """The change that we have Blender repeat an operator for."""
+    """The change for which Blender repeats an operator."""
 
     now: Following | None = None
 

@@ -40,7 +40,7 @@ struct FairOptions {
 
 struct FairResult {
     Equation equation = Equation::harmonic;        // that holds: least_variation where any component took a stand-in
-    Provenance provenance = Provenance::equation;  // of all components' the last in the order of the enumeration
+    Provenance provenance = Provenance::equation;  // the components' last in the order of the enumeration
     Points vertices;
     Points base;  // without detail: the fair surface, which all figures below are about; no columns: `vertices`
     Indices fixed;

@@ -25,7 +25,7 @@ struct FilletCut {
     Indices boundary;    // vertices where the fillet ends, ascending
     Points normals;      // 3 × of these: unit, of the sides beyond
     VectorX curvatures;  // of these: H in length⁻¹, NaN where not known
-    Indices corners;     // those of these at which two sides meet, which have no normal of their own
+    Indices corners;     // boundary vertices where two sides meet: without a normal of their own
     std::vector<EatenPart> eaten;
 };
 

@@ -85,7 +85,7 @@ void measure_join(FairResult& report, const HolePatch& patch, const Triangles& a
 
 // NaN where a fit is far less certain than the others.
 VectorX trusted_curvatures(const SurroundingNormals& fits);
-// G2: mean curvatures at `fixed` of what lies around a patch, NaN where they are not known; on the side of the normals.
+// G2: mean curvatures at `fixed` of what lies around a patch, NaN where they are not known; signed by the normals.
 VectorX curvatures_around(const HolePatch& patch, const Triangles& around);
 
 // A pattern of quads on a surface, each as two triangles.

@@ -36,7 +36,7 @@ struct Judged {
     Faults now;
     std::optional<Faults> before;  // the old surface's; crossings are looked for only if `now` has some
     Indices pierced;               // triangles of the surface that pass through others, and did not before
-    Indices rounded;               // moved vertices at hard edges, outside or going on there, that are flat now
+    Indices rounded;               // moved vertices of hard edges, outside or going on there, now flatter
     Indices blunt;                 // the same at marked edges of the surface
     Indices seams;                 // see shape/kinks
 };

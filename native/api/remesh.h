@@ -43,10 +43,10 @@ struct NewSurface {
     Provenance provenance = Provenance::equation;  // where each comes from; `equation` where they differ
 };
 
-// One surface over all loops, or one over each; without options flat ones, that have `converged` unless they should
-// begin as balls. The mesh is coarse (some 300 new vertices each), an initial surface for
-// `remesh` and `fair`. Throws SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined.
-// Preconditions: finite vertices, loops of three vertices or more that don't touch.
+// One surface over all loops, or one over each; without options flat ones, `converged` unless a ball is the better
+// start. The mesh is coarse (some 300 new vertices each), an initial surface for `remesh` and `fair`. Throws
+// SolverError, Cancelled; MeshError (NONMANIFOLD_EDGE) where loops can't be joined. Preconditions: finite vertices,
+// loops of three vertices or more that don't touch.
 NewSurface fill_loops(const OpenLoops& input, bool bridge, const std::optional<SolverOptions>& options,
                       const ProgressCallback& progress);
 

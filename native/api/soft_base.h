@@ -1,4 +1,4 @@
-// The base of a faired patch and its surroundings, and the low-passed one, towards which a feather moves it.
+// The base of a faired patch and its surroundings, and a low-passed one for the band that fades out.
 #pragma once
 
 #include "api/input.h"

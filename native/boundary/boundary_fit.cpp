@@ -47,7 +47,7 @@ void take(SidedFits& side, const Indices& vertices, const Indices& places, Surro
 // Whether the patch's own slopes are to be relied on: those of a dome are, those of noise or of a pocket's wall not.
 bool is_clean(const SurroundingFit& own, const SurroundingFit& film, const Indices& places) {
     constexpr double most_uncertain = 0.01;  // radians
-    constexpr double most_apart = 5.0;       // degrees off the adjacent triangles: more is a curve through few rows
+    constexpr double most_apart = 5.0;       // degrees off the adjacent triangles: beyond, it has too few rows
     const auto clean = std::count_if(places.begin(), places.end(), [&](int k) {
         const auto& fit = own.fits[k];
         return fit && fit->error < most_uncertain && degrees_between(fit->normal, own.averaged.col(k)) < most_apart &&

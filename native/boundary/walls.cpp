@@ -36,7 +36,7 @@ double angle_of(const Eigen::Vector2d& sum) { return std::atan2(sum.y(), sum.x()
 constexpr double flat = 1.0;          // degrees: the two triangles of a quad
 constexpr double explained = 0.25;    // least share of the film's bend that curvature explains where there is no wall:
                                       // balls .8 to 1.1, boxes 0 to .05
-constexpr double noise_margin = 3.0;  // as of hard edges: bends to the other side come from noise
+constexpr double noise_margin = 3.0;  // as for hard edges: bends the other way come from noise
 constexpr double parallel = 0.996;    // cosine: 5 degrees, the tilt of a draft; more is a ball's row
 constexpr double rounder = 1.25;      // curvature times distance to the middle: balls have at most 1
 constexpr double far_rounder = 3.0;   // times the sine of off_rows
