@@ -1,7 +1,9 @@
 #include "geometry/box_tree.h"
 
 #include <atomic>
-#include <cstdint>
+#include <bit>
+
+#include <Eigen/Geometry>
 
 #include "base/limits.h"
 #include "base/parallel.h"
@@ -10,80 +12,38 @@ namespace fairing {
 
 namespace {
 
-struct Key {
-    std::uint64_t place = 0;
-    int triangle = none;
-};
-
-// The lowest 21 bits, with two zeros after each.
-std::uint64_t spread(std::uint64_t bits) {
-    bits = (bits | bits << 32U) & 0x001f00000000ffffU;
-    bits = (bits | bits << 16U) & 0x001f0000ff0000ffU;
-    bits = (bits | bits << 8U) & 0x100f00f00f00f00fU;
-    bits = (bits | bits << 4U) & 0x10c30c30c30c30c3U;
-    return (bits | bits << 2U) & 0x1249249249249249U;
-}
-
-// A cube around the points that are finite.
-struct Cube {
-    Vector3 corner = Vector3::Constant(HUGE_VAL);
-    double edge = 0.0;
-
-    Cube(const Points& points, std::span<const Key> keys) {
-        Vector3 most = -corner;
-        for (const Key& key : keys) {
-            const auto point = points.col(key.triangle);
-            if (!point.allFinite()) continue;
-            corner = corner.cwiseMin(point);
-            most = most.cwiseMax(point);
-        }
-        edge = (most - corner).maxCoeff();
-    }
-
-    // Along Morton's curve, which numbers 2²¹ cells along each edge.
-    [[nodiscard]] std::uint64_t place(const Vector3& point) const {
-        constexpr double last = (1U << 21U) - 1.0;  // cell of 21 bits in each direction
-        std::uint64_t result = 0;
-        for (int axis = 0; axis < 3; ++axis) {
-            const double cell = last / edge * (point[axis] - corner[axis]);
-            result = result << 1U | spread(cell > 0.0 ? static_cast<std::uint64_t>(std::min(cell, last)) : 0);
-        }
-        return result;
-    }
-};
-
-// Triangles in one cell are sorted in a cube of their own: small parts of a large mesh would be unordered otherwise.
-void sort_along_curve(std::span<Key> keys, const Points& centres) {
-    const Cube cube(centres, keys);
-    if (!(cube.edge > 0.0 && cube.edge < HUGE_VAL)) return;
-    for_ranges(static_cast<int>(keys.size()), coarse_grain, [&](int begin, int end) {
-        for (int k = begin; k < end; ++k) keys[k].place = cube.place(centres.col(keys[k].triangle));
-    });
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return a.place != b.place ? a.place < b.place : a.triangle < b.triangle;
-    });
-    for (auto begin = keys.begin(); begin != keys.end();) {
-        auto end = begin + 1;
-        while (end != keys.end() && end->place == begin->place) ++end;
-        if (end - begin > one_by_one) sort_along_curve({begin, end}, centres);
-        begin = end;
+// Halves along the longest edge of a box around the centres, down to leaves. A whole power of two comes first: the
+// parts are those of nodes.
+void sort_by_place(std::span<int> order, const Points& centres) {
+    if (order.size() <= 4) return;
+    Eigen::AlignedBox3d box;
+    for (const int t : order) box.extend(Vector3(centres.col(t)));
+    Eigen::Index axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const std::size_t half = std::bit_ceil(order.size()) / 2;
+    std::nth_element(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half), order.end(),
+                     [&](int a, int b) { return centres(axis, a) < centres(axis, b); });
+    const std::array parts{order.first(half), order.subspan(half)};
+    if (order.size() < one_by_one * one_by_one) {
+        for (const auto part : parts) sort_by_place(part, centres);
+    } else {
+        run_pieces(2, [&](int k) { sort_by_place(parts[static_cast<std::size_t>(k)], centres); });
     }
 }
 
-Indices along_curve(const Triangles& triangles, const Points& points) {
+Indices sorted_by_place(const Triangles& triangles, const Points& points) {
     const auto count = static_cast<int>(triangles.cols());
-    std::vector<Key> keys(count);
     Points centres(3, count);
     for_ranges(count, coarse_grain, [&](int begin, int end) {
         for (int t = begin; t < end; ++t) {
             const auto corners = triangles.col(t);
-            centres.col(t) = points.col(corners[0]) + points.col(corners[1]) + points.col(corners[2]);
-            keys[t].triangle = t;
+            const Vector3 sum = points.col(corners[0]) + points.col(corners[1]) + points.col(corners[2]);
+            centres.col(t) = sum.allFinite() ? sum : Vector3::Zero();
         }
     });
-    sort_along_curve(keys, centres);
     Indices order(count);
-    std::transform(keys.begin(), keys.end(), order.begin(), [](const Key& key) { return key.triangle; });
+    std::iota(order.begin(), order.end(), 0);
+    sort_by_place(order, centres);
     return order;
 }
 
@@ -120,7 +80,7 @@ private:
     std::vector<std::vector<std::atomic<char>>> levels_;
 };
 
-BoxTree::BoxTree(const Triangles& triangles, const Points& points) : order_(along_curve(triangles, points)) {
+BoxTree::BoxTree(const Triangles& triangles, const Points& points) : order_(sorted_by_place(triangles, points)) {
     add_triangles(triangles, points);
     while (levels_.back().size() > 1) add_level();
 }

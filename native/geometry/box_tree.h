@@ -7,7 +7,7 @@ namespace fairing {
 
 class SettledNodes;
 
-// Four children to each node, the triangles in the order of a curve that fills space (Morton's).
+// Four children to each node, the triangles halved in turn by the place of their centres.
 class BoxTree {
 public:
     BoxTree(const Triangles& triangles, const Points& points);

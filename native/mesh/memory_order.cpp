@@ -1,6 +1,5 @@
 #include "mesh/memory_order.h"
 
-#include <cstdint>
 #include <cstdlib>
 
 #include "base/columns.h"
@@ -48,87 +47,34 @@ bool are_far_apart(const PatchMembers& members) {
     return sum > count * std::max(least_far, far_in_rows * std::sqrt(static_cast<double>(members.free_count)));
 }
 
-// From triangle to triangle across their sides.
-Indices steps_from(int start, const Twins& twins) {
-    Indices steps(twins.size() / 3, none);
-    Indices queue{start};
-    queue.reserve(steps.size());
-    steps[start] = 0;
+// The triangles from one on, by as few steps across their sides as possible. Precondition: one piece.
+Indices outwards(const Twins& twins) {
+    std::vector<char> reached(twins.size() / 3, 0);
+    Indices queue{0};
+    queue.reserve(reached.size());
+    reached[0] = 1;
     for (std::size_t next = 0; next < queue.size(); ++next) {
         checkpoint(static_cast<int>(next));
-        const int t = queue[next];
         for (int k = 0; k < 3; ++k) {
-            const int twin = twins[3 * t + k];
-            if (twin == none || steps[twin / 3] != none) continue;
-            steps[twin / 3] = steps[t] + 1;
+            const int twin = twins[3 * queue[next] + k];
+            if (twin == none || reached[twin / 3]) continue;
+            reached[twin / 3] = 1;
             queue.push_back(twin / 3);
         }
     }
-    return steps;
-}
-
-// On the boundary; any where there is none.
-Indices boundary_triangles(const Twins& twins) {
-    Indices found;
-    for (int s = 0; s < static_cast<int>(twins.size()); ++s) {
-        if (twins[s] == none) found.push_back(s / 3);
-    }
-    if (!found.empty()) return found;
-    found.resize(twins.size() / 3);
-    std::iota(found.begin(), found.end(), 0);
-    return found;
-}
-
-constexpr int cells = 65536;  // a power of two
-
-// The position of a cell on the Hilbert curve over cells × cells of them (Hilbert 1891).
-std::uint32_t hilbert_place(std::uint32_t x, std::uint32_t y) {
-    std::uint32_t place = 0;
-    for (std::uint32_t half = cells / 2; half > 0; half /= 2) {
-        const bool right = (x & half) != 0;
-        const bool up = (y & half) != 0;
-        place += half * half * ((right ? 3U : 0U) ^ (up ? 1U : 0U));
-        if (up) continue;
-        if (right) {
-            x = ~x;
-            y = ~y;
-        }
-        std::swap(x, y);
-    }
-    return place;
-}
-
-// The position of each triangle on the curve over the chart. Precondition: one piece.
-std::vector<std::uint32_t> places_on_chart(const Twins& twins) {
-    const Indices boundary = boundary_triangles(twins);
-    const Indices east = steps_from(boundary.front(), twins);
-    const int farthest = *std::max_element(east.begin(), east.end());
-    const auto off_half = [&](int t) { return std::abs(2 * east[t] - farthest); };
-    const int aside =
-        *std::min_element(boundary.begin(), boundary.end(), [&](int a, int b) { return off_half(a) < off_half(b); });
-    const Indices north = steps_from(aside, twins);
-    std::vector<std::uint32_t> places;
-    places.reserve(east.size());
-    const int scale = 1 + 2 * farthest / cells;  // one is at most twice as far from any as the other
-    for (std::size_t t = 0; t < east.size(); ++t)
-        places.push_back(
-            hilbert_place(static_cast<std::uint32_t>(east[t] / scale), static_cast<std::uint32_t>(north[t] / scale)));
-    return places;
+    return queue;
 }
 
 // Old number → new number: free vertices in the order of their first triangles, the fixed ones as they are.
 Indices vertex_numbers(const PatchMembers& members, const Twins& twins) {
-    const std::vector<std::uint32_t> places = places_on_chart(twins);
-    std::vector<std::pair<std::uint32_t, int>> sorted(members.free_count, {0, none});
-    for (int t = 0; t < static_cast<int>(places.size()); ++t) {
+    Indices numbers(members.to_input.size(), none);
+    int count = 0;
+    for (const int t : outwards(twins)) {
         for (const int v : members.triangles.col(t)) {
-            if (v < members.free_count && sorted[v].second == none) sorted[v] = {places[t], v};
+            if (v < members.free_count && numbers[v] == none) numbers[v] = count++;
         }
     }
-    std::sort(sorted.begin(), sorted.end());
-    Indices numbers(members.to_input.size());
-    std::iota(numbers.begin(), numbers.end(), 0);
-    for (std::size_t k = 0; k < sorted.size(); ++k) numbers[sorted[k].second] = static_cast<int>(k);
+    std::iota(numbers.begin() + members.free_count, numbers.end(), members.free_count);
     return numbers;
 }
 

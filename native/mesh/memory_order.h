@@ -10,8 +10,8 @@ namespace fairing {
 void sort_triangles(Triangles& triangles, Indices& numbers, int vertex_count);
 
 // Numbers free vertices and triangles anew where neighbours lie far apart, as in meshes that were subdivided, joined or
-// shuffled: along a Hilbert curve over a chart of the connectivity, the steps from two triangles of the boundary. A
-// shuffled mesh takes half longer at 10,000 vertices and twice as long at a million. `twins`: of the triangles.
+// shuffled: by the steps from one triangle. A shuffled mesh takes half longer at 10,000 vertices and twice as long at a
+// million. `twins`: of the triangles.
 void bring_neighbours_together(PatchMembers& members, Twins& twins);
 
 }  // namespace fairing

@@ -1,8 +1,10 @@
 #include "paper/level_update.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
 #include "geometry/shape_operator.h"
 #include "linear/conjugate_gradients.h"
-#include "paper/vertex_update.h"
 
 namespace fairing {
 
@@ -27,22 +29,58 @@ VectorX damping_shares(const LevelProblem& level) {
     return shares;
 }
 
-}  // namespace
-
-double outer_source(const SolverOptions& options, const CurvatureFit& fit) {
-    switch (options.equation) {
-        case Equation::constant: return options.load;
-        case Equation::minimal_energy: {
-            const double H = fit.mean();
-            return -2.0 * H * (H * H - fit.gaussian());
-        }
-        case Equation::harmonic:
-        case Equation::automatic:
-        case Equation::least_variation:
-        case Equation::soap_film: return 0.0;
-    }
-    return 0.0;
+// w_j of H = Σ_j w_j κ_j (eq. 10, 11) for the directions from `centre` to the points around it: those of fit_curvature.
+void curvature_weights(const Vector3& centre, std::span<const Vector3> around, const Vector3& normal,
+                       std::span<double> weights) {
+    const Frame frame(normal);
+    const auto row = [&](const Vector3& p) -> Vector3 {
+        const Vector3 d = p - centre;
+        const double x = frame.u.dot(d);
+        const double y = frame.v.dot(d);
+        const double in_plane = x * x + y * y;
+        if (!(in_plane > no_direction * d.squaredNorm())) return Vector3::Zero();
+        return Vector3(x * x, x * y, y * y) / in_plane;
+    };
+    Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+    for (const Vector3& p : around) matrix += row(p) * row(p).transpose();
+    const double slight = 1e-9 * matrix.trace() + 1e-300;  // as CurvatureRows
+    matrix.diagonal().array() += slight;
+    const Vector3 mean = matrix.inverse() * Vector3(0.5, 0.0, 0.5);
+    for (std::size_t k = 0; k < around.size(); ++k) weights[k] = mean.dot(row(around[k]));
 }
+
+// The input of one vertex update.
+struct VertexTarget {
+    Vector3 normal;                   // n_i, unit
+    std::span<const double> weights;  // w_j: they belong to the directions alone, which stay along the normal
+    Vector3 mean;                     // Σ_j λ_ij q_j
+    double curvature;                 // H̃_i
+    double damping;                   // s
+};
+
+// The new position of a vertex. First the weighted mean is projected on the tangent plane: q̃ = mean − ⟨Δq, n⟩ n. Then
+// it moves by s t n, with H(q̃ + t n) = H̃ for the linearised curvature (eq. 13: κ_j(t) = κ_j − 2t/|d_j|²). t is limited
+// to the distance of the points around (root mean square). Beyond, the linearisation says nothing.
+Vector3 updated_position(const Vector3& present, std::span<const Vector3> around, const VertexTarget& target) {
+    const Vector3& n = target.normal;
+    const Vector3 start = target.mean - n.dot(target.mean - present) * n;
+    double mean = 0.0;
+    double slope = 0.0;
+    double squares = 0.0;
+    for (std::size_t k = 0; k < around.size(); ++k) {
+        const Vector3 d = around[k] - start;
+        const double squared = std::max(d.squaredNorm(), 1e-300);
+        mean += 2.0 * target.weights[k] / squared * n.dot(d);
+        slope -= 2.0 * target.weights[k] / squared;
+        squares += squared;
+    }
+    if (!(std::abs(slope) > 0.0)) return start;
+    const double limit = std::sqrt(squares / static_cast<double>(around.size()));
+    const double t = std::clamp((target.curvature - mean) / slope, -limit, limit);
+    return std::isfinite(t) ? Vector3(start + target.damping * t * n) : present;
+}
+
+}  // namespace
 
 std::span<const Vector3> LevelState::around(const Patch& patch, int vertex) {
     ring_.gather(patch, points, vertex);
@@ -89,29 +127,21 @@ void LevelState::measure_arcs(const LevelProblem& level) {
 void LevelState::measure_curvature(const LevelProblem& level) {
     const Patch& patch = level.patch;
     H.resize(patch.vertex_count());
-    source.resize(patch.free_count);
     weights_begin = {0};
     weights.clear();
     for (int i = 0; i < patch.vertex_count(); ++i) {
         const std::span<const Vector3> points_around = around(patch, i);
-        const CurvatureFit fit = fit_curvature(points.col(i), points_around, normals.col(i));
-        H[i] = fit.mean();
+        H[i] = fit_curvature(points.col(i), points_around, normals.col(i)).mean();
         if (!patch.is_free(i)) continue;
-        source[i] = outer_source(level.solver, fit);
         weights.resize(weights.size() + points_around.size());
         weights_begin.push_back(weights.size());
         curvature_weights(points.col(i), points_around, normals.col(i), weights_of(i));
     }
 }
 
-VectorX LevelState::right_hand_side(const LevelProblem& level) const {
-    // Δ_B H = −(S H)/(2 M) (eq. 5).
-    return -2.0 * stiffness.mass.head(level.patch.free_count).cwiseProduct(source);
-}
-
 VectorX LevelState::defect(const LevelProblem& level) const {
     const Eigen::RowVectorXd row = H.transpose();
-    return right_hand_side(level) - stiffness.apply(level.patch, row, level.patch.free_count).transpose();
+    return -stiffness.apply(level.patch, row, level.patch.free_count).transpose();
 }
 
 // Positive unless a whole 1-disk has collapsed.
@@ -152,11 +182,10 @@ VectorX LevelUpdate::wanted_by(void (LevelUpdate::*solve)(VectorX&) const) const
 
 // Gauss–Seidel.
 void LevelUpdate::sweep(VectorX& H) const {
-    const VectorX rhs = state_.right_hand_side(level_);
     for (int s = 0; s < level_.paper.h_sweeps; ++s) {
         for (int i = 0; i < level_.patch.free_count; ++i) {
             const RingView ring = level_.patch.ring(i);
-            double sum = rhs[i];
+            double sum = 0.0;
             for (std::size_t k = 0; k < ring.valence(); ++k)
                 sum += state_.stiffness.weights[ring.spokes[k]] * H[ring.vertices[k]];
             H[i] = sum / state_.diagonal(level_, i);

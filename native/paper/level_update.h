@@ -23,9 +23,6 @@ struct LevelProblem {
     }
 };
 
-// The right-hand side f of Δ_B H = f for a fitted second fundamental form (§7.5).
-double outer_source(const SolverOptions& options, const CurvatureFit& fit);
-
 // Virtual points: of the present positions, or over chords with the arcs as they were. Between the two updates of a
 // cycle those take a sixth fewer updates.
 enum class Arcs { present, as_before };
@@ -37,21 +34,18 @@ struct LevelState {
     // while vertices move one after the other.
     Points arcs;
     VectorX H;
-    VectorX source;  // f at the free vertices
     Stiffness stiffness;
-    std::vector<double> weights;  // of the curvature at the free vertices (paper/vertex_update)
+    std::vector<double> weights;  // w_j of the curvature at the free vertices
     std::vector<std::size_t> weights_begin;
 
     void measure(const LevelProblem& level, Arcs which);
-    // 2 M f with the sign of S H: the right-hand side of step I.
-    [[nodiscard]] VectorX right_hand_side(const LevelProblem& level) const;
-    // rhs − S H (free count), and S_ii.
+    // −S H (free count), and S_ii.
     [[nodiscard]] VectorX defect(const LevelProblem& level) const;
     [[nodiscard]] double diagonal(const LevelProblem& level, int vertex) const;
     // The neighbours of a vertex and the virtual points between them (§6.2). Valid until the next call.
     [[nodiscard]] std::span<const Vector3> around(const Patch& patch, int vertex);
     [[nodiscard]] std::span<double> weights_of(int free_vertex);
-    // max |Δ_B H − f| over the free vertices, |H| for minimal surfaces. Infinite where it is not a number.
+    // max |Δ_B H| over the free vertices, |H| for minimal surfaces. Infinite where it is not a number.
     [[nodiscard]] double residual(const LevelProblem& level) const;
 
 private:
@@ -81,7 +75,7 @@ public:
     void move_to(const Points& points) { state_.points = points; }
 
 private:
-    // Step I (§7.1), S H = rhs at the free vertices, H known at the fixed ones. Both begin at the H there is and are
+    // Step I (§7.1), S H = 0 at the free vertices, H known at the fixed ones. Both begin at the H there is and are
     // not meant to converge.
     [[nodiscard]] VectorX wanted_by(void (LevelUpdate::*solve)(VectorX&) const) const;
     void sweep(VectorX& H) const;

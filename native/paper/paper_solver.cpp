@@ -1,7 +1,6 @@
 #include "paper/paper_solver.h"
 
 #include "base/stopwatch.h"
-#include "iteration/continuation.h"
 #include "multigrid/coarsening.h"
 #include "paper/factorised_iteration.h"
 #include "paper/level_update.h"
@@ -18,9 +17,7 @@ namespace {
 // with descent of its area.
 Points start_of_level(const LevelProblem& level, const Points& fixed_points, const Progress& progress) {
     const bool minimal = level.solver.equation == Equation::soap_film;
-    SolverOptions options = level.solver;
-    if (!minimal) options.equation = Equation::harmonic;  // the other equations are reached from its solution
-    const Problem problem{level.patch, fixed_points, level.fixed_normals, uniform_weights(level.patch), options};
+    const Problem problem{level.patch, fixed_points, level.fixed_normals, uniform_weights(level.patch), level.solver};
     Workspace work{make_normal_operator(problem),
                    make_tangential_step(problem.patch, problem.weights, fixed_points, progress.here())};
     if (minimal) return descend_area(problem, work, membrane(problem, work), progress);
@@ -100,43 +97,13 @@ private:
         // A coarser level that did not converge says nothing about this one.
         if (!coarser_converged_) {
             points_ = start_of_level(lp, problem_.fixed_points, progress.range(0.0, 0.1));
-            points_ = raise_load(lp, std::move(points_), progress.here());
             solution_.seconds["start"] += watch.lap();
         }
         IterationOutcome outcome = fair_level(lp, points_, limits_of(level), progress.range(0.1, 1.0));
-        if (level == 0 && options_.load != problem_.options.load) confess(lp, outcome);
         solution_.seconds[level == 0 ? "iteration" : "coarse levels"] += watch.lap();
         coarser_converged_ = outcome.termination == Termination::converged;
         points_ = outcome.points;
         record(level, outcome);
-    }
-
-    // The load of Δ_B H = load on the coarsest level: at once, or in steps, each from the last one's surface. What is
-    // not reached here is out of reach on the finer levels too: the branch of solutions has ended.
-    Points raise_load(const LevelProblem& level, Points points, const Progress& progress) {
-        if (options_.equation != Equation::constant || problem_.options.load == 0.0) return points;
-        const IterationLimits limits{start_tolerance, 100, limits_of(static_cast<int>(coarser_.size())).damping};
-        const double whole = problem_.options.load;
-        double reached = 0.0;
-        for (double increment = 1.0; reached < 1.0 && increment >= smallest_increment;) {
-            options_.load = whole * std::min(1.0, reached + increment);  // `level` looks at these options
-            IterationOutcome outcome = fair_level(level, points, limits, progress);
-            if (outcome.termination == Termination::converged) {
-                reached += increment;
-                points = std::move(outcome.points);
-            } else {
-                increment *= 0.5;
-            }
-        }
-        options_.load = whole * std::min(1.0, reached);
-        return points;
-    }
-
-    // The surface has less load than it should: it is measured by the whole one.
-    void confess(const LevelProblem& level, IterationOutcome& outcome) const {
-        const LevelProblem asked{level.patch, level.fixed_normals, problem_.options, level.paper, level.weights};
-        outcome.residual = LevelUpdate(asked, outcome.points).measure();
-        outcome.termination = Termination::stalled;
     }
 
     void record(int level, const IterationOutcome& outcome) {
@@ -151,7 +118,7 @@ private:
 
     const Problem& problem_;
     const PaperOptions& paper_;
-    SolverOptions options_;  // with as much of the load as there is a solution for
+    const SolverOptions& options_;
     const Progress& progress_;
     bool coarser_converged_ = false;
     std::vector<CoarseLevel> coarser_;  // fine to coarse

@@ -8,7 +8,7 @@
 
 namespace fairing {
 
-// Solves the outer equation from the boundary data; the interior given shapes λ alone.
+// Solves Δ_B H = 0, or H = 0 for soap films, from the boundary data; the interior given shapes λ alone.
 // Deterministic. Throws SolverError when the start breaks down, Cancelled.
 Solution solve_paper(const Problem& problem, const PaperOptions& paper, const Progress& progress);
 

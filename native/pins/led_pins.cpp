@@ -88,7 +88,7 @@ private:
         const TargetSurface target(mesh.patch, mesh.points, normals);
         const auto tangential =
             make_tangential_step(problem_.patch, problem_.weights, problem_.fixed_points, progress_.here());
-        const Projected best = place(problem_, *tangential, {mesh_, mesh, target}, std::nullopt);
+        const Projected best = place(problem_, *tangential, mesh_, mesh, target);
         Solution result = solution;
         result.polished = false;
         result.points = best.placement.points;

@@ -8,66 +8,37 @@
 
 namespace fairing {
 
-namespace {
+bool Projection::try_relaxed(Placement placement) {
+    const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
+    folded_by_springs_ = std::min(folded_by_springs_, folded);
+    return try_as_is(std::move(placement));
+}
 
-class Placing {
-public:
-    Placing(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target)
-        : problem_(problem), tangential_(tangential), target_(target) {}
-
-    // By the springs; where their folds stay, from where the start itself is. True where nothing is folded: no other
-    // start is needed.
-    bool from(const Placement& start) {
-        Placement placement = start;
-        relax(tangential_, target_, placement);
-        return from_relaxed(std::move(placement)) || keep_untangled(start);
+bool Projection::try_as_is(Placement placement) {
+    Indices folded = folds_of_placement(problem_, target_, placement);
+    while (!folded.empty()) {
+        const std::size_t before = folded.size();
+        untangle(problem_, target_, placement);
+        folded = folds_of_placement(problem_, target_, placement);
+        if (folded.size() > few_folds ? 2 * folded.size() > before : folded.size() >= before) break;
     }
+    return keep(std::move(placement), std::move(folded));
+}
 
-    bool from_relaxed(Placement placement) {
-        const std::size_t folded = folds_of_placement(problem_, target_, placement).size();
-        folded_by_springs_ = std::min(folded_by_springs_, folded);
-        return keep_untangled(std::move(placement));
+bool Projection::keep(Placement placement, Indices folded) {
+    const bool done = folded.empty();
+    const double merit = tangential_.merit(placement.points);
+    if (!best_ || folded.size() < best_->folded.size() || (folded.size() == best_->folded.size() && merit < merit_)) {
+        best_ = Projected{std::move(placement), std::move(folded), 0};
+        merit_ = merit;
     }
+    return done;
+}
 
-    [[nodiscard]] Projected best() && {
-        best_->folded_by_springs = folded_by_springs_;
-        return std::move(*best_);
-    }
-
-private:
-    bool keep_untangled(Placement placement) {
-        Indices folded = folds_of_placement(problem_, target_, placement);
-        while (!folded.empty()) {
-            const std::size_t before = folded.size();
-            untangle(problem_, target_, placement);
-            folded = folds_of_placement(problem_, target_, placement);
-            if (folded.size() > few_folds ? 2 * folded.size() > before : folded.size() >= before) break;
-        }
-        return keep(std::move(placement));
-    }
-
-    // The least folded one, of those the evenest; true where nothing is folded.
-    bool keep(Placement placement) {
-        Indices folded = folds_of_placement(problem_, target_, placement);
-        const bool done = folded.empty();
-        const double merit = tangential_.merit(placement.points);
-        if (!best_ || folded.size() < best_->folded.size() ||
-            (folded.size() == best_->folded.size() && merit < merit_)) {
-            best_ = Projected{std::move(placement), std::move(folded), 0};
-            merit_ = merit;
-        }
-        return done;
-    }
-
-    const Problem& problem_;
-    const TangentialStep& tangential_;
-    const TargetSurface& target_;
-    std::optional<Projected> best_;
-    double merit_ = 0.0;
-    std::size_t folded_by_springs_ = std::numeric_limits<std::size_t>::max();
-};
-
-}  // namespace
+Projected Projection::best() && {
+    best_->folded_by_springs = folded_by_springs_;
+    return std::move(*best_);
+}
 
 Placement at_vertices(const Problem& problem, const TargetSurface& target, const Points& points) {
     Placement placement{{}, points};
@@ -116,21 +87,14 @@ VectorX carried_over(const Placement& placement, const TargetSurface& target, co
     return result;
 }
 
-Projected place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-                const std::optional<Points>& guess) {
-    const TargetSurface& target = surface.target;
-    Placing placing(problem, tangential, target);
-    if (guess && placing.from(by_surface(problem, *guess, surface.mesh.patch, target)))
-        return std::move(placing).best();
-    placing.from(by_history(problem, surface.history, surface.mesh, target));
-    return std::move(placing).best();
-}
-
-Projected project_relaxed(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                          Placement relaxed) {
-    Placing placing(problem, tangential, target);
-    placing.from_relaxed(std::move(relaxed));
-    return std::move(placing).best();
+Projected place(const Problem& problem, const TangentialStep& tangential, const ProxyMesh& history,
+                const ProxyMesh::Snapshot& snapshot, const TargetSurface& target) {
+    Projection projection(problem, tangential, target);
+    Placement start = by_history(problem, history, snapshot, target);
+    Placement relaxed = start;
+    relax(tangential, target, relaxed);
+    if (!projection.try_relaxed(std::move(relaxed))) projection.try_as_is(std::move(start));
+    return std::move(projection).best();
 }
 
 void refuse_folds(const Problem& problem, const Projected& projected, Solution& solution) {

@@ -40,22 +40,33 @@ struct Projected {
     std::size_t folded_by_springs = 0;  // triangles that the least folded minimum of the springs alone turns over
 };
 
-// The surface of a mesh of the engine's own. The members outlive it.
-struct OwnMeshSurface {
-    const ProxyMesh& history;  // the vertices and how they came to be
-    const ProxyMesh::Snapshot& mesh;
-    const TargetSurface& target;
+// Keeps the placement with the fewest folds, of those the one with the least merit (tangential_step.h). Where folds
+// stay, they are turned back vertex by vertex (placement/untangle).
+class Projection {
+public:
+    Projection(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target)
+        : problem_(problem), tangential_(tangential), target_(target) {}
+
+    // True where nothing is folded: no other placement is needed. Vertices that springs have spread:
+    bool try_relaxed(Placement placement);
+    bool try_as_is(Placement placement);
+    [[nodiscard]] Projected best() &&;
+
+private:
+    bool keep(Placement placement, Indices folded);
+
+    const Problem& problem_;
+    const TangentialStep& tangential_;
+    const TargetSurface& target_;
+    std::optional<Projected> best_;
+    double merit_ = 0.0;
+    std::size_t folded_by_springs_ = std::numeric_limits<std::size_t>::max();
 };
 
-// Tries several placements and takes the one with the fewest folds, then with the least merit (tangential_step.h). They
-// begin from `guess`, a surface of the problem's own patch that has the right sheets, and from the history of the proxy
-// mesh (placement/first_placement). Where the springs' minimum is folded, folds are turned back vertex by vertex.
-Projected place(const Problem& problem, const TangentialStep& tangential, const OwnMeshSurface& surface,
-                const std::optional<Points>& guess);
-
-// The same from vertices that springs have spread already.
-Projected project_relaxed(const Problem& problem, const TangentialStep& tangential, const TargetSurface& target,
-                          Placement relaxed);
+// By springs from the history of a solved proxy mesh (placement/first_placement), whose last state is `snapshot`, the
+// target's; otherwise without them.
+Projected place(const Problem& problem, const TangentialStep& tangential, const ProxyMesh& history,
+                const ProxyMesh::Snapshot& snapshot, const TargetSurface& target);
 
 // Ends a projected solution as `folded` where the placement is, or where the weights' own minimum has so many folds
 // that it says nothing about these vertices.

@@ -12,11 +12,6 @@ namespace fairing {
 // the surface, accelerated, shortened until the sum no longer grows.
 void relax(const TangentialStep& tangential, const TargetSurface& target, Placement& placement);
 
-// The three rows next to the boundary move half as far as the mean of what they touch in the row before. `offsets`: of
-// the fixed vertices from the surface, 3 × fixed count; `points`: 3 × local vertices on it, the fixed ones leave it.
-// Vertices stay where triangles between free ones would turn over.
-void follow_boundary(const Patch& patch, const Points& offsets, Points& points);
-
 // The free vertices within `rings` edges of some triangles moved to where Σ |d x_v − Σ x_w|² over all vertices v, with
 // their d neighbours w, is least; the others stay. `points`: 3 × local vertices.
 Points refilled(const Patch& patch, const Points& points, const Indices& triangles, int rings);

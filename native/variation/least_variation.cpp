@@ -143,7 +143,7 @@ Solution projected(const Problem& given, const ProxyMesh& mesh, const SolvedShee
     const Termination end = ending(solved.result, problem);
     const TargetSurface target(solved.mesh.patch, solved.sheet.points, solved.sheet.normals);
     const auto tangential = step_within(problem, std::move(within), progress.here());
-    const Projected best = place(problem, *tangential, {mesh, solved.mesh, target}, std::nullopt);
+    const Projected best = place(problem, *tangential, mesh, solved.mesh, target);
     const Placement& placement = best.placement;
     const SurfaceState state = measured_surface(on_patch(problem, solved.mesh.patch), solved.sheet.points);
     Solution solution;

@@ -99,9 +99,9 @@ def layout_within(layout: Layout, count: int) -> dict[str, Any]:
 
 def _refuse_with_paper(values: dict[str, Any]) -> None:
     """ValueError for what only the fast solver has."""
-    for name, wrong in (("equation", "least_variation"), ("open_border", "faired")):
-        if values[name] == wrong:
-            raise ValueError(f"{name}: {wrong!r} is not accepted by method 'paper'; accepted with 'global'")
+    for name, wrong in (("equation", ("constant", "minimal_energy", "least_variation")), ("open_border", ("faired",))):
+        if values[name] in wrong:
+            raise ValueError(f"{name}: {values[name]!r} is not accepted by method 'paper'; accepted with 'global'")
     for name in ("creases", "smooth_curves"):
         if values[name]:
             raise ValueError(f"{name}: not accepted by method 'paper'; accepted with 'global'")
