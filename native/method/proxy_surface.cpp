@@ -66,8 +66,8 @@ bool begins_low_passed(const Problem& problem, const Traits& traits) {
            problem.patch.loop_count() == 1;
 }
 
-// The coarsest level that a proxy mesh is made from. All of a small patch; a coarse level's vertices would lose which
-// of a tube's surfaces a solved one is.
+// Free vertices of the level that a proxy mesh is made from: all of a small patch. A tube has several surfaces: a
+// coarse level could lose the one that was solved.
 int coarsest_for(const Problem& problem, const Traits& traits, const std::optional<OwnSurface>& guess) {
     const bool begins_coarse = traits.is_large && !(traits.is_tube && guess && guess->solved);
     return begins_coarse ? coarsest_size : problem.patch.free_count;

@@ -11,9 +11,9 @@
 
 namespace fairing {
 
-// Where the proxy mesh of a large patch begins whose one loop is jagged: at the surface between the low-passed loop,
-// which shows whether more work is in vain. Of 50 regions of scans with 10,000 or 30,000 free vertices where that had
-// no surface none was solved over it, nor over its own loop without folds.
+// The start for a large patch in one jagged loop: the surface over the low-passed loop, which also shows whether to go
+// on. Of 50 regions of scans with 10,000 or 30,000 free vertices where that had no surface none was solved over it, nor
+// over its own loop without folds.
 struct CoarseStart {
     CoarseStart(const Problem& problem, const Traits& traits, const Progress& progress);
 
