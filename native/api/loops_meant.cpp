@@ -100,7 +100,8 @@ Diagnostic nothing(const View<Points>& points, const std::vector<Indices>& loops
 Diagnostic torn(const Indices& chain) {
     const std::set<int> both{chain.front(), chain.back()};
     Indices ends(both.begin(), both.end());
-    const std::string text = "triangles face opposite ways at " + listed(ends) + ": make their winding the same";
+    const std::string text = "three triangles share an edge, or two face opposite ways, at " + listed(ends) +
+                             ": remove the third, or make their winding the same";
     return at_vertices(Code::not_a_loop, text, std::move(ends), {{"torn", 1.0}});
 }
 

@@ -7,7 +7,6 @@
 #include "fill/edge_lengths.h"
 #include "fill/equal_edge_mesh.h"
 #include "fill/joined_loops.h"
-#include "fill/limits.h"
 #include "fill/tube_start.h"
 #include "geometry/face_geometry.h"
 #include "geometry/triangle.h"
