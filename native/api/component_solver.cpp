@@ -199,8 +199,9 @@ Solution ComponentSolver::solve_by_paper(const Problem& problem, const Progress&
 // Conformal weights of the vertices given leave them where they are within the surface.
 std::optional<NearStart> ComponentSolver::given_start(const ComponentAnswer& answer, const ComponentData& data) const {
     const Start kind = options_.start;
+    const bool is_given = kind == Start::given || kind == Start::kept;
     const bool meets_normals = options_.solver.equation != Equation::soap_film;
-    if (kind != Start::least_variation && !(kind == Start::given && meets_normals)) return std::nullopt;
+    if (kind != Start::least_variation && !(is_given && meets_normals)) return std::nullopt;
     const Points start = answer.unit.to_unit(gather(data.vertices, patch_.to_input));
     return NearStart{start, fairness() == InnerFairness::conformal && reference_ == start};
 }
@@ -221,13 +222,17 @@ Solution ComponentSolver::solve_tangent(Problem& problem, const std::optional<Ne
                                         const Progress& progress) {
     std::optional<Solution> near = keeps() && !chooses_ ? solve_near_last(problem, progress) : std::nullopt;
     const auto from_start = [&](const Problem& given, const Progress& part) { return solve_from(given, start, part); };
-    const bool varies = options_.start == Start::given;  // the others are one surface, whatever is asked for
+    const bool varies = options_.start == Start::given || options_.start == Start::kept;  // others are one surface
     if (!near && !(chooses_ && varies)) near = from_start(problem, progress);
     if (!near && chooses_) {
         const auto nowhere = [](const Problem&, const Progress&) { return std::optional<Solution>(); };
         near = solve_automatically(problem, options_.pin_radius, varies ? Near(from_start) : Near(nowhere), progress);
     }
     Solution solution = near ? std::move(*near) : fairing::solve(problem, options_.pin_radius, progress);
+    if (options_.start == Start::kept && end_of(solution) == Termination::converged) {
+        solution.bad_triangles = folded_triangles(patch_, solution.points);
+        if (!solution.bad_triangles.empty()) solution.flaw = Flaw::folded;
+    }
     if (!keeps()) return solution;
     chosen_ = Chosen{boundary_of(problem), problem.options.equation};
     replaced_.reset();
@@ -247,6 +252,14 @@ std::optional<Solution> ComponentSolver::solve_from(const Problem& problem, cons
                                                     const Progress& progress) const {
     switch (options_.start) {
         case Start::given: return start ? solve_near(problem, *start, progress.range(0.0, 0.4)) : std::nullopt;
+        case Start::kept: {
+            if (!start) return std::nullopt;
+            auto found = solve_near(problem, *start, progress.range(0.0, 0.4));
+            const auto bends = [&] { return !found || !folded_triangles(patch_, found->points).empty(); };
+            if (bends()) found = solve_stand_in(problem, Provenance::equation, progress);
+            if (bends()) found = solve_stand_in(problem, Provenance::first_surface, progress, &start->points);
+            return bends() ? std::nullopt : found;
+        }
         case Start::least_variation:
             return solve_stand_in(problem, Provenance::least_variation, progress, &start->points);
         case Start::loft: return solve_stand_in(problem, Provenance::loft, progress);

@@ -11,9 +11,9 @@ namespace fairing {
 
 enum class Method { global, paper };
 
-// Where a solve begins: the boundary alone; the vertices given, where they lead to a surface; or, where the equation
-// was seen to have none, what was taken in its place.
-enum class Start { boundary, given, least_variation, loft, smoothed };
+// Where a solve begins: the boundary alone; the vertices given, where they lead to a surface, or kept where not; or,
+// where the equation was seen to have none, what was taken in its place.
+enum class Start { boundary, given, kept, least_variation, loft, smoothed };
 
 // The detail of the reference that is put back on the fair surface (detail/skin.h). With it vertices sit conformally to
 // the base of the reference, whatever `inner_fairness` says.

@@ -66,16 +66,6 @@ void add_boundary(const SeamMesh& mesh, const Points& points, const SideNormals&
             seen[v].emplace_back(sides.normal(parent, weights), sides.curvature(parent, weights));
         }
     }
-    // The mean of the pieces there, where the side itself has no area.
-    const auto around = [&](int v) {
-        Vector3 sum = Vector3::Zero();
-        for (const auto t : result.mesh.triangles.colwise()) {
-            if (t[0] != v && t[1] != v && t[2] != v) continue;
-            const Vector3 start = points.col(t[0]);
-            sum += (points.col(t[1]) - start).cross(points.col(t[2]) - start);
-        }
-        return sum;
-    };
     result.normals.resize(3, static_cast<Eigen::Index>(seen.size()));
     result.curvatures.resize(static_cast<Eigen::Index>(seen.size()));
     for (const auto& [v, found] : seen) {
@@ -90,7 +80,6 @@ void add_boundary(const SeamMesh& mesh, const Points& points, const SideNormals&
             normal += n;
             curvature += h / static_cast<double>(found.size());
         }
-        if (normal.isZero()) normal = around(v);
         result.boundary.push_back(v);
         result.normals.col(k) = normal.normalized();
         result.curvatures[k] = curvature;

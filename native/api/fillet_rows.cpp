@@ -47,8 +47,7 @@ public:
                 if (surface_.triangles(c, under.triangle) == v) weights[k] = under.weights[c];
             }
         }
-        const Vector3 flat = part.old.points(Eigen::all, corners) * weights;
-        return part.old.unit.from_unit(Points(is_smooth(part, t) ? part.target.position({t, weights}) : flat));
+        return part.old.unit.from_unit(Points(part.target.position({t, weights})));
     }
 
 private:
@@ -58,15 +57,6 @@ private:
         const OldSurface old;
         const TargetSurface target;
     };
-
-    // Whether the normals at a triangle's corners are of one side with its own: at walls that meet they are means, over
-    // which it must not be curved. Beside edges of 60° a fillet turns by 25° from one vertex to the next.
-    static bool is_smooth(const Part& part, int triangle) {
-        const Vector3 own = part.target.face_normal(triangle);
-        const auto corners = part.old.patch.triangles.col(triangle);
-        return std::all_of(corners.begin(), corners.end(),
-                           [&](int v) { return part.old.normals.col(v).dot(own) > std::cos(2.0 * corner_angle); });
-    }
 
     const FilletSurface& surface_;
     const MeshInput input_;
@@ -117,9 +107,9 @@ public:
         }
         loops_ = boundary_loops(surface.triangles, count);
         const Bands bands = bands_of(made_.mesh, made_.distance, line_, loops_, point_of);
-        const int rows = 2 * std::max(1, static_cast<int>(std::lround(made_.least_width / wanted.spacing)));
+        const int rows = 2 * std::max(1, static_cast<int>(std::lround(made_.largest_width / wanted.spacing)));
         on_ = std::make_unique<RowSurface>(surface.vertices, surface.triangles, surface.before, loops_, carried_);
-        mesh_ = row_mesh(made_.mesh, bands, must_, {made_.least_width, rows}, *on_);
+        mesh_ = row_mesh(made_.mesh, bands, must_, rows, *on_);
     }
 
     std::optional<FilletRows> found() {

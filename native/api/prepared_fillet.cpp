@@ -123,9 +123,9 @@ PreparedFillet::PreparedFillet(const FilletInput& given)
     : input(with_parted(given)),
       plane(turned(input)),
       mesh(input.vertices, input.triangles, input.seams, input.walls),
-      distance(directed_mesh(mesh, input.seams), input.widths, width_of(input, true) + input.spacing, input.through),
-      sides(mesh, joined(input.seams, input.walls)),
-      least_width(width_of(input, false)) {
+      largest_width(width_of(input, true)),
+      distance(directed_mesh(mesh, input.seams), input.widths, largest_width + input.spacing, input.through),
+      sides(mesh, joined(input.seams, input.walls)) {
     Indices near;
     for (int t = 0; t < mesh.triangles.cols(); ++t)
         if (distance.reaches(t)) near.push_back(t);

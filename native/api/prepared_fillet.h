@@ -16,9 +16,9 @@ struct PreparedFillet {
     FilletInput input;
     Indices plane;  // of each triangle: the given triangle in whose plane it lies
     SeamMesh mesh;
+    double largest_width;
     SeamDistance distance;
     SideNormals sides;
-    double least_width;
 };
 
 // A place on one of the triangles given.

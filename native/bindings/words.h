@@ -29,9 +29,10 @@ struct Words {
 };
 
 inline constexpr Words<Method, 2> method_words{"method", {{{"global", Method::global}, {"paper", Method::paper}}}};
-inline constexpr Words<Start, 5> solve_start_words{"start",
+inline constexpr Words<Start, 6> solve_start_words{"start",
                                                    {{{"outline", Start::boundary},
                                                      {"given", Start::given},
+                                                     {"kept", Start::kept},
                                                      {"least_variation", Start::least_variation},
                                                      {"loft", Start::loft},
                                                      {"smoothed", Start::smoothed}}}};

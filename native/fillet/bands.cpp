@@ -28,6 +28,7 @@ public:
         make_arcs();
         for (std::size_t loop = 0; loop < loops_.size(); ++loop) add_loop(static_cast<int>(loop));
         for (const Run& run : runs_) take(run);
+        for (Band& band : made_.bands) measure(band);
         add_corners();
         return std::move(made_);
     }
@@ -69,7 +70,7 @@ private:
             const int h = arc.half_edges[k];
             at_[h] = at_[mesh_.twin[h]] = {number, static_cast<int>(k)};
         }
-        made_.bands.push_back({arc, {}});
+        made_.bands.push_back({arc, {}, std::numeric_limits<double>::infinity()});
     }
 
     [[nodiscard]] Label label(int vertex) const {
@@ -152,6 +153,15 @@ private:
         if (band.arc.closed && run.count == size) {
             side.vertices.push_back(side.vertices.front());
             side.stations.push_back(side.stations.front() + band.arc.length());
+        }
+    }
+
+    void measure(Band& band) const {
+        for (const BandSide& side : band.sides) {
+            for (const int v : side.vertices) {
+                const LinePoint& point = line_.points[point_of_[v]];
+                band.width = std::min(band.width, distance_.at(point.triangle, point.weights).width);
+            }
         }
     }
 

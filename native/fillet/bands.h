@@ -23,6 +23,7 @@ struct BandSide {
 struct Band {
     SeamArc arc;
     std::array<BandSide, 2> sides;  // empty where the border has none
+    double width;                   // the least
 };
 
 struct BandEnd {

@@ -52,9 +52,9 @@ private:
             line_.points.push_back(
                 {outside.place, outside.vertex, outside.edge, 0.0, piece.triangle, piece.weights[outer]});
         } else {
-            const double share = root(p, k, begins_inside ? k : next);
             const int inner = begins_inside ? k : next;
-            const Vector3 weights = piece.weights[inner] + share * (piece.weights[outer] - piece.weights[inner]);
+            const Vector3 ray = piece.weights[outer] - piece.weights[inner];
+            const Vector3 weights = piece.weights[inner] + root(piece.triangle, piece.weights[inner], ray) * ray;
             line_.points.push_back(
                 {mesh_.place(piece.triangle, weights), none, piece.edges[k], 0.0, piece.triangle, weights});
         }
@@ -66,34 +66,13 @@ private:
         if (point.edge == none) return;
         int h = 3 * point.triangle;
         while (mesh_.edge[h] != point.edge) ++h;
-        const auto [low, high] = std::minmax({mesh_.tail(h), mesh_.head(h)});
-        const Vector3 start = mesh_.points.col(low);
-        point.along = (point.place - start).norm() / mesh_.length[h];
+        point.along = point.weights[(mesh_.tail(h) < mesh_.head(h) ? h + 1 : h) % 3];
     }
 
-    [[nodiscard]] double value(int p, int k, int inner, double share) const {
-        const HalvedMesh::Piece& piece = halves_.pieces()[p];
-        const int outer = inner == k ? (k + 1) % 3 : k;
-        const Vector3 weights = piece.weights[inner] + share * (piece.weights[outer] - piece.weights[inner]);
-        return distance_.value(piece.triangle, weights);
-    }
-
-    // As a share of the length from the node inside. Regula falsi that halves the end's value that stays (Dowell &
+    // As a share of a ray from the node inside. Regula falsi that halves the end's value that stays (Dowell &
     // Jarratt 1971), and the interval where that is infinite.
-    [[nodiscard]] double root(int p, int k, int inner) const {
-        const int other = halves_.across(p, k);
-        int side = 0;
-        int inner_there = 0;
-        if (other != none) {
-            const HalvedMesh::Piece& piece = halves_.pieces()[p];
-            const HalvedMesh::Piece& beyond = halves_.pieces()[other];
-            while (side < 2 && halves_.across(other, side) != p) ++side;
-            inner_there = beyond.nodes[side] == piece.nodes[inner] ? side : (side + 1) % 3;
-        }
-        const auto at = [&](double share) {
-            const double here = value(p, k, inner, share);
-            return other == none ? here : std::min(here, value(other, side, inner_there, share));
-        };
+    [[nodiscard]] double root(int triangle, const Vector3& inside, const Vector3& ray) const {
+        const auto at = [&](double share) { return distance_.value(triangle, inside + share * ray); };
         double low = 0.0;
         double high = 1.0;
         double below = at(0.0);

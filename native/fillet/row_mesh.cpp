@@ -13,16 +13,14 @@ constexpr double least_spoke = 0.1;   // of the width: so far from a corner a st
 
 class Making {
 public:
-    Making(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, const RowSizes& sizes,
-           RowSurface& surface)
+    Making(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, int rows, RowSurface& surface)
         : bands_(bands),
-          sizes_(sizes),
-          half_(sizes.rows / 2),
+          half_(rows / 2),
           surface_(surface),
-          columns_(mesh, must, sizes, surface),
+          columns_(mesh, must, rows, surface),
           corners_(bands.corners.size()) {
         for (const Band& band : bands.bands) {
-            strips_.push_back({strip_of(mesh, band, must, sizes.width)});
+            strips_.push_back({strip_of(mesh, band, must)});
             strips_.back().fails = band.sides[right].vertices.size() < 2 || band.sides[left].vertices.size() < 2;
         }
         for (std::size_t c = 0; c < corners_.size(); ++c) prepare(c);
@@ -65,7 +63,7 @@ private:
             std::ranges::any_of(sectors, [&](const Sector& each) { return strips_[each.from.band].fails; });
         if (fails) return;
         if (sectors.size() == 1) return prepare_wall(sectors.front());
-        const auto is_good = [&](const Sector& each) { return is_short(each) || std::ssize(each.chain) > sizes_.rows; };
+        const auto is_good = [&](const Sector& each) { return is_short(each) || std::ssize(each.chain) > 2 * half_; };
         if (!std::ranges::all_of(sectors, is_good)) return;
         corners_[c].fails = false;
         for (const Sector& sector : sectors) {
@@ -87,7 +85,7 @@ private:
         double length = 0.0;
         for (std::size_t k = 0; k + 1 < sector.chain.size(); ++k)
             length += surface_.length_before(sector.chain[k + 1], sector.chain[k]);
-        return length <= round_corner * sizes_.width;
+        return length <= round_corner * strips_[sector.from.band].rows.width;
     }
 
     // Sides that meet around a corner end in one vertex, where the border turns most.
@@ -121,7 +119,7 @@ private:
         Strip& strip = strips_[b];
         if (strip.fails || strip.is_laid) return false;
         try {
-            RowPieces(columns_, surface_, sizes_, strip.rows, static_cast<int>(b)).lay();
+            RowPieces(columns_, surface_, 2 * half_, strip.rows, static_cast<int>(b)).lay();
             strip.is_laid = true;
             for (const std::size_t c : corners_at(b)) corners_[c].is_laid = false;
         } catch (const NoRows&) {
@@ -176,7 +174,7 @@ private:
         const SeamArc& arc = bands_.bands[end.band].arc;
         const Column& column = last_column(end);
         const double from = end.at_last ? arc.length() : 0.0;
-        if (std::abs(column.station - from) < least_spoke * sizes_.width) throw NoRows();
+        if (std::abs(column.station - from) < least_spoke * strips_[end.band].rows.width) throw NoRows();
         Indices found = surface_.between(middle, column.ids[half_], half_);
         for (int k = 1; k < half_; ++k) columns_.lift(found[k - 1], arc, from + (column.station - from) * k / half_);
         found.insert(found.begin(), middle);
@@ -225,7 +223,7 @@ private:
     [[nodiscard]] Indices parted(const Indices& chain) const {
         Indices found;
         const auto edges = static_cast<double>(chain.size() - 1);
-        for (int k = 0; k <= sizes_.rows; ++k) found.push_back(chain[std::lround(k * edges / sizes_.rows)]);
+        for (int k = 0; k <= 2 * half_; ++k) found.push_back(chain[std::lround(k * edges / (2 * half_))]);
         return found;
     }
 
@@ -256,7 +254,6 @@ private:
     }
 
     const Bands& bands_;
-    RowSizes sizes_;
     int half_;
     RowSurface& surface_;
     RowColumns columns_;
@@ -266,9 +263,9 @@ private:
 
 }  // namespace
 
-RowMesh row_mesh(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, const RowSizes& sizes,
+RowMesh row_mesh(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, int rows,
                  RowSurface& surface) {
-    return Making(mesh, bands, must, sizes, surface).made();
+    return Making(mesh, bands, must, rows, surface).made();
 }
 
 }  // namespace fairing

@@ -12,7 +12,7 @@ struct RowMesh {
 };
 
 // Adds vertices to the surface. `must`: of each vertex of its border, whether an edge outside needs it.
-RowMesh row_mesh(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, const RowSizes& sizes,
+RowMesh row_mesh(const SeamMesh& mesh, const Bands& bands, const std::vector<char>& must, int rows,
                  RowSurface& surface);
 
 }  // namespace fairing

@@ -43,7 +43,7 @@ void RowPieces::add(const std::vector<Column>& columns) {
 }
 
 bool RowPieces::is_whole_wall(const Piece& piece, int which) const {
-    return piece.ends[which] == RowEnd::wall && std::ssize(strip_.walls[which]) == sizes_.rows + 1;
+    return piece.ends[which] == RowEnd::wall && std::ssize(strip_.walls[which]) == rows_ + 1;
 }
 
 // The bounds at the first and the last column: away from where rows end, which is straight across.
@@ -54,7 +54,7 @@ std::array<Pair, 2> RowPieces::bounds(Piece& piece) const {
     };
     const double begin = std::max(station(0, right), station(0, left));
     const double end = std::min(station(1, right), station(1, left));
-    const double room = end_room * sizes_.width;
+    const double room = end_room * strip_.width;
     const auto ends = [&](int which) { return piece.ends[which] != RowEnd::corner && !is_whole_wall(piece, which); };
     for (const Side side : {right, left}) {
         const std::vector<double>& stations = strip_.sides[side].stations;

@@ -8,8 +8,8 @@ namespace fairing {
 class RowPieces {
 public:
     // Keeps references. `owner`: of the paths over the surface at which rows end.
-    RowPieces(RowColumns& columns, RowSurface& surface, const RowSizes& sizes, RowStrip& strip, int owner)
-        : columns_(columns), surface_(surface), sizes_(sizes), strip_(strip), owner_(owner) {}
+    RowPieces(RowColumns& columns, RowSurface& surface, int rows, RowStrip& strip, int owner)
+        : columns_(columns), surface_(surface), rows_(rows), strip_(strip), owner_(owner) {}
 
     // Throws NoRows where none fit, or one would be bad.
     void lay();
@@ -29,7 +29,7 @@ private:
 
     RowColumns& columns_;
     RowSurface& surface_;
-    const RowSizes& sizes_;
+    int rows_;
     RowStrip& strip_;
     int owner_;
 };

@@ -63,8 +63,9 @@ void RowStrip::turn_to(const Pair& at) {
     }
 }
 
-RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must, double width) {
-    RowStrip strip{&band.arc, band.sides, band.arc.closed, {RowEnd::open, RowEnd::open}, {}, {}, {}, {}, {}};
+RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char>& must) {
+    RowStrip strip{&band.arc, band.sides, band.width, band.arc.closed, {RowEnd::open, RowEnd::open}, {}, {},
+                   {},        {},         {}};
     for (const BandSide& side : band.sides)
         strip.closed = strip.closed && side.vertices.size() > 3 && side.vertices.front() == side.vertices.back();
     if (!strip.closed) return strip;
@@ -74,7 +75,7 @@ RowStrip strip_of(const SeamMesh& mesh, const Band& band, const std::vector<char
     for (const Side side : {right, left}) {
         BandSide& own = strip.sides[side];
         const auto off = [&](int k) {
-            const double bonus = must[own.vertices[k]] != 0 ? pairing * width : 0.0;
+            const double bonus = must[own.vertices[k]] != 0 ? pairing * band.width : 0.0;
             return std::abs(std::remainder(own.stations[k] - station, length)) - bonus;
         };
         for (int k = 1; k + 1 < std::ssize(own.vertices); ++k) {
@@ -125,17 +126,18 @@ Column RowColumns::column(const RowStrip& strip, const Crossing& crossing) {
         const double begin = (1.0 - t) * (1.0 - t);
         return Vector3(seam + (begin * come + t * t * go) / (begin + 2.0 * weight * t * (1.0 - t) + t * t));
     };
-    Column made{crossing.at, crossing.station, surface_.along(conic, sizes_.rows)};
-    surface_.lift(made.ids[sizes_.rows / 2 - 1], half_edge, seam);
+    Column made{crossing.at, crossing.station, surface_.along(conic, rows_)};
+    surface_.lift(made.ids[rows_ / 2 - 1], half_edge, seam);
     made.ids.insert(made.ids.begin(), from);
     made.ids.push_back(to);
     return made;
 }
 
 // The vertex on a side that is nearest to a station; one that an edge outside needs comes first if it is near, too.
-int RowColumns::nearest(const BandSide& side, double station) const {
+int RowColumns::nearest(const RowStrip& strip, Side which, double station) const {
+    const BandSide& side = strip.sides[which];
     const auto off = [&](int k) {
-        return std::abs(side.stations[k] - station) - (must_[side.vertices[k]] != 0 ? pairing * sizes_.width : 0.0);
+        return std::abs(side.stations[k] - station) - (must_[side.vertices[k]] != 0 ? pairing * strip.width : 0.0);
     };
     int best = 0;
     for (int k = 1; k < std::ssize(side.stations); ++k) {
@@ -160,9 +162,9 @@ std::vector<RowColumns::Turn> RowColumns::turns(const SeamArc& arc, double from)
 }
 
 // A point across from a turn has its foot next to it: the column leads over the turn.
-double RowColumns::over_turn(double station, const std::vector<Turn>& turns) const {
+double RowColumns::over_turn(double station, const std::vector<Turn>& turns, double width) {
     for (const auto& [at, angle] : turns) {
-        if (std::abs(station - at) <= seen * sizes_.width * std::tan(0.5 * angle)) station = at;
+        if (std::abs(station - at) <= seen * width * std::tan(0.5 * angle)) station = at;
     }
     return station;
 }
@@ -172,19 +174,19 @@ std::vector<RowColumns::Crossing> RowColumns::wanted(const RowStrip& strip, cons
                                                      const std::vector<Turn>& turns) const {
     std::vector<Crossing> found;
     for (const auto& [at, angle] : turns) {
-        if (angle >= corner_angle)
-            found.push_back({{nearest(strip.sides[right], at), nearest(strip.sides[left], at)}, at});
+        if (angle >= corner_angle) found.push_back({{nearest(strip, right, at), nearest(strip, left, at)}, at});
     }
     for (const Side side : {right, left}) {
         const BandSide& own = strip.sides[side];
-        const BandSide& across = strip.sides[1 - side];
+        const Side other = side == right ? left : right;
+        const BandSide& across = strip.sides[other];
         for (int k = first[side] + 1; k < last[side]; ++k) {
             if (must_[own.vertices[k]] == 0) continue;
             Pair at{};
             at[side] = k;
-            at[1 - side] = nearest(across, own.stations[k]);
-            if (std::abs(across.stations[at[1 - side]] - own.stations[k]) <= skew * sizes_.width)
-                found.push_back({at, over_turn(station_of(strip, at), turns)});
+            at[other] = nearest(strip, other, own.stations[k]);
+            if (std::abs(across.stations[at[other]] - own.stations[k]) <= skew * strip.width)
+                found.push_back({at, over_turn(station_of(strip, at), turns, strip.width)});
         }
     }
     std::ranges::stable_sort(found, {}, &Crossing::station);
@@ -195,7 +197,7 @@ bool RowColumns::is_clear(const RowStrip& strip, const Crossing& one, const Cros
     return two.station > one.station && std::ranges::all_of(std::array{right, left}, [&](Side side) {
                const Indices& own = strip.sides[side].vertices;
                return two.at[side] > one.at[side] &&
-                      surface_.length_before(own[two.at[side]], own[one.at[side]]) >= near_column * sizes_.width;
+                      surface_.length_before(own[two.at[side]], own[one.at[side]]) >= near_column * strip.width;
            });
 }
 
@@ -203,7 +205,7 @@ std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first
                                         const std::array<Indices, 2>& given) {
     const double from = station_of(strip, first);
     const std::vector<Turn> turned = turns(*strip.arc, from);
-    const Crossing begin{first, strip.closed ? over_turn(from, turned) : from};
+    const Crossing begin{first, strip.closed ? over_turn(from, turned, strip.width) : from};
     const Crossing end{last, strip.closed ? begin.station + strip.arc->length() : station_of(strip, last)};
     std::vector<Crossing> crossings{begin};
     for (const Crossing& each : wanted(strip, first, last, turned)) {
@@ -219,7 +221,7 @@ std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first
         checkpoint();
         const std::optional<Crossing> at = between(strip, made[k], made[k + 1]);
         const std::optional<Column> middle = at ? std::optional(column(strip, *at)) : std::nullopt;
-        if (middle && (is_bent(made[k], *middle, made[k + 1]) || (strip.closed && made.size() < fewest)))
+        if (middle && (is_bent(made[k], *middle, made[k + 1], strip.width) || (strip.closed && made.size() < fewest)))
             made.insert(made.begin() + static_cast<std::ptrdiff_t>(k) + 1, *middle);
         else
             ++k;
@@ -231,7 +233,7 @@ std::vector<Column> RowColumns::columns(const RowStrip& strip, const Pair& first
 std::optional<RowColumns::Crossing> RowColumns::between(const RowStrip& strip, const Column& one,
                                                         const Column& two) const {
     Crossing found{{}, 0.5 * (one.station + two.station)};
-    if (two.station - one.station <= shortest * sizes_.width) return std::nullopt;
+    if (two.station - one.station <= shortest * strip.width) return std::nullopt;
     for (const Side side : {right, left}) {
         if (two.at[side] - one.at[side] < 2) return std::nullopt;
         found.at[side] = half_way(strip.sides[side], one.at[side], two.at[side]);
@@ -247,7 +249,7 @@ int RowColumns::half_way(const BandSide& side, int begin, int end) const {
     return std::clamp(begin + static_cast<int>(found), begin + 1, end - 1);
 }
 
-bool RowColumns::is_bent(const Column& one, const Column& middle, const Column& two) const {
+bool RowColumns::is_bent(const Column& one, const Column& middle, const Column& two, double width) const {
     const auto at = [&](int v) { return surface_.place(v); };
     const double share = two.station > one.station ? (middle.station - one.station) / (two.station - one.station) : 0.5;
     const Vector3 chord = 0.5 * (at(middle.ids.front()) + at(middle.ids.back()));
@@ -259,7 +261,7 @@ bool RowColumns::is_bent(const Column& one, const Column& middle, const Column& 
         off = std::max(off, (leaves - leaves.dot(along) * along).norm());
         bulge = std::min(bulge, (at(middle.ids[j]) - chord).norm());
     }
-    return off > std::max(bent * bulge, flat * sizes_.width);
+    return off > std::max(bent * bulge, flat * width);
 }
 
 }  // namespace fairing

@@ -10,7 +10,6 @@ struct SeamWidths {
     VectorX left;
     VectorX right;
     [[nodiscard]] double largest() const { return std::max(left.maxCoeff(), right.maxCoeff()); }
-    [[nodiscard]] double least() const { return std::min(left.minCoeff(), right.minCoeff()); }
 };
 
 struct SeamPlace {

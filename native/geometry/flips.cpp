@@ -1,6 +1,7 @@
 #include "geometry/flips.h"
 
 #include <map>
+#include <set>
 
 #include <Eigen/Geometry>
 
@@ -104,6 +105,19 @@ Indices flipped_triangles(const Patch& patch, const Points& points) {
 
 Indices flipped_by_solution(const Patch& patch, const Points& points) {
     return with_free_corner(patch, flipped_triangles(patch, points));
+}
+
+Indices folded_triangles(const Patch& patch, const Points& points) {
+    std::set<int> folded;
+    for (int e = 0; e < patch.edge_count(); ++e) {
+        const auto [a, b] = patch.edge_ends[e];
+        const auto [first, second] = patch.edge_triangles[e];
+        if (second == none || !patch.is_free(a) || !patch.is_free(b)) continue;
+        const Vector3 n = area_vector(points, patch.triangles.col(first));
+        const Vector3 m = area_vector(points, patch.triangles.col(second));
+        if (n.dot(m) < cos_of_widest_turn * n.norm() * m.norm()) folded.insert({first, second});
+    }
+    return {folded.begin(), folded.end()};
 }
 
 bool is_flipped(const Patch& patch, const Points& points, int triangle) {

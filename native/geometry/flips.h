@@ -15,6 +15,10 @@ Indices flipped_triangles(const Patch& patch, const Points& points);
 // The same without triangles that have no free corner: the boundary turns them over, and no solution can help.
 Indices flipped_by_solution(const Patch& patch, const Points& points);
 
+// The triangles on both sides of edges between free vertices that bend by more than 60°: where hard edges end at the
+// boundary, those that come to it may.
+Indices folded_triangles(const Patch& patch, const Points& points);
+
 // Whether one triangle is turned over.
 bool is_flipped(const Patch& patch, const Points& points, int triangle);
 

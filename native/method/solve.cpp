@@ -261,11 +261,14 @@ Solution solve_equation_alone(const Problem& problem, const Progress& progress) 
 std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, const Progress& progress,
                                        const Points* near) {
     const Stopwatch watch;
+    if (kind == Provenance::equation)
+        return answer(problem, try_directly(problem, progress), name_of(Step::direct), watch);
     if (is_loft(kind)) return answer(problem, lofted(problem, progress), name_of(Step::loft), watch);
     if (kind == Provenance::old_shape)
         return answer(problem, smoothed(problem, progress), name_of(Step::old_shape), watch);
     if (kind == Provenance::first_surface) {
-        Solution first = solution_at(problem, first_surface(problem, progress), Provenance::first_surface);
+        const Points points = near ? *near : first_surface(problem, progress);
+        Solution first = solution_at(problem, points, Provenance::first_surface);
         return answer(problem, std::move(first), name_of(Step::first_surface), watch);
     }
     if (Traits(problem).is_jagged) return std::nullopt;

@@ -26,8 +26,8 @@ Solution solve_automatically(Problem& problem, double pin_radius, const Near& ne
 // The equation alone, between the loops as they are: nothing stands in.
 Solution solve_equation_alone(const Problem& problem, const Progress& progress);
 
-// One surface of those that stand in, at once. Nothing where it is not accepted. `near`: 3 × local vertices where the
-// surface of least variation is sought first.
+// One surface of those that stand in, or the equation's on this mesh alone, at once. Nothing where it is not accepted.
+// `near`: 3 × local vertices where the surface of least variation is sought first, and that are the first surface.
 std::optional<Solution> solve_stand_in(const Problem& problem, Provenance kind, const Progress& progress,
                                        const Points* near = nullptr);
 

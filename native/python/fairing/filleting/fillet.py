@@ -20,8 +20,7 @@ from fairing.results import Diagnostic, FilletResult, FloatArray, IntArray, Mesh
 def seamed(vertices: Any, triangles: Any, seam: Any, walls: Any) -> tuple[FloatArray, IntArray, IntArray, IntArray]:
     """The mesh, and its seams and walls (e, 2), checked."""
     points, faces = arguments.finite_mesh(vertices, triangles)
-    needs_hard = seam is None or walls is None
-    hard = hard_edges(points, faces) if needs_hard else arguments.NO_EDGES
+    hard = hard_edges(points, faces) if seam is None or walls is None else arguments.NO_EDGES
     seams = hard if seam is None else arguments.edges_of("seam", seam, faces)
     if not len(seams):
         what = "the mesh has no hard edges" if seam is None else "it has no edges"
@@ -212,12 +211,11 @@ def fillet(
         raise _too_wide(what, where, task.largest, min(float(np.min(most)) for _, most in bad))
     warnings, pairs = _clamped(both, task.widths, seams), None
     if wants_rows:
-        rows, pairs = in_rows(task, made, length, counted) or (made, np.empty((0, 2), np.int32))
-        made = rows
+        made, pairs = in_rows(task, made, length, counted) or (made, np.empty((0, 2), np.int32))
         if not len(pairs):
             at, text = np.unique(seams).astype(np.int32), "no rows of quads fit along the seams: triangles stay"
-            none = Diagnostic("NO_QUAD_ROWS", text, at, "vertex", {"edges": float(len(seams)), "seams": 1.0})
-            made = replace(made, values={**made.values, "warnings": (*made.values["warnings"], none)})
+            figures = {"edges": float(len(seams)), "seams": 1.0}
+            warnings += (Diagnostic("NO_QUAD_ROWS", text, at, "vertex", figures),)
     result = result_of(task, made)
     result = replace(result, warnings=(*warnings, *result.warnings))
     return result if pairs is None else replace(result, quads=quads_of(result.triangles, pairs + result.outside))
@@ -282,8 +280,8 @@ def _refuse_large(task: Task, spacing: float, most: Any) -> None:
     """MeshError where so many vertices are wanted that a slip in the spacing is likelier than a wish."""
     lengths = np.linalg.norm(task.points[task.seams[:, 0]] - task.points[task.seams[:, 1]], axis=1)
     across = sum(float((lengths / side[task.seams].mean(axis=1)).sum()) for side in task.widths)
-    wanted = across * (task.largest / spacing) ** 2
-    _core.refuse_large(wanted, across * _ROWS**2, arguments.whole("max_vertices", most, 0), task.seams.ravel())
+    wanted, usual = across * (task.largest / spacing) ** 2, across * _ROWS**2
+    _core.refuse_large(wanted, usual, arguments.whole("max_vertices", most, 0), task.seams.ravel())
 
 
 def _outside(task: Task, made: Made) -> IntArray:

@@ -80,10 +80,11 @@ def solved(task: Task, cut: dict[str, Any]) -> Made:
     spacing = Spacing(task.spacing, even=True, flat=True, each=cut["spacings"])
     new, origin, on_seam = patch.remeshed(len(placed), lines, spacing, task.options, watch.part(0.2, 0.4))
     watch.lap("mesh")
-    chosen = dict(task.options)
+    begun = _core.least_bent(new.vertices, new.triangles, patch.fixed)
+    chosen = {**task.options, "start": "kept", "reference": begun}
     if chosen.get("continuity", "G1") == "G2":
         chosen["fixed_curvatures"] = cut["curvatures"][rim]
-    begun = _core.least_bent(new.vertices, new.triangles, patch.fixed)
+    begun = _core.least_bent(begun, new.triangles, patch.fixed)  # the first still has the seams' angles in its metric
     report = replace(new, vertices=begun).faired(chosen, watch.part(0.4, 1.0))
     watch.lap("fair")
     values = report_fields(report, count)

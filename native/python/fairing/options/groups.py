@@ -215,11 +215,12 @@ class Solving:
     normals: str = _word("fitted", _core.WORDS["normals"])
     """One of "fitted" | "averaged": Vertex normal behind H. "paper" always averages."""
 
-    start: str = _word("outline", ("outline", "given", "least_variation", "loft", "smoothed"))
-    """One of "outline" | "given" | "least_variation" | "loft" | "smoothed": "given": the initial surface is the
-    vertices given, which lie near the solution (all equations but "soap_film", and "global"). "least_variation" (from
-    the vertices given), "loft", "smoothed": begin with that stand-in, where another solve has shown that the equation
-    has no surface. Where these fail, and by "outline", the boundary alone decides."""
+    start: str = _word("outline", ("outline", "given", "kept", "least_variation", "loft", "smoothed"))
+    """One of "outline" | "given" | "kept" | "least_variation" | "loft" | "smoothed": "given": the initial surface is
+    the vertices given, which lie near the solution (all equations but "soap_film", and "global"); "kept": and stand in
+    where they lead to none. "least_variation" (from the vertices given), "loft", "smoothed": begin with that stand-in,
+    where another solve has shown that the equation has no surface. Where these fail, and by "outline", the boundary
+    alone decides."""
 
     paper: PaperOptions | None = None
     """PaperOptions. What only "paper" has: damping, sweeps, acceleration, … (see :class:`fairing.PaperOptions`)."""
