@@ -94,15 +94,15 @@ void EqualEdgeMesh::put(Vertex v, const Vector3& position, int triangle) {
     wanted_[v.idx()] = surface_->interpolate(*lengths_, where);
 }
 
-// A triangle of the surface on this side of all kept edges. Only an edge that was always there has none but fixed
-// vertices around.
+// A triangle of the surface on this side of all kept edges. Only an edge that was always there, or that a
+// collapse left over, has none but fixed vertices around.
 int EqualEdgeMesh::triangle_beside(Edge e) const {
     const Halfedge h = mesh_.halfedge_handle(e, 0);
     for (const Vertex v :
          {mesh_.to_vertex_handle(h), mesh_.from_vertex_handle(h), apex(h), apex(mesh_.halfedge_handle(e, 1))}) {
         if (!fixed(v)) return where_[v.idx()].triangle;
     }
-    return patch_->edge_triangles[e.idx()][0];
+    return e.idx() < patch_->edge_count() ? patch_->edge_triangles[e.idx()][0] : where_[apex(h).idx()].triangle;
 }
 
 EqualEdgeMesh::Vertex EqualEdgeMesh::split(Edge e) {
