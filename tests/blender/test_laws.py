@@ -161,7 +161,7 @@ def levelled(obj: bpy.types.Object) -> None:
     obj.modifiers.new("Levels", "MULTIRES")
 
 
-SPOILT = {with_nan: "NaN|finite", flat: "scale", locked: "locked", deselected: "elect|edge", levelled: "Multires"}
+SPOILT = {with_nan: "NaN|invalid", flat: "scale", locked: "Unlock", deselected: "elect|edge", levelled: "Multires"}
 
 
 @pytest.mark.parametrize("spoil", SPOILT, ids=lambda each: each.__name__)
