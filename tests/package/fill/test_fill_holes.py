@@ -290,3 +290,12 @@ def test_a_slit_of_four_edges_is_filled(width: float, aside: float, equation: st
     assert np.abs(result.vertices[:, 2]).max() < 1e-9
     area = face_normals(np.concatenate([slit, result.vertices]), result.triangles)[:, 2].sum() / 2
     assert area == pytest.approx(0.75 * width)
+
+
+def test_a_collapse_may_leave_an_edge_between_vertices_of_the_boundary() -> None:
+    """An edge that the first mesh did not have."""
+    x, y = [784, 193, -155, -177, -596, -322, -915], [123, 423, 434, 361, 712, 285, -215]
+    loop = np.column_stack([x, y, [-578, 355, 443, 149, 642, 340, 405]]) / 1000
+    k, after = np.arange(7), (np.arange(7) + 1) % 7
+    around = np.concatenate([np.column_stack([k, k + 7, after]), np.column_stack([after, k + 7, after + 7])])
+    assert fairing.fill(np.concatenate([loop, 2 * loop - [0, 0, 0.3]]), around, [k]).converged
