@@ -5,8 +5,7 @@ import numpy as np
 
 import spoilt_scenes
 from driver import Story, in_view, middle, press, screenshot, tell
-from extension import module
-from panel import drag_over, open_tab, report, wait_until
+from panel import drag_over, module, open_tab, report, wait_until
 
 
 def _reported() -> bool:
