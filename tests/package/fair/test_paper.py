@@ -88,12 +88,13 @@ def test_levels_are_as_many_as_wanted() -> None:
     assert [len(fair(patch, levels=most).levels) for most in (1, 2)] == [1, 2]
 
 
-def test_options_of_the_paper_are_refused_by_the_global_method() -> None:
-    for options in (fairing.PaperOptions(), fairing.PaperOptions(damping=0.5)):
-        with pytest.raises(ValueError, match="paper: accepted with method 'paper' only"):
-            fair(shapes.cap(60), method="global", paper=options)
-    with pytest.raises(ValueError, match=r"paper: a fairing\.PaperOptions is needed"):
-        fair(shapes.cap(60), paper={"damping": 0.5})
+def test_options_of_the_other_method_are_refused() -> None:
+    only, equations = "paper: accepted with method 'paper' only", ("constant", "minimal_energy", "least_variation")
+    refused = [({"method": "global", "paper": fairing.PaperOptions(**own)}, only) for own in ({}, {"damping": 0.5})]
+    refused += [({"equation": name}, f"equation: '{name}' is not accepted by method 'paper'") for name in equations]
+    for options, said in [*refused, ({"paper": {"damping": 0.5}}, r"paper: a fairing\.PaperOptions is needed")]:
+        with pytest.raises(ValueError, match=said):
+            fair(shapes.cap(60), **options)
 
 
 def test_defaults_of_the_paper_are_the_engines() -> None:
